@@ -105,14 +105,14 @@ def road_complaints():
     found += velocity_complaints()
     for road_class in "ADH":
         profile = IsoProfile(road_class, seed=1)
-        # Each harmonic carries its band's share: sum a^2 / 2 against the integral of Gd.
+        # With n_i the geometric mean, each harmonic carries exactly its band's integral of Gd.
         power = 0.5 * float(np.sum(profile.amplitudes**2))
         density = quad(lambda n: profile.roughness * (n / 0.1) ** -2, 0.011, 2.83, epsabs=0, epsrel=1e-12,
                        points=[0.1], limit=200)[0]
-        if abs(power / density - 1.0) > 1e-3:
-            found.append(f"ISO class {road_class}: power {power / density:.4f} of the density's")
+        if abs(power / density - 1.0) > 1e-10:
+            found.append(f"ISO class {road_class}: power {power / density:.12f} of the density's")
         ratio = octave_ratios(profile)
-        if max(abs(math.log(r)) for r in ratio) > math.log(1.15):
+        if max(abs(math.log(r)) for r in ratio) > math.log(1.03):
             found.append(f"ISO class {road_class}: octave densities off by {ratio}")
     return found
 
