@@ -1,0 +1,1 @@
+//! QuarterCar as an FMU.

@@ -1,0 +1,54 @@
+//! `#[derive(Settings)]`.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+use syn::{DeriveInput, Expr, LitStr};
+
+pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
+    let name = &input.ident;
+    let (mut starts, mut declare, mut get, mut set) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for (index, field) in crate::fields(input)?.named.iter().enumerate() {
+        let ident = field.ident.as_ref().expect("a named field has a name");
+        let ty = &field.ty;
+        let doc = crate::doc(&field.attrs, ident)?;
+        let mut text = ident.to_string();
+        let mut start: Option<Expr> = None;
+        let mut tunable = false;
+        for attribute in field.attrs.iter().filter(|attribute| attribute.path().is_ident("set")) {
+            attribute.parse_nested_meta(|meta| {
+                match meta.path.require_ident()?.to_string().as_str() {
+                    "start" => start = Some(meta.value()?.parse()?),
+                    "name" => text = meta.value()?.parse::<LitStr>()?.value(),
+                    "tunable" => tunable = true,
+                    other => return Err(meta.error(format!("unknown `{other}`; a setting has start, name, tunable"))),
+                }
+                Ok(())
+            })?;
+        }
+        let start = start.ok_or_else(|| {
+            syn::Error::new(ident.span(), format!("`{ident}` needs its start: write `#[set(start = ...)]`"))
+        })?;
+        starts.push(quote!(#ident: #start.into()));
+        declare.push(quote!(::strut_model::SettingDeclaration {
+            name: #text, doc: #doc, tunable: #tunable, kind: <#ty as ::strut_model::Setting>::KIND,
+        }));
+        get.push(quote!(#index => Some(::strut_model::Setting::value(&self.#ident))));
+        set.push(quote!(#index => { self.#ident = ::strut_model::Setting::from_value(value)?; Some(()) }));
+    }
+    Ok(quote! {
+        impl ::strut_model::Settings for #name {
+            fn starts() -> Self {
+                Self { #(#starts),* }
+            }
+            fn declare() -> Vec<::strut_model::SettingDeclaration> {
+                vec![#(#declare),*]
+            }
+            fn get(&self, index: usize) -> Option<::strut_model::Value> {
+                match index { #(#get,)* _ => None }
+            }
+            fn set(&mut self, index: usize, value: ::strut_model::Value) -> Option<()> {
+                match index { #(#set)* _ => None }
+            }
+        }
+    })
+}

@@ -1,0 +1,140 @@
+//! `#[derive(Variables)]`.
+
+use proc_macro2::{TokenStream, TokenTree};
+use quote::{ToTokens, quote};
+use syn::{DeriveInput, Expr, Field, GenericParam, Ident, Type};
+
+/// What `#[var(...)]` says.
+struct Var {
+    unit: Expr,
+    start: Expr,
+    min: Option<Expr>,
+    max: Option<Expr>,
+    nominal: Option<Expr>,
+    fixed: bool,
+    output: bool,
+}
+
+pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
+    let name = &input.ident;
+    let scalar = match input.generics.params.first() {
+        Some(GenericParam::Type(parameter)) if input.generics.params.len() == 1 => &parameter.ident,
+        _ => {
+            return Err(syn::Error::new_spanned(
+                name,
+                "variables are generic over their scalar: write `struct Name<R>`",
+            ));
+        }
+    };
+    let (mut count, mut gather, mut scatter, mut declare) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for field in &crate::fields(input)?.named {
+        let ident = field.ident.as_ref().expect("a named field has a name");
+        let text = ident.to_string();
+        let doc = crate::doc(&field.attrs, ident)?;
+        if is_scalar(&field.ty, scalar) {
+            let Var { unit, start, min, max, nominal, fixed, output } = parse(field, ident)?;
+            let (min, max, nominal) = (option(min), option(max), option(nominal));
+            count.push(quote!(1));
+            gather.push(quote!(#ident: next()));
+            scatter.push(quote!(put(self.#ident);));
+            declare.push(quote!(declarations.variable(::strut_model::Declaration {
+                name: #text.into(), doc: #doc.into(), unit: #unit, start: #start,
+                min: #min, max: #max, nominal: #nominal, fixed: #fixed, output: #output,
+            });));
+        } else {
+            let ty = &field.ty;
+            let concrete = with_f64(ty.to_token_stream(), scalar);
+            count.push(quote!(<#concrete>::COUNT));
+            gather.push(quote!(#ident: <#ty as ::strut_model::Bundle<#scalar>>::gather(next)));
+            scatter.push(quote!(::strut_model::Bundle::<#scalar>::scatter(&self.#ident, put);));
+            declare.push(quote!(declarations.group::<#concrete>(#text, #doc);));
+        }
+    }
+    Ok(quote! {
+        impl #name<f64> {
+            /// Number of variables, those of groups included.
+            pub const COUNT: usize = 0 #(+ #count)*;
+        }
+        impl<#scalar: ::strut_model::Real> ::strut_model::Bundle<#scalar> for #name<#scalar> {
+            const LEN: usize = #name::<f64>::COUNT;
+            type Array = [f64; #name::<f64>::COUNT];
+            #[inline]
+            fn gather(next: &mut impl FnMut() -> #scalar) -> Self {
+                Self { #(#gather),* }
+            }
+            #[inline]
+            fn scatter(&self, put: &mut impl FnMut(#scalar)) {
+                #(#scatter)*
+            }
+            fn declare(declarations: &mut ::strut_model::Declarations) {
+                #(#declare)*
+            }
+        }
+    })
+}
+
+fn parse(field: &Field, ident: &Ident) -> syn::Result<Var> {
+    let Some(attribute) = field.attrs.iter().find(|attribute| attribute.path().is_ident("var")) else {
+        return Err(syn::Error::new(
+            ident.span(),
+            format!("`{ident}` needs its unit: write `#[var(unit = M)]` (a constant of strut_model::unit)"),
+        ));
+    };
+    let mut unit = None;
+    let mut var = Var {
+        unit: syn::parse_quote!(::strut_model::unit::ONE),
+        start: syn::parse_quote!(0.0),
+        min: None,
+        max: None,
+        nominal: None,
+        fixed: false,
+        output: false,
+    };
+    attribute.parse_nested_meta(|meta| {
+        let key = meta.path.require_ident()?.to_string();
+        match key.as_str() {
+            "unit" => unit = Some(meta.value()?.parse()?),
+            "start" => var.start = meta.value()?.parse()?,
+            "min" => var.min = Some(meta.value()?.parse()?),
+            "max" => var.max = Some(meta.value()?.parse()?),
+            "nominal" => var.nominal = Some(meta.value()?.parse()?),
+            "fixed" => var.fixed = true,
+            "output" => var.output = true,
+            other => {
+                return Err(meta.error(format!(
+                    "unknown `{other}`; a variable has unit, start, min, max, nominal, fixed, output"
+                )));
+            }
+        }
+        Ok(())
+    })?;
+    var.unit = match unit {
+        // A bare name is one of the units that strut_model declares.
+        Some(Expr::Path(path)) if path.path.get_ident().is_some() => syn::parse_quote!(::strut_model::unit::#path),
+        Some(other) => other,
+        None => return Err(syn::Error::new_spanned(attribute, format!("`{ident}` needs its `unit`"))),
+    };
+    Ok(var)
+}
+
+fn option(value: Option<Expr>) -> TokenStream {
+    match value {
+        Some(value) => quote!(Some(#value)),
+        None => quote!(None),
+    }
+}
+
+fn is_scalar(ty: &Type, scalar: &Ident) -> bool {
+    matches!(ty, Type::Path(path) if path.qself.is_none() && path.path.is_ident(scalar))
+}
+
+/// The type with `f64` in place of the scalar: array lengths may not name a type parameter.
+fn with_f64(tokens: TokenStream, scalar: &Ident) -> TokenStream {
+    tokens
+        .into_iter()
+        .map(|token| match token {
+            TokenTree::Ident(ident) if ident == *scalar => TokenTree::Ident(Ident::new("f64", ident.span())),
+            other => other,
+        })
+        .collect()
+}

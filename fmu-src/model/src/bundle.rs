@@ -1,0 +1,179 @@
+//! Bundles of real variables, declared once.
+
+use strut_integrators::Array;
+
+use crate::{Real, unit::Unit};
+
+/// What is declared about a real variable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Declaration {
+    /// Structured name: `strut.coulomb.force`.
+    pub name: String,
+    /// The doc comment, as one line.
+    pub doc: String,
+    /// Unit; values are in base units of the SI.
+    pub unit: Unit,
+    /// Start value.
+    pub start: f64,
+    /// Smallest legal value.
+    pub min: Option<f64>,
+    /// Largest legal value.
+    pub max: Option<f64>,
+    /// Typical magnitude.
+    pub nominal: Option<f64>,
+    /// A parameter that is fixed at initialisation (others are tunable).
+    pub fixed: bool,
+    /// A state that is an output as well.
+    pub output: bool,
+}
+
+/// Collects declarations and prefixes the names of groups.
+#[derive(Debug, Default)]
+pub struct Declarations {
+    list: Vec<Declaration>,
+    groups: Vec<(&'static str, &'static str)>,
+}
+
+impl Declarations {
+    /// All declarations of a bundle, in the order of its array.
+    pub fn of<B: Bundle<f64>>() -> Vec<Declaration> {
+        let mut declarations = Self::default();
+        B::declare(&mut declarations);
+        declarations.into_list()
+    }
+
+    /// What was declared.
+    pub fn into_list(self) -> Vec<Declaration> {
+        self.list
+    }
+
+    /// Adds a variable to the current group.
+    pub fn variable(&mut self, mut declaration: Declaration) {
+        for (name, doc) in self.groups.iter().rev() {
+            declaration.name = format!("{name}.{}", declaration.name);
+            declaration.doc = format!("{doc}: {}", declaration.doc);
+        }
+        self.list.push(declaration);
+    }
+
+    /// Adds the variables of a group.
+    pub fn group<B: Bundle<f64>>(&mut self, name: &'static str, doc: &'static str) {
+        self.groups.push((name, doc));
+        B::declare(self);
+        self.groups.pop();
+    }
+}
+
+/// A struct of declared real variables; made by `#[derive(Variables)]`.
+pub trait Bundle<R>: Copy {
+    /// Number of variables.
+    const LEN: usize;
+    /// The same number of plain numbers.
+    type Array: Array;
+    /// Builds the struct from its variables in order of declaration.
+    fn gather(next: &mut impl FnMut() -> R) -> Self;
+    /// Hands out the variables in order of declaration.
+    fn scatter(&self, put: &mut impl FnMut(R));
+    /// Declares the variables in order.
+    fn declare(declarations: &mut Declarations);
+
+    /// Variable `i` is `f(i)`.
+    #[inline]
+    fn from_fn(mut f: impl FnMut(usize) -> R) -> Self {
+        let mut index = 0;
+        Self::gather(&mut || {
+            index += 1;
+            f(index - 1)
+        })
+    }
+
+    /// Calls `f(i, variable i)`.
+    #[inline]
+    fn for_each(&self, mut f: impl FnMut(usize, R)) {
+        let mut index = 0;
+        self.scatter(&mut |value| {
+            f(index, value);
+            index += 1;
+        });
+    }
+}
+
+/// No variables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Nothing;
+
+impl<R> Bundle<R> for Nothing {
+    const LEN: usize = 0;
+    type Array = [f64; 0];
+    #[inline]
+    fn gather(_: &mut impl FnMut() -> R) -> Self {
+        Self
+    }
+    #[inline]
+    fn scatter(&self, _: &mut impl FnMut(R)) {}
+    fn declare(_: &mut Declarations) {}
+}
+
+/// The variables as plain numbers.
+#[inline]
+pub(crate) fn to_array<B: Bundle<f64>>(bundle: &B) -> B::Array {
+    let mut array = B::Array::zeros();
+    let slice = array.as_mut_slice();
+    bundle.for_each(|i, value| slice[i] = value);
+    array
+}
+
+/// The bundle with these numbers, as any scalar.
+#[inline]
+pub(crate) fn from_slice<R: Real, B: Bundle<R>>(numbers: &[f64]) -> B {
+    B::from_fn(|i| R::from(numbers[i]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Variables, unit};
+
+    /// A friction.
+    #[derive(Variables, Clone, Copy, Debug, PartialEq)]
+    struct Friction<R> {
+        /// Force
+        #[var(unit = N, start = 3.0, min = 0.0, max = 400.0)]
+        force: R,
+        /// Velocity scale.
+        #[var(unit = M_PER_S, start = 0.008, fixed)]
+        velocity: R,
+    }
+
+    /// An element.
+    #[derive(Variables, Clone, Copy, Debug, PartialEq)]
+    struct Element<R> {
+        /// Stiffness
+        #[var(unit = N_PER_M, start = 2.0e4, nominal = 1e4)]
+        stiffness: R,
+        /// Friction
+        coulomb: Friction<R>,
+        /// A custom unit
+        #[var(unit = Unit::coherent("N2", unit::Base { kg: 2, ..unit::Base::NONE }))]
+        odd: R,
+    }
+
+    #[test]
+    fn a_group_prefixes_names_and_docs() {
+        let list = Declarations::of::<Element<f64>>();
+        let names: Vec<_> = list.iter().map(|declaration| declaration.name.as_str()).collect();
+        assert_eq!(names, ["stiffness", "coulomb.force", "coulomb.velocity", "odd"]);
+        assert_eq!(list[1].doc, "Friction: Force");
+        assert_eq!((list[1].min, list[1].max, list[1].fixed), (Some(0.0), Some(400.0), false));
+        assert!(list[2].fixed);
+        assert_eq!(list[3].unit.symbol, "N2");
+        assert_eq!(Element::<f64>::COUNT, 4);
+    }
+
+    #[test]
+    fn arrays_and_structs_hold_the_same_numbers() {
+        let element: Element<f64> = from_slice(&[1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(element.coulomb.velocity, 3.0);
+        assert_eq!(to_array(&element), [1.0, 2.0, 3.0, 4.0]);
+    }
+}

@@ -1,0 +1,251 @@
+//! What a model looks like from outside: its variables and what depends on what.
+
+mod structure;
+
+pub use structure::{Dependency, Structure};
+
+use std::path::Path;
+
+use uuid::Uuid;
+
+use crate::{
+    About, Declaration, Enumeration, Error, Model, ParameterSet, SettingDeclaration, SettingKind, Settings, Value,
+    layout::{Layout, Section, SolverMethod, rate_name},
+    parameter_set::Starts,
+    setting::Setting,
+    unit::Unit,
+};
+
+/// The variables of a model with a parameter set: all that a model description says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Interface {
+    /// The model's own words.
+    pub about: About,
+    /// Variables in the order of their value references, real ones first.
+    pub variables: Vec<Variable>,
+    /// What depends on what, by position in `variables`.
+    pub structure: Structure,
+    /// Number of continuous states.
+    pub states: usize,
+}
+
+/// A scalar variable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variable {
+    /// Structured name.
+    pub name: String,
+    /// Value reference; unique within the real and within the other variables.
+    pub reference: u32,
+    /// Description.
+    pub doc: String,
+    /// Role.
+    pub causality: Causality,
+    /// When its value may change.
+    pub variability: Variability,
+    /// How its initial value comes about; none for inputs.
+    pub initial: Option<Initial>,
+    /// Type and what belongs to it.
+    pub kind: VariableKind,
+}
+
+/// Role of a variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Causality {
+    /// Set by the user.
+    Parameter,
+    /// Follows from parameters.
+    CalculatedParameter,
+    /// Set by the environment.
+    Input,
+    /// Read by the environment.
+    Output,
+    /// Inside.
+    Local,
+}
+
+/// When a variable's value may change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variability {
+    /// Not after initialisation.
+    Fixed,
+    /// At events, from outside.
+    Tunable,
+    /// At events.
+    Discrete,
+    /// At any time.
+    Continuous,
+}
+
+/// How an initial value comes about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Initial {
+    /// It is the start value.
+    Exact,
+    /// It is calculated.
+    Calculated,
+}
+
+/// Type of a variable.
+#[derive(Clone, Debug, PartialEq)]
+pub enum VariableKind {
+    /// A real number.
+    Real {
+        /// Unit.
+        unit: Unit,
+        /// Start value, if it has one.
+        start: Option<f64>,
+        /// Smallest legal value.
+        min: Option<f64>,
+        /// Largest legal value.
+        max: Option<f64>,
+        /// Typical magnitude.
+        nominal: Option<f64>,
+        /// Position of the variable that it is the derivative of.
+        derivative_of: Option<usize>,
+    },
+    /// A whole number.
+    Integer {
+        /// Start value.
+        start: i32,
+    },
+    /// True or false.
+    Boolean {
+        /// Start value.
+        start: bool,
+    },
+    /// A text.
+    Text {
+        /// Start value.
+        start: String,
+    },
+    /// One of several.
+    Choice {
+        /// The type.
+        enumeration: Enumeration,
+        /// Start value, from one.
+        start: i32,
+    },
+}
+
+impl Interface {
+    /// The interface of a model with its declared start values, or with those of a parameter set.
+    ///
+    /// # Errors
+    /// If the parameter set does not fit the declarations or the model refuses it.
+    pub fn of<M: Model>(set: Option<&ParameterSet>, resources: Option<&Path>) -> Result<Self, Error> {
+        let starts = Starts::of::<M>(declared_settings::<M>(), set)?;
+        let mut settings = M::Settings::starts();
+        for (index, value) in starts.settings.iter().enumerate() {
+            // The solver's settings follow the model's; they have no part in the structure.
+            let _ = settings.set(index, value.clone());
+        }
+        let dependency = Dependency::of::<M>(&settings, resources)?;
+        let mut variables = Vec::new();
+        for (section, _) in Layout::<M>::SECTIONS {
+            let list = Layout::<M>::declarations(section);
+            let first = Layout::<M>::first(section);
+            variables.extend(list.into_iter().enumerate().map(|(index, declaration)| {
+                let reference = (first + index) as u32;
+                real(section, reference, declaration, starts.reals.get(&reference).copied(), &dependency, index)
+            }));
+        }
+        for index in 0..Layout::<M>::STATES {
+            let state = Layout::<M>::first(Section::State) + index;
+            let rate = Layout::<M>::first(Section::Rate) + index;
+            if let VariableKind::Real { derivative_of, .. } = &mut variables[rate].kind {
+                *derivative_of = Some(state);
+            }
+        }
+        for (reference, (declaration, value)) in Layout::<M>::settings().iter().zip(starts.settings).enumerate() {
+            variables.push(setting(reference as u32, declaration, value));
+        }
+        let structure = Structure::new::<M>(&dependency, &variables);
+        Ok(Self { about: M::ABOUT, variables, structure, states: Layout::<M>::STATES })
+    }
+
+    /// An identifier of all that is declared, start values included: the library computes it from the
+    /// parameter set that it finds in its resources, the packager from the one that it writes, so that
+    /// a binary and a description that do not belong together are told apart.
+    pub fn guid(&self) -> String {
+        let text = format!("{:?} {:?} {:?}", self.about.name, self.variables, self.structure);
+        Uuid::new_v5(&Uuid::NAMESPACE_OID, text.as_bytes()).braced().to_string()
+    }
+
+    /// The variable of a name.
+    pub fn variable(&self, name: &str) -> Option<&Variable> {
+        self.variables.iter().find(|variable| variable.name == name)
+    }
+}
+
+/// Declared values of the model's settings and, after them, the solver's.
+pub(crate) fn declared_settings<M: Model>() -> Vec<Value> {
+    let settings = M::Settings::starts();
+    let mut values: Vec<Value> = (0..).map_while(|index| settings.get(index)).collect();
+    if Layout::<M>::STATES > 0 {
+        values.push(SolverMethod::from(M::ABOUT.method).value());
+    }
+    values
+}
+
+fn real(
+    section: Section,
+    reference: u32,
+    declaration: Declaration,
+    start: Option<f64>,
+    dependency: &Dependency,
+    index: usize,
+) -> Variable {
+    let Declaration { name, doc, unit, min, max, nominal, fixed, output, .. } = declaration;
+    let parameter = if fixed { Variability::Fixed } else { Variability::Tunable };
+    let exposed = if output { Causality::Output } else { Causality::Local };
+    use {Causality as C, Initial as I, Variability as V};
+    let (causality, variability, initial) = match section {
+        Section::Input => (C::Input, V::Continuous, None),
+        Section::Output if dependency.output_is_held(index) => (C::Output, V::Discrete, Some(I::Calculated)),
+        Section::Output => (C::Output, V::Continuous, Some(I::Calculated)),
+        Section::State => (exposed, V::Continuous, Some(I::Exact)),
+        Section::Rate => (C::Local, V::Continuous, Some(I::Calculated)),
+        Section::Parameter | Section::Solver => (C::Parameter, parameter, Some(I::Exact)),
+        Section::Derived => (C::CalculatedParameter, parameter, Some(I::Calculated)),
+    };
+    if section == Section::Rate {
+        let doc = format!("{doc}: rate of change");
+        let kind = VariableKind::Real {
+            unit: per_second(unit), start: None, min: None, max: None, nominal: None, derivative_of: None,
+        };
+        return Variable { name: rate_name(&name), reference, doc, causality, variability, initial, kind };
+    }
+    let kind = VariableKind::Real { unit, start, min, max, nominal, derivative_of: None };
+    Variable { name, reference, doc, causality, variability, initial, kind }
+}
+
+/// The declared unit of a rate of change, if there is one; the unit of the SI's base units otherwise
+/// has no symbol that every tool would read, so that the rate then goes without.
+fn per_second(unit: Unit) -> Unit {
+    let mut base = unit.base;
+    base.s -= 1;
+    crate::unit::ALL
+        .iter()
+        .copied()
+        .find(|candidate| candidate.base == base && candidate.symbol != "Hz")
+        .unwrap_or(Unit { symbol: "", base, ..unit })
+}
+
+fn setting(reference: u32, declaration: &SettingDeclaration, value: Value) -> Variable {
+    let kind = match (declaration.kind, value) {
+        (SettingKind::Choice(enumeration), Value::Integer(start)) => VariableKind::Choice { enumeration, start },
+        (_, Value::Integer(start)) => VariableKind::Integer { start },
+        (_, Value::Boolean(start)) => VariableKind::Boolean { start },
+        (_, Value::Text(start)) => VariableKind::Text { start },
+        (_, Value::Real(_)) => unreachable!("a setting is no real number"),
+    };
+    Variable {
+        name: declaration.name.into(),
+        reference,
+        doc: declaration.doc.into(),
+        causality: Causality::Parameter,
+        variability: if declaration.tunable { Variability::Tunable } else { Variability::Fixed },
+        initial: Some(Initial::Exact),
+        kind,
+    }
+}

@@ -1,0 +1,199 @@
+//! The scalar that every equation is written in.
+
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+use num_dual::{Dual64, DualNum, DualSVec64};
+
+/// A real number, as equations see it.
+///
+/// An equation is written once and read by many: with `f64` it is simulated, with dual numbers it is
+/// differentiated, with [`Lanes`](crate::Lanes) it runs for several parameter sets at once, with
+/// [`Dependencies`](crate::Dependencies) it tells what depends on what.
+///
+/// It is deliberately not ordered: a branch on a value would not be legal for lanes and would hide a
+/// dependency. Write [`select`](Real::select) instead.
+pub trait Real:
+    Copy
+    + Debug
+    + PartialEq
+    + Send
+    + Sync
+    + 'static
+    + From<f64>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+    + Div<f64, Output = Self>
+{
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// e raised to the number.
+    fn exp(self) -> Self;
+    /// Sine (radians).
+    fn sin(self) -> Self;
+    /// Cosine (radians).
+    fn cos(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// `then` where the number is greater than zero, `otherwise` elsewhere (and for NaN).
+    ///
+    /// Both values are computed; both must be finite.
+    fn select(self, then: Self, otherwise: Self) -> Self;
+    /// Whether the number is zero, derivatives included, so that a term multiplied by it may be left
+    /// out. An effect that is switched off costs this question and nothing more.
+    fn vanishes(self) -> bool;
+
+    /// Absolute value; its derivative at zero is taken from the left.
+    fn abs(self) -> Self {
+        self.select(self, -self)
+    }
+    /// The smaller of two numbers.
+    fn min(self, other: Self) -> Self {
+        (other - self).select(self, other)
+    }
+    /// The larger of two numbers.
+    fn max(self, other: Self) -> Self {
+        (self - other).select(self, other)
+    }
+    /// The number, held between two bounds.
+    fn clamp(self, low: Self, high: Self) -> Self {
+        self.max(low).min(high)
+    }
+    /// The number times itself.
+    fn squared(self) -> Self {
+        self * self
+    }
+}
+
+impl Real for f64 {
+    #[inline]
+    fn sqrt(self) -> Self {
+        self.sqrt()
+    }
+    #[inline]
+    fn exp(self) -> Self {
+        self.exp()
+    }
+    #[inline]
+    fn sin(self) -> Self {
+        self.sin()
+    }
+    #[inline]
+    fn cos(self) -> Self {
+        self.cos()
+    }
+    #[inline]
+    fn tanh(self) -> Self {
+        self.tanh()
+    }
+    #[inline]
+    fn select(self, then: Self, otherwise: Self) -> Self {
+        if self > 0.0 { then } else { otherwise }
+    }
+    #[inline]
+    fn vanishes(self) -> bool {
+        self == 0.0
+    }
+}
+
+/// The derivative-carrying scalars of num-dual: the functions are theirs, the choice between two
+/// values follows the value.
+macro_rules! impl_real_for_dual {
+    ($(#[$doc:meta])* [$($generics:tt)*] $dual:ty, $vanishing_derivative:expr) => {
+        $(#[$doc])*
+        impl<$($generics)*> Real for $dual {
+            #[inline]
+            fn sqrt(self) -> Self {
+                DualNum::sqrt(&self)
+            }
+            #[inline]
+            fn exp(self) -> Self {
+                DualNum::exp(&self)
+            }
+            #[inline]
+            fn sin(self) -> Self {
+                DualNum::sin(&self)
+            }
+            #[inline]
+            fn cos(self) -> Self {
+                DualNum::cos(&self)
+            }
+            #[inline]
+            fn tanh(self) -> Self {
+                // Not sinh/cosh, which overflow where the tangent is simply one.
+                let t = self.re.tanh();
+                let mut result = self * (1.0 - t * t);
+                result.re = t;
+                result
+            }
+            #[inline]
+            fn select(self, then: Self, otherwise: Self) -> Self {
+                if self.re > 0.0 { then } else { otherwise }
+            }
+            #[inline]
+            fn vanishes(self) -> bool {
+                let vanishing: fn(Self) -> bool = $vanishing_derivative;
+                self.re == 0.0 && vanishing(self)
+            }
+        }
+    };
+}
+
+impl_real_for_dual!(
+    /// One directional derivative.
+    [] Dual64, |number| number.eps == 0.0
+);
+impl_real_for_dual!(
+    /// A gradient of `N` partial derivatives.
+    [const N: usize] DualSVec64<N>,
+    |number| number.eps.0.is_none_or(|gradient| gradient.iter().all(|part| *part == 0.0))
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn polynomial_with_kink<R: Real>(x: R) -> R {
+        (x - 0.5).select(x.squared() * 3.0, x.sin()) + x.tanh() * x.exp() / (x.squared() + 1.0).sqrt()
+    }
+
+    proptest! {
+        #[test]
+        fn duals_agree_with_finite_differences(x in -3.0..3.0_f64) {
+            prop_assume!((x - 0.5).abs() > 1e-3);
+            let h = 1e-6;
+            let difference = (polynomial_with_kink(x + h) - polynomial_with_kink(x - h)) / (2.0 * h);
+            let dual = polynomial_with_kink(Dual64::new(x, 1.0));
+            prop_assert!((dual.re - polynomial_with_kink(x)).abs() < 1e-12 * (1.0 + dual.re.abs()));
+            prop_assert!((dual.eps - difference).abs() < 1e-6 * (1.0 + difference.abs()));
+        }
+    }
+
+    #[test]
+    fn tanh_of_a_large_number_has_a_finite_derivative() {
+        let saturated = Real::tanh(Dual64::new(1e4, 1.0));
+        assert_eq!((saturated.re, saturated.eps), (1.0, 0.0));
+    }
+
+    #[test]
+    fn a_zero_that_is_being_varied_does_not_vanish() {
+        assert!(Dual64::from(0.0).vanishes());
+        assert!(!Dual64::new(0.0, 1.0).vanishes());
+    }
+
+    #[test]
+    fn clamp_keeps_to_the_bounds() {
+        assert_eq!(Real::clamp(5.0, -1.0, 1.0), 1.0);
+        assert_eq!(Real::clamp(-5.0, -1.0, 1.0), -1.0);
+        assert_eq!(Real::clamp(0.5, -1.0, 1.0), 0.5);
+    }
+}

@@ -1,0 +1,223 @@
+//! Reading and writing variables by value reference.
+
+use strut_integrators::Array;
+
+use crate::{
+    Error, Model, Settings, Value,
+    bundle::{from_slice, to_array},
+    layout::{Layout, Section, check_bounds, display, expected},
+};
+
+use super::{Simulation, input::MAX_ORDER};
+
+/// What may be changed at the moment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Access {
+    /// Inputs: while an outside integrator works.
+    Inputs,
+    /// Inputs and tunable parameters: between steps and at events.
+    Tunable,
+    /// Inputs, parameters and start values: until initialisation ends.
+    All,
+}
+
+impl<M: Model> Simulation<M> {
+    /// Reads real variables.
+    ///
+    /// # Errors
+    /// For an unknown reference, or if the model refuses its settings.
+    #[inline]
+    pub fn real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Error> {
+        for (reference, value) in references.iter().zip(values) {
+            let (section, index) = Layout::<M>::locate(*reference)?;
+            if matches!(section, Section::Output | Section::Rate | Section::Derived) {
+                self.evaluate()?;
+            }
+            *value = match section {
+                Section::Input => self.input.at(self.time).as_slice()[index],
+                Section::Output => self.output.as_slice()[index],
+                Section::State => self.state.as_slice()[index],
+                Section::Rate => self.rates.as_slice()[index],
+                Section::Parameter => to_array(&self.parameters).as_slice()[index],
+                Section::Derived => to_array(&self.derived).as_slice()[index],
+                Section::Solver => to_array(&self.solver).as_slice()[index],
+            };
+        }
+        Ok(())
+    }
+
+    /// Sets real variables; all of them or, on an error, those before the one in question.
+    ///
+    /// # Errors
+    /// For an unknown reference, a variable that may not be set now, a value that is not finite or not
+    /// within the declared bounds.
+    #[inline]
+    pub fn set_real(&mut self, references: &[u32], values: &[f64], access: Access) -> Result<(), Error> {
+        for (reference, value) in references.iter().zip(values) {
+            match Layout::<M>::locate(*reference)? {
+                (Section::Input, index) if value.is_finite() => {
+                    if self.input.set(index, *value) {
+                        self.changed();
+                    }
+                }
+                (section, index) => self.set_rarely(*reference, section, index, *value, access)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Everything but the finite value of an input.
+    #[cold]
+    fn set_rarely(
+        &mut self,
+        reference: u32,
+        section: Section,
+        index: usize,
+        value: f64,
+        access: Access,
+    ) -> Result<(), Error> {
+        let refused = |reason| Err(Error::NotSettable { name: Layout::<M>::name(reference), reason });
+        let declaration = &Layout::<M>::declarations(section)[index];
+        match section {
+            Section::Input => return Err(Error::NotFinite { name: declaration.name.clone(), value }),
+            Section::Output => return refused("it is an output"),
+            Section::Rate => return refused("it is the derivative of a state"),
+            Section::Derived => return refused("it is calculated from parameters"),
+            Section::State if access < Access::All => {
+                return refused("a state's start value may be set until initialisation ends only");
+            }
+            Section::Parameter if access == Access::Inputs => {
+                return refused("parameters may be set before initialisation, at events and between steps only");
+            }
+            Section::Parameter if declaration.fixed && access < Access::All => {
+                return refused("it is a fixed parameter: set it before initialisation ends");
+            }
+            Section::Solver if access == Access::Inputs => {
+                return refused("parameters may be set before initialisation, at events and between steps only");
+            }
+            Section::State | Section::Parameter | Section::Solver => check_bounds(declaration, value)?,
+        }
+        match section {
+            Section::State => self.state.as_mut_slice()[index] = value,
+            Section::Solver => {
+                let mut numbers = to_array(&self.solver);
+                numbers.as_mut_slice()[index] = value;
+                self.solver = from_slice(numbers.as_slice());
+            }
+            _ => {
+                let mut numbers = to_array(&self.parameters);
+                numbers.as_mut_slice()[index] = value;
+                self.parameters = from_slice(numbers.as_slice());
+            }
+        }
+        self.underived = true;
+        self.changed();
+        Ok(())
+    }
+
+    /// Sets derivatives of inputs with respect to time at the present time; they hold for the next step.
+    ///
+    /// # Errors
+    /// For a variable that is no input, an unsupported order or a value that is not finite.
+    pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Result<(), Error> {
+        for ((reference, order), value) in references.iter().zip(orders).zip(values) {
+            let name = || Layout::<M>::name(*reference);
+            let (Section::Input, index) = Layout::<M>::locate(*reference)? else {
+                return Err(Error::NotSettable { name: name(), reason: "only inputs have derivatives to be set" });
+            };
+            let Some(order) = usize::try_from(*order).ok().filter(|order| (1..=MAX_ORDER).contains(order)) else {
+                return Err(Error::Order { name: name(), order: *order, supported: "inputs have orders 1 and 2" });
+            };
+            if !value.is_finite() {
+                return Err(Error::NotFinite { name: name(), value: *value });
+            }
+            self.input.set_derivative(index, order, *value, self.time);
+            self.changed();
+        }
+        Ok(())
+    }
+
+    /// Reads a setting; its type must be the one asked for (an enumeration's is integer).
+    ///
+    /// # Errors
+    /// For an unknown reference or a setting of another type.
+    pub fn setting(&self, reference: u32, kind: &'static str) -> Result<Value, Error> {
+        let own = M::Settings::declare().len();
+        let index = reference as usize;
+        let value = match index.checked_sub(own) {
+            None => self.settings.get(index),
+            Some(rest) if Layout::<M>::STATES > 0 => self.solver_settings.get(rest),
+            Some(_) => None,
+        };
+        value
+            .filter(|value| kind_of(value) == kind)
+            .ok_or(Error::UnknownReference { kind, reference, model: M::ABOUT.name })
+    }
+
+    /// Sets a setting.
+    ///
+    /// # Errors
+    /// For an unknown reference, a value of another type or one that the setting cannot have, or a
+    /// setting that may not be changed now.
+    pub fn set_setting(&mut self, reference: u32, value: Value, access: Access) -> Result<(), Error> {
+        self.setting(reference, kind_of(&value))?;
+        let index = reference as usize;
+        let declaration = Layout::<M>::settings()[index];
+        if access == Access::Inputs || (access < Access::All && !declaration.tunable) {
+            let reason = "it is a parameter that is fixed: set it before initialisation ends";
+            return Err(Error::NotSettable { name: declaration.name.into(), reason });
+        }
+        let shown = display(&value);
+        let own = M::Settings::declare().len();
+        let done = match index.checked_sub(own) {
+            None => self.settings.set(index, value),
+            Some(rest) => self.solver_settings.set(rest, value),
+        };
+        done.ok_or_else(|| Error::NotAChoice {
+            name: declaration.name,
+            value: shown,
+            expected: expected(declaration.kind),
+        })?;
+        self.unprepared = true;
+        self.changed();
+        Ok(())
+    }
+
+    /// The continuous states.
+    pub fn states(&self) -> &[f64] {
+        self.state.as_slice()
+    }
+
+    /// Sets the continuous states, for an outside integrator.
+    ///
+    /// # Errors
+    /// If a value is not finite.
+    pub fn set_states(&mut self, values: &[f64]) -> Result<(), Error> {
+        if let Some(index) = values.iter().position(|value| !value.is_finite()) {
+            let name = Layout::<M>::declarations(Section::State)[index].name.clone();
+            return Err(Error::NotFinite { name, value: values[index] });
+        }
+        self.state.as_mut_slice().copy_from_slice(values);
+        self.changed();
+        Ok(())
+    }
+
+    /// The rates of the continuous states.
+    ///
+    /// # Errors
+    /// If the model refuses its settings.
+    pub fn rates(&mut self) -> Result<&[f64], Error> {
+        self.evaluate()?;
+        Ok(self.rates.as_slice())
+    }
+}
+
+/// Name of a value's type in messages; an enumeration's values are integers.
+fn kind_of(value: &Value) -> &'static str {
+    match value {
+        Value::Real(_) => "real",
+        Value::Integer(_) => "integer",
+        Value::Boolean(_) => "boolean",
+        Value::Text(_) => "string",
+    }
+}

@@ -1,0 +1,164 @@
+//! Units of measurement and what they are in the base units of the SI.
+
+/// A unit with its decomposition: `value in base units = factor · value + offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    /// As it is written in a model description, FMI style: `N.s/m`.
+    pub symbol: &'static str,
+    /// Exponents of the base units.
+    pub base: Base,
+    /// Factor to base units.
+    pub factor: f64,
+    /// Offset to base units.
+    pub offset: f64,
+}
+
+/// Exponents of kilogram, metre, second, ampere, kelvin and radian.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Base {
+    /// Exponent of the kilogram.
+    pub kg: i8,
+    /// Exponent of the metre.
+    pub m: i8,
+    /// Exponent of the second.
+    pub s: i8,
+    /// Exponent of the ampere.
+    pub a: i8,
+    /// Exponent of the kelvin.
+    pub k: i8,
+    /// Exponent of the radian.
+    pub rad: i8,
+}
+
+impl Base {
+    /// No unit at all.
+    pub const NONE: Self = Self { kg: 0, m: 0, s: 0, a: 0, k: 0, rad: 0 };
+
+    /// Exponents with the names that FMI gives the base units, zeros left out.
+    pub fn exponents(self) -> impl Iterator<Item = (&'static str, i8)> {
+        [("kg", self.kg), ("m", self.m), ("s", self.s), ("A", self.a), ("K", self.k), ("rad", self.rad)]
+            .into_iter()
+            .filter(|(_, exponent)| *exponent != 0)
+    }
+}
+
+impl Unit {
+    /// A coherent unit: one of it is one of its base units' product.
+    pub const fn coherent(symbol: &'static str, base: Base) -> Self {
+        Self { symbol, base, factor: 1.0, offset: 0.0 }
+    }
+}
+
+macro_rules! units {
+    ($($(#[$doc:meta])* $name:ident = $symbol:literal { $($base:ident: $exponent:expr),* };)*) => {
+        $($(#[$doc])*
+        pub const $name: Unit = Unit::coherent($symbol, Base { $($base: $exponent,)* ..Base::NONE });)*
+        /// Every unit that is declared here.
+        pub const ALL: &[Unit] = &[$($name),*];
+    };
+}
+
+units! {
+    /// Dimensionless.
+    ONE = "1" {};
+    /// Kilogram.
+    KG = "kg" { kg: 1 };
+    /// Metre.
+    M = "m" { m: 1 };
+    /// Second.
+    S = "s" { s: 1 };
+    /// Ampere.
+    A = "A" { a: 1 };
+    /// Radian.
+    RAD = "rad" { rad: 1 };
+    /// Hertz.
+    HZ = "Hz" { s: -1 };
+    /// Hertz per second.
+    HZ_PER_S = "Hz/s" { s: -2 };
+    /// Per second.
+    PER_S = "1/s" { s: -1 };
+    /// Metre per second.
+    M_PER_S = "m/s" { m: 1, s: -1 };
+    /// Metre per second squared.
+    M_PER_S2 = "m/s2" { m: 1, s: -2 };
+    /// Cubic metre: a road's displacement spectral density over spatial frequency.
+    M3 = "m3" { m: 3 };
+    /// Cycles per metre.
+    PER_M = "1/m" { m: -1 };
+    /// Newton.
+    N = "N" { kg: 1, m: 1, s: -2 };
+    /// Newton per metre.
+    N_PER_M = "N/m" { kg: 1, s: -2 };
+    /// Newton per square metre of deflection: a quadratic spring rate.
+    N_PER_M2 = "N/m2" { kg: 1, m: -1, s: -2 };
+    /// Newton second per metre.
+    N_S_PER_M = "N.s/m" { kg: 1, s: -1 };
+    /// Watt.
+    W = "W" { kg: 1, m: 2, s: -3 };
+    /// Volt.
+    V = "V" { kg: 1, m: 2, s: -3, a: -1 };
+    /// Ampere per volt.
+    A_PER_V = "A/V" { kg: -1, m: -2, s: 3, a: 2 };
+    /// Newton per ampere.
+    N_PER_A = "N/A" { kg: 1, m: 1, s: -2, a: -1 };
+    /// Newton per volt.
+    N_PER_V = "N/V" { m: -1, s: 1, a: 1 };
+    /// Ampere squared second: what an I²t limiter accumulates.
+    A2_S = "A2.s" { a: 2, s: 1 };
+    /// Per volt and second.
+    PER_V_S = "1/(V.s)" { kg: -1, m: -2, s: 2, a: 1 };
+    /// Per square newton: the weight of a force in a quadratic cost.
+    PER_N2 = "1/N2" { kg: -2, m: -2, s: 4 };
+    /// Per square metre: the weight of a position in a quadratic cost.
+    PER_M2 = "1/m2" { m: -2 };
+    /// Second squared per square metre: the weight of a velocity in a quadratic cost.
+    S2_PER_M2 = "s2/m2" { m: -2, s: 2 };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Exponents from the symbol, by an independent reading of it.
+    fn parsed(symbol: &str) -> Base {
+        let mut total = [0_i8; 6];
+        let (numerator, denominator) = symbol.split_once('/').unwrap_or((symbol, ""));
+        for (part, sign) in [(numerator, 1), (denominator.trim_matches(['(', ')']), -1)] {
+            for factor in part.split('.').filter(|factor| !factor.is_empty() && *factor != "1") {
+                let name = factor.trim_end_matches(char::is_numeric);
+                let power: i8 = factor[name.len()..].parse().unwrap_or(1);
+                let base: [i8; 6] = match name {
+                    "kg" => [1, 0, 0, 0, 0, 0],
+                    "m" => [0, 1, 0, 0, 0, 0],
+                    "s" => [0, 0, 1, 0, 0, 0],
+                    "A" => [0, 0, 0, 1, 0, 0],
+                    "rad" => [0, 0, 0, 0, 0, 1],
+                    "Hz" => [0, 0, -1, 0, 0, 0],
+                    "N" => [1, 1, -2, 0, 0, 0],
+                    "W" => [1, 2, -3, 0, 0, 0],
+                    "V" => [1, 2, -3, -1, 0, 0],
+                    other => panic!("unknown unit {other}"),
+                };
+                for (sum, exponent) in total.iter_mut().zip(base) {
+                    *sum += sign * power * exponent;
+                }
+            }
+        }
+        let [kg, m, s, a, k, rad] = total;
+        Base { kg, m, s, a, k, rad }
+    }
+
+    #[test]
+    fn exponents_agree_with_symbols() {
+        for unit in ALL {
+            assert_eq!(unit.base, parsed(unit.symbol), "{}", unit.symbol);
+        }
+    }
+
+    #[test]
+    fn symbols_are_unique() {
+        for (i, unit) in ALL.iter().enumerate() {
+            assert!(ALL[..i].iter().all(|other| other.symbol != unit.symbol), "{}", unit.symbol);
+        }
+    }
+}

@@ -1,0 +1,1 @@
+//! The equations of active suspensions.
