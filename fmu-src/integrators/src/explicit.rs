@@ -50,7 +50,7 @@ const E: [f64; 6] = [
     KINKS * 71.0 / 1920.0,
     KINKS * -17_253.0 / 339_200.0,
     KINKS * 22.0 / 525.0,
-    KINKS * -1.0 / 40.0,
+    -KINKS / 40.0,
 ];
 
 /// What the difference is multiplied by to estimate the error.
@@ -63,6 +63,25 @@ const E: [f64; 6] = [
 /// 8^(1/5) = 1.5 times the steps where the tolerance limits them (with a result that is more
 /// accurate accordingly), and nothing where the calls are short.
 const KINKS: f64 = 8.0;
+
+/// Weights of stages 1, 3, 4, 5, 6, 7 in a second estimate, of order h^4.
+///
+/// Near some positions of a kink the first estimate is zero. Step control finds them: it shortens a
+/// step until it is accepted, not until it is accurate. The second estimate is zero elsewhere, and
+/// the larger of the two misses no kink by more than a factor of 8 (for the first alone: of 74, on
+/// a grid of 199 positions). The weights of stages 5 to 7 are chosen for that, by random search,
+/// and for a size that hardly matters on smooth solutions: on Van der Pol's oscillator it costs 1 %
+/// of the steps at a relative tolerance of 1e-5 and a third at 1e-8, where the error is then within
+/// the tolerance and not eight times that. The others follow from the conditions of order three.
+const G: [f64; 6] = {
+    let [g5, g6, g7] = [0.008, -0.019, -0.005];
+    // Sums of weights times the first and the second power of the stages' times vanish.
+    let first = g5 * C5 + g6 + g7;
+    let second = g5 * C5 * C5 + g6 + g7;
+    let g3 = (C4 * first - second) / (C3 * (C3 - C4));
+    let g4 = (C3 * first - second) / (C4 * (C4 - C3));
+    [-(g3 + g4 + g5 + g6 + g7), g3, g4, g5, g6, g7]
+};
 
 /// The method; it has nothing to remember.
 pub(crate) struct DormandPrince;
@@ -124,10 +143,62 @@ impl<A: Array> Stepper<A> for DormandPrince {
         let y = A::from_fn(|i| x.as_slice()[i] + change.as_slice()[i]);
         let k7 = system.rates(end, &y);
         let error = increment(h, &E, [k1, &k3, &k4, &k5, &k6, &k7]);
+        let guard = increment(h, &G, [k1, &k3, &k4, &k5, &k6, &k7]);
+        // Not `f64::max`, which would drop a NaN.
+        let larger = |e: f64, g: f64| if e.abs() < g.abs() { g } else { e };
+        let error = A::from_fn(|i| larger(error.as_slice()[i], guard.as_slice()[i]));
         Some(Trial {
             x: y,
             rates: k7,
             error,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sum of weight times c^power, over the stages that have weights.
+    fn moment(weights: &[f64], power: i32) -> f64 {
+        let times = [0.0_f64, C3, C4, C5, 1.0, 1.0];
+        weights.iter().zip(times).map(|(weight, c)| weight * c.powi(power)).sum()
+    }
+
+    #[test]
+    fn stage_times_are_the_row_sums() {
+        let rows: [(&[f64], f64); 5] = [(&A2, C2), (&A3, C3), (&A4, C4), (&A5, C5), (&A6, 1.0)];
+        for (row, time) in rows {
+            assert!((row.iter().sum::<f64>() - time).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn weights_integrate_polynomials_and_estimates_ignore_them() {
+        for power in 0..5 {
+            assert!((moment(&B, power) - 1.0 / f64::from(power + 1)).abs() < 1e-14);
+        }
+        for power in 0..4 {
+            assert!(moment(&E, power).abs() < 1e-14);
+        }
+        for power in 0..3 {
+            assert!(moment(&G, power).abs() < 1e-14);
+        }
+        assert!(moment(&E, 4).abs() > 1e-4 && moment(&G, 3).abs() > 1e-4);
+    }
+
+    /// The larger estimate against the true error of a kink, at every position in the step.
+    #[test]
+    fn no_kink_is_underestimated_by_more_than_eight() {
+        let ramp = |weights: &[f64], kink: f64| -> f64 {
+            let times = [0.0_f64, C3, C4, C5, 1.0, 1.0];
+            weights.iter().zip(times).map(|(weight, c)| weight * (c - kink).max(0.0)).sum()
+        };
+        for i in 1..200 {
+            let kink = f64::from(i) / 200.0;
+            let error = ramp(&B, kink) - 0.5 * (1.0 - kink).powi(2);
+            let estimate = ramp(&E, kink).abs().max(ramp(&G, kink).abs());
+            assert!(error.abs() < 8.0 * estimate, "{kink}: {error} {estimate}");
+        }
     }
 }

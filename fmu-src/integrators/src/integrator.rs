@@ -144,7 +144,8 @@ impl<A: Array> Integrator<A> {
     ///
     /// # Errors
     /// Whenever the integration cannot be carried through; `x` is then unchanged, and the
-    /// integrator as if invalidated at t0. The system has been evaluated elsewhere meanwhile.
+    /// integrator as if invalidated at t0. The system has been evaluated elsewhere meanwhile (but
+    /// not for [`IntegrationError::InvalidInterval`], where nothing happens at all).
     #[inline]
     pub fn advance<S: System<A>>(
         &mut self,
@@ -170,7 +171,7 @@ impl<A: Array> Integrator<A> {
     ) -> Result<(), IntegrationError> {
         let span = t1 - t0;
         // False for NaN and for infinite times too.
-        if !(span >= 0.0 && span < f64::INFINITY) {
+        if !(0.0..f64::INFINITY).contains(&span) {
             return Err(IntegrationError::InvalidInterval { t0, t1 });
         }
         let near = (self.memory.time - t0).abs() <= SAME * f64::EPSILON * t0.abs();

@@ -66,16 +66,16 @@ fn order_is_five_where_the_rates_depend_on_time() {
     for method in Method::ALL {
         let mut system = Forced { stiffness: 2.0 };
         let exact = system.exact(2.0, 1.5);
-        assert!(order(method, &mut system, 40, [1.5], exact) > 4.8);
+        assert!(order(method, &mut system, 80, [1.5], exact) > 4.8);
     }
 }
 
-/// The order of many Rosenbrock methods falls to one or two here; Rodas5P keeps four.
+/// The order of many Rosenbrock methods falls to one or two here; Rodas5P keeps nearly four.
 #[test]
 fn order_hardly_suffers_from_stiffness() {
     let mut system = Forced { stiffness: 1e6 };
     let order = order(Method::Rosenbrock, &mut system, 10, [1.0], [2.0_f64.cos()]);
-    assert!(order > 3.8, "{order}");
+    assert!(order > 3.6, "{order}");
 }
 
 /// The stability function at infinity is zero: a transient far too fast for the step is gone after
@@ -178,16 +178,16 @@ fn lift_off_and_touch_down() {
         let bounce = |phase: u32| Bounce { omega: 40.0 + 0.37 * f64::from(phase), damping };
         for method in Method::ALL {
             for tolerance in [1e-5, 1e-7, 1e-9] {
-                for calls in [1, 3000] {
+                for calls in [1, 2000] {
                     let mut worst = 0.0_f64;
                     let mut work = 0;
                     for phase in 0..10 {
                         let mut system = bounce(phase);
-                        let (exact, changes) = system.exact(3.0, 2.0);
-                        assert!(changes > 8);
+                        let (exact, changes) = system.exact(2.0, 2.0);
+                        assert!(changes >= 8);
                         let mut x = [0.0, 2.0];
                         let mut integrator = integrator(method, tolerance, 1.0);
-                        run(&mut integrator, &mut system, 3.0, calls, &mut x);
+                        run(&mut integrator, &mut system, 2.0, calls, &mut x);
                         worst = worst.max(difference(&x, &exact, 0.1) / f64::from(changes));
                         work += integrator.work().rates;
                     }
@@ -195,7 +195,7 @@ fn lift_off_and_touch_down() {
                         "{damping} {method:?} {tolerance} {calls}: {:.1} {work}",
                         worst / tolerance
                     );
-                    assert!(worst < 1e9 * tolerance, "{damping} {method:?} {tolerance} {worst}");
+                    assert!(worst < 100.0 * tolerance, "{damping} {method:?} {tolerance} {worst}");
                 }
             }
         }
