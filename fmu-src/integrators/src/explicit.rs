@@ -162,7 +162,11 @@ mod tests {
     /// Sum of weight times c^power, over the stages that have weights.
     fn moment(weights: &[f64], power: i32) -> f64 {
         let times = [0.0_f64, C3, C4, C5, 1.0, 1.0];
-        weights.iter().zip(times).map(|(weight, c)| weight * c.powi(power)).sum()
+        weights
+            .iter()
+            .zip(times)
+            .map(|(weight, c)| weight * c.powi(power))
+            .sum()
     }
 
     #[test]
@@ -192,7 +196,11 @@ mod tests {
     fn no_kink_is_underestimated_by_more_than_eight() {
         let ramp = |weights: &[f64], kink: f64| -> f64 {
             let times = [0.0_f64, C3, C4, C5, 1.0, 1.0];
-            weights.iter().zip(times).map(|(weight, c)| weight * (c - kink).max(0.0)).sum()
+            weights
+                .iter()
+                .zip(times)
+                .map(|(weight, c)| weight * (c - kink).max(0.0))
+                .sum()
         };
         for i in 1..200 {
             let kink = f64::from(i) / 200.0;

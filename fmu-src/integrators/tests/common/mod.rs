@@ -38,13 +38,18 @@ pub fn run<const N: usize>(
 ) {
     let time = |i: u32| end * f64::from(i) / f64::from(calls);
     for i in 0..calls {
-        integrator.advance(system, time(i), time(i + 1), x).expect("a harmless system");
+        integrator
+            .advance(system, time(i), time(i + 1), x)
+            .expect("a harmless system");
     }
 }
 
 /// The largest difference, relative to a value's magnitude or `floor`.
 pub fn difference<const N: usize>(x: &[f64; N], exact: &[f64; N], floor: f64) -> f64 {
-    x.iter().zip(exact).map(|(a, b)| (a - b).abs() / b.abs().max(floor)).fold(0.0, f64::max)
+    x.iter()
+        .zip(exact)
+        .map(|(a, b)| (a - b).abs() / b.abs().max(floor))
+        .fold(0.0, f64::max)
 }
 
 /// x' = A x.
@@ -74,7 +79,10 @@ impl System<[f64; 3]> for Curved {
         [x[0] * x[1], -x[2], x[1]]
     }
     fn jacobian(&mut self, _t: f64, x: &[f64; 3]) -> (<[f64; 3] as Array>::Square, [f64; 3]) {
-        jacobian([[x[1], x[0], 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]], [0.0; 3])
+        jacobian(
+            [[x[1], x[0], 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
+            [0.0; 3],
+        )
     }
 }
 
@@ -117,7 +125,10 @@ impl System<[f64; 2]> for VanDerPol {
         [x[1], self.0 * (1.0 - x[0] * x[0]) * x[1] - x[0]]
     }
     fn jacobian(&mut self, _t: f64, x: &[f64; 2]) -> (<[f64; 2] as Array>::Square, [f64; 2]) {
-        let row = [-2.0 * self.0 * x[0] * x[1] - 1.0, self.0 * (1.0 - x[0] * x[0])];
+        let row = [
+            -2.0 * self.0 * x[0] * x[1] - 1.0,
+            self.0 * (1.0 - x[0] * x[0]),
+        ];
         jacobian([[0.0, 1.0], row], [0.0; 2])
     }
 }
@@ -132,7 +143,11 @@ impl System<[f64; 3]> for Robertson {
     fn jacobian(&mut self, _t: f64, x: &[f64; 3]) -> (<[f64; 3] as Array>::Square, [f64; 3]) {
         let (by_1, by_2, square) = (1e4 * x[2], 1e4 * x[1], 6e7 * x[1]);
         jacobian(
-            [[-0.04, by_1, by_2], [0.04, -by_1 - square, -by_2], [0.0, square, 0.0]],
+            [
+                [-0.04, by_1, by_2],
+                [0.04, -by_1 - square, -by_2],
+                [0.0, square, 0.0],
+            ],
             [0.0; 3],
         )
     }
@@ -175,7 +190,10 @@ pub struct Friction;
 
 impl System<[f64; 2]> for Friction {
     fn rates(&mut self, t: f64, x: &[f64; 2]) -> [f64; 2] {
-        [x[1], 20.0 * (5.0 * t).sin() - 100.0 * x[0] - 5.0 * (125.0 * x[1]).tanh()]
+        [
+            x[1],
+            20.0 * (5.0 * t).sin() - 100.0 * x[0] - 5.0 * (125.0 * x[1]).tanh(),
+        ]
     }
     fn jacobian(&mut self, t: f64, x: &[f64; 2]) -> (<[f64; 2] as Array>::Square, [f64; 2]) {
         let tanh = (125.0 * x[1]).tanh();
@@ -198,11 +216,21 @@ const GRAVITY: f64 = 9.81;
 impl System<[f64; 2]> for Bounce {
     fn rates(&mut self, _t: f64, x: &[f64; 2]) -> [f64; 2] {
         let contact = -self.omega * self.omega * x[0] - self.damping * x[1];
-        [x[1], if x[0] < 0.0 { contact - GRAVITY } else { -GRAVITY }]
+        [
+            x[1],
+            if x[0] < 0.0 {
+                contact - GRAVITY
+            } else {
+                -GRAVITY
+            },
+        ]
     }
     fn jacobian(&mut self, _t: f64, x: &[f64; 2]) -> (<[f64; 2] as Array>::Square, [f64; 2]) {
         let row = [-self.omega * self.omega, -self.damping];
-        jacobian([[0.0, 1.0], if x[0] < 0.0 { row } else { [0.0; 2] }], [0.0; 2])
+        jacobian(
+            [[0.0, 1.0], if x[0] < 0.0 { row } else { [0.0; 2] }],
+            [0.0; 2],
+        )
     }
 }
 
@@ -216,7 +244,10 @@ impl Bounce {
             let flight = 2.0 * speed / GRAVITY;
             if t + flight >= end {
                 let s = end - t;
-                return ([speed * s - 0.5 * GRAVITY * s * s, speed - GRAVITY * s], changes);
+                return (
+                    [speed * s - 0.5 * GRAVITY * s * s, speed - GRAVITY * s],
+                    changes,
+                );
             }
             t += flight;
             // Undamped, gravity apart, lift-off is after half a period.
@@ -224,7 +255,11 @@ impl Bounce {
             let (mut early, mut late) = (0.3 * period, 0.75 * period);
             for _ in 0..60 {
                 let middle = 0.5 * (early + late);
-                if self.contact(middle, -speed)[0] < 0.0 { early = middle } else { late = middle }
+                if self.contact(middle, -speed)[0] < 0.0 {
+                    early = middle;
+                } else {
+                    late = middle;
+                }
             }
             changes += 1;
             if t + late >= end {
@@ -262,7 +297,12 @@ pub struct Watched<S, A> {
 
 impl<S, A> Watched<S, A> {
     pub fn new(inner: S) -> Self {
-        Watched { inner, rates: 0, jacobians: 0, last: None }
+        Watched {
+            inner,
+            rates: 0,
+            jacobians: 0,
+            last: None,
+        }
     }
 }
 
