@@ -7,8 +7,15 @@ use std::{hint::black_box, time::Instant};
 
 use strut_integrators::{Array, Integrator, Method, Settings, System};
 
-const CALLS: u32 = 200_000;
-const RUNS: u32 = 7;
+/// Calls per run, and runs; just enough to run through if this is not a benchmark but a test.
+fn effort() -> (u32, u32) {
+    if std::env::args().any(|argument| argument == "--bench") {
+        (200_000, 7)
+    } else {
+        (1000, 1)
+    }
+}
+
 const STEP: f64 = 1e-3;
 
 struct Decay;
@@ -104,16 +111,17 @@ fn runge_kutta_4<const N: usize>(
 
 /// The shortest time per call, in ns, over several runs of many calls from the same start.
 fn nanoseconds<const N: usize>(start: [f64; N], mut call: impl FnMut(f64, &mut [f64; N])) -> f64 {
-    (0..RUNS)
+    let (calls, runs) = effort();
+    (0..runs)
         .map(|_| {
             let mut x = start;
             let begin = Instant::now();
-            for i in 0..CALLS {
+            for i in 0..calls {
                 call(f64::from(black_box(i)) * STEP, &mut x);
             }
             let elapsed = begin.elapsed();
             black_box(x);
-            elapsed.as_secs_f64() / f64::from(CALLS) * 1e9
+            elapsed.as_secs_f64() / f64::from(calls) * 1e9
         })
         .fold(f64::INFINITY, f64::min)
 }
@@ -136,7 +144,7 @@ where
                 .expect("a harmless system");
         });
         let work = integrator.work();
-        let per_call = |count: u64| count as f64 / f64::from(CALLS);
+        let per_call = |count: u64| count as f64 / f64::from(effort().0);
         println!(
             "  {method:?}: {time:.1} ns, {:.2} times as long; per call {:.3} rates, {:.3} steps, \
              {:.4} rejected",

@@ -21,7 +21,8 @@ pub struct Settings<A> {
     /// Error per step that is allowed where a state is near zero; in the unit of each state.
     pub absolute_tolerance: A,
     /// Longest internal step, in the unit of time; infinite by default. The step that ends a call
-    /// may be 1 % longer, where the alternative were a further, tiny one.
+    /// may be 1 % longer, where the alternative were a further, tiny one. No error estimate sees a
+    /// pulse that comes and goes between two evaluations: where there are such, this is the remedy.
     pub max_step: f64,
     /// Internal steps, rejected ones included, that one call may take.
     pub max_steps: u32,

@@ -239,6 +239,41 @@ fn failures_name_the_cause_and_leave_the_state() {
     }
 }
 
+/// A step for which 1 / (gamma h) is an eigenvalue has no solution; another one has.
+#[test]
+fn a_singular_matrix_is_only_a_rejected_step() {
+    let gamma = 0.211_937_563_194_290_14;
+    let h = 1e-3;
+    let mut system = Linear([[1.0 / (gamma * h)]]);
+    let mut integrator = integrator(Method::Rosenbrock, 1e-3, 1.0);
+    integrator
+        .advance(&mut Linear([[0.0]]), -1.0, 0.0, &mut [1.0])
+        .expect("harmless");
+    integrator.invalidate();
+    let mut x = [1.0];
+    integrator
+        .advance(&mut system, 0.0, h, &mut x)
+        .expect("with a shorter step");
+    assert!(integrator.work().rejected > 0);
+    assert!((x[0] / (1.0 / gamma).exp() - 1.0).abs() < 1e-2, "{x:?}");
+}
+
+#[test]
+fn a_jacobian_that_is_not_finite_is_reported() {
+    let mut integrator = integrator(Method::Rosenbrock, 1e-6, 1.0);
+    let mut system = Scalar(|_, x: f64| if x == 1.0 { 0.0 } else { f64::NAN });
+    let error = integrator.advance(&mut system, 0.0, 0.0, &mut [1.0]);
+    assert_eq!(error, Ok(()));
+    let error = integrator.advance(&mut system, 0.0, 1.0, &mut [1.0]);
+    assert_eq!(
+        error,
+        Err(IntegrationError::NotFinite {
+            t: 0.0,
+            component: 0
+        })
+    );
+}
+
 #[test]
 fn the_number_of_steps_is_limited() {
     for method in Method::ALL {
