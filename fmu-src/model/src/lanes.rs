@@ -99,6 +99,10 @@ impl Real for Lanes {
     fn vanishes(self) -> bool {
         self.to_array() == [0.0; Self::COUNT]
     }
+    fn lookup<const N: usize>(self, functions: impl Fn(f64) -> ([f64; N], [f64; N])) -> [Self; N] {
+        let lanes = self.to_array().map(|number| functions(number).0);
+        std::array::from_fn(|i| Self::new(lanes.map(|values| values[i])))
+    }
 }
 
 #[cfg(test)]

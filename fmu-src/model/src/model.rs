@@ -95,22 +95,23 @@ impl<M: Model, R: Real> Copy for Now<'_, M, R> {}
 
 /// Names the bundles of a model; those that it leaves out are empty.
 ///
-/// ```ignore
+/// ```text
 /// impl Model for Decay {
 ///     strut_model::bundles! { parameters: Parameters, state: State, output: Output }
 /// ```
 /// The order is settings, parameters, derived, input, state, memory, output.
 #[macro_export]
 macro_rules! bundles {
-    ($(settings: $settings:ty,)? $(parameters: $parameters:ident,)? $(derived: $derived:ident,)?
-     $(input: $input:ident,)? $(state: $state:ident,)? $(memory: $memory:ident,)? output: $output:ident $(,)?) => {
+    ($(settings: $settings:ident $(,)?)? $(parameters: $parameters:ident $(,)?)? $(derived: $derived:ident $(,)?)?
+     $(input: $input:ident $(,)?)? $(state: $state:ident $(,)?)? $(memory: $memory:ident $(,)?)?
+     $(output: $output:ident $(,)?)?) => {
         type Settings = $crate::bundles!(@or $($settings,)? $crate::NoSettings);
         type Parameters<R: $crate::Real> = $crate::bundles!(@or $($parameters<R>,)? $crate::Nothing);
         type Derived<R: $crate::Real> = $crate::bundles!(@or $($derived<R>,)? $crate::Nothing);
         type Input<R: $crate::Real> = $crate::bundles!(@or $($input<R>,)? $crate::Nothing);
         type State<R: $crate::Real> = $crate::bundles!(@or $($state<R>,)? $crate::Nothing);
         type Memory<R: $crate::Real> = $crate::bundles!(@or $($memory<R>,)? $crate::Nothing);
-        type Output<R: $crate::Real> = $output<R>;
+        type Output<R: $crate::Real> = $crate::bundles!(@or $($output<R>,)? $crate::Nothing);
     };
     (@or $first:ty $(, $rest:ty)?) => { $first };
 }

@@ -50,6 +50,9 @@ pub trait Real:
     /// Whether the number is zero, derivatives included, so that a term multiplied by it may be left
     /// out. An effect that is switched off costs this question and nothing more.
     fn vanishes(self) -> bool;
+    /// Functions that exist as numbers only: tables, measured profiles, rounding. From a number they give
+    /// values and slopes.
+    fn lookup<const N: usize>(self, functions: impl Fn(f64) -> ([f64; N], [f64; N])) -> [Self; N];
 
     /// Absolute value; its derivative at zero is taken from the left.
     fn abs(self) -> Self {
@@ -102,6 +105,10 @@ impl Real for f64 {
     fn vanishes(self) -> bool {
         self == 0.0
     }
+    #[inline]
+    fn lookup<const N: usize>(self, functions: impl Fn(f64) -> ([f64; N], [f64; N])) -> [Self; N] {
+        functions(self).0
+    }
 }
 
 /// The derivative-carrying scalars of num-dual: the functions are theirs, the choice between two
@@ -143,6 +150,15 @@ macro_rules! impl_real_for_dual {
                 let vanishing: fn(Self) -> bool = $vanishing_derivative;
                 self.re == 0.0 && vanishing(self)
             }
+            #[inline]
+            fn lookup<const N: usize>(self, functions: impl Fn(f64) -> ([f64; N], [f64; N])) -> [Self; N] {
+                let (values, slopes) = functions(self.re);
+                std::array::from_fn(|i| {
+                    let mut result = self * slopes[i];
+                    result.re = values[i];
+                    result
+                })
+            }
         }
     };
 }
@@ -152,8 +168,8 @@ impl_real_for_dual!(
     [] Dual64, |number| number.eps == 0.0
 );
 impl_real_for_dual!(
-    /// A gradient of `N` partial derivatives.
-    [const N: usize] DualSVec64<N>,
+    /// A gradient of `D` partial derivatives.
+    [const D: usize] DualSVec64<D>,
     |number| number.eps.0.is_none_or(|gradient| gradient.iter().all(|part| *part == 0.0))
 );
 
@@ -182,6 +198,14 @@ mod tests {
     fn tanh_of_a_large_number_has_a_finite_derivative() {
         let saturated = Real::tanh(Dual64::new(1e4, 1.0));
         assert_eq!((saturated.re, saturated.eps), (1.0, 0.0));
+    }
+
+    #[test]
+    fn a_looked_up_function_carries_its_slope() {
+        let square_and_step = |x: f64| ([x * x, x.floor()], [2.0 * x, 0.0]);
+        let [square, step] = Dual64::new(2.5, 3.0).lookup(square_and_step);
+        assert_eq!((square.re, square.eps, step.re, step.eps), (6.25, 15.0, 2.0, 0.0));
+        assert_eq!(2.5.lookup(square_and_step), [6.25, 2.0]);
     }
 
     #[test]

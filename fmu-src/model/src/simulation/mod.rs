@@ -186,8 +186,8 @@ impl<M: Model> Simulation<M> {
     fn wrong_step(&self, from: f64, size: f64) -> Error {
         Error::Time(if !size.is_finite() || size <= 0.0 {
             format!("a communication step cannot be {size} s long: it must be positive and finite")
-        } else if !(from + size).is_finite() || from + size <= self.time {
-            format!("a step of {size} s from {from} s does not lead on from {} s", self.time)
+        } else if !(from + size).is_finite() || from + size == from {
+            format!("a step of {size} s from {from} s leads nowhere: give times that a number can hold")
         } else {
             format!(
                 "the communication point {from} s is not where the last step ended, {} s; \

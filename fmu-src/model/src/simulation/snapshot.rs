@@ -78,7 +78,7 @@ impl<M: Model> Snapshot<M> {
         bytes.extend(self.words.iter().flat_map(|word| word.to_le_bytes()));
         let own = (0..).map_while(|index| self.settings.get(index));
         let solver = (0..).map_while(|index| self.solver_settings.get(index));
-        for value in own.chain(solver) {
+        for value in own.chain(solver).take(Layout::<M>::settings().len()) {
             match value {
                 Value::Real(number) => bytes.extend(number.to_le_bytes()),
                 Value::Integer(number) => bytes.extend(number.to_le_bytes()),

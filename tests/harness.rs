@@ -1,0 +1,125 @@
+//! What the tests share: the FMUs, built once, and a Python with the masters that run them.
+//!
+//! Nothing has to be installed by hand: the environment is made under `target/` at first use, with
+//! pinned packages.
+
+use std::ffi::OsStr;
+use std::fs::{self, File};
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+
+const REQUIREMENTS: &str = include_str!("masters/requirements.txt");
+
+/// The project's root folder.
+pub fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Where everything that the tests make goes.
+pub fn target() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
+}
+
+/// The folder with every FMU and system, built on the first call.
+pub fn fmus() -> &'static Path {
+    static FMUS: OnceLock<PathBuf> = OnceLock::new();
+    FMUS.get_or_init(|| {
+        let out = target().join("tested-fmus");
+        let _lock = lock("fmus.lock");
+        run(build_fmu().arg("--out").arg(&out));
+        out
+    })
+}
+
+/// The packager, in release.
+pub fn build_fmu() -> Command {
+    let mut command = cargo();
+    command.args(["run", "--quiet", "--release", "--package", "build-fmu", "--"]);
+    command
+}
+
+/// Cargo, at the root.
+pub fn cargo() -> Command {
+    let mut command = Command::new(env!("CARGO"));
+    command.current_dir(root());
+    command
+}
+
+/// Runs a Python script of the project with arguments; returns what it prints.
+///
+/// # Panics
+/// If it fails: with everything that it printed.
+pub fn python<S: AsRef<OsStr>>(script: &str, arguments: impl IntoIterator<Item = S>) -> String {
+    let mut command = Command::new(interpreter());
+    command.arg(root().join(script)).args(arguments);
+    // One core a test: the tests themselves run side by side.
+    command.env("OMP_NUM_THREADS", "1").env("OPENBLAS_NUM_THREADS", "1").env("MPLBACKEND", "Agg");
+    command.env("LD_LIBRARY_PATH", environment().join("lib"));
+    let output = run(&mut command);
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+/// The Python interpreter that has the masters.
+pub fn interpreter() -> PathBuf {
+    environment().join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" })
+}
+
+/// The folder of libclang, which building the `fmi` crate needs, and the folder of the C compiler's own
+/// headers, which libclang's package lacks.
+pub fn libclang() -> (PathBuf, PathBuf) {
+    let script = "import clang, pathlib; print(pathlib.Path(clang.__file__).parent / 'native', end='')";
+    let native = run(Command::new(interpreter()).args(["-c", script]));
+    let headers = run(Command::new("cc").arg("-print-file-name=include"));
+    let path = |output: Output| PathBuf::from(String::from_utf8_lossy(&output.stdout).trim());
+    (path(native), path(headers))
+}
+
+/// The Python environment, made on the first call; a changed list of packages makes a new one.
+fn environment() -> &'static Path {
+    static ENVIRONMENT: OnceLock<PathBuf> = OnceLock::new();
+    ENVIRONMENT.get_or_init(|| {
+        let mut hasher = DefaultHasher::new();
+        REQUIREMENTS.hash(&mut hasher);
+        let folder = target().join(format!("python-{:016x}", hasher.finish()));
+        let _lock = lock("python.lock");
+        let complete = folder.join("complete");
+        if !complete.exists() {
+            eprintln!("making the Python environment of the tests in {}", folder.display());
+            let base = if cfg!(windows) { "python" } else { "python3" };
+            run(Command::new(base).args(["-m", "venv", "--clear"]).arg(&folder));
+            let pip = folder.join(if cfg!(windows) { "Scripts/pip.exe" } else { "bin/pip" });
+            run(Command::new(pip).args(["install", "--quiet", "--disable-pip-version-check", "--requirement"]).arg(
+                root().join("tests/masters/requirements.txt"),
+            ));
+            fs::write(&complete, REQUIREMENTS).expect("the environment's folder is writable");
+        }
+        folder
+    })
+}
+
+/// Held while something shared is made: test programs run at the same time.
+fn lock(name: &str) -> File {
+    fs::create_dir_all(target()).expect("the target folder can be made");
+    let path = target().join(name);
+    let file = File::create(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    file.lock().unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    file
+}
+
+/// Runs a command to its end.
+///
+/// # Panics
+/// If it cannot be started or fails: with the command and everything that it printed.
+pub fn run(command: &mut Command) -> Output {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?} cannot be started: {error}"));
+    assert!(
+        output.status.success(),
+        "{command:?} failed ({})\n{}{}",
+        output.status,
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr)
+    );
+    output
+}

@@ -1,0 +1,121 @@
+"""An FMU on the test bench: loaded through FMPy, driven by reproducible inputs."""
+
+import contextlib
+import math
+import shutil
+import zlib
+from pathlib import Path
+
+import numpy as np
+from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Model, FMU2Slave
+
+STEP = 1e-3
+
+# Amplitudes by unit, so that every effect of every model is at work.
+AMPLITUDE = {"m": 0.004, "m/s": 0.12, "N": 150.0, "V": 3.0, "m/s2": 2.0, "A": 3.0}
+
+
+class Messages(list):
+    """What an FMU has logged."""
+
+    def callback(self, _environment, instance, status, category, message):
+        assert category, "a null log category crashes some masters"
+        self.append((instance.decode(), status, category.decode(), message.decode()))
+
+
+class Fmu:
+    """An unpacked FMU with its description."""
+
+    def __init__(self, path):
+        self.path = Path(path)
+        self.name = self.path.stem
+        self.folder = extract(str(path))
+        self.description = read_model_description(self.folder)
+        self.variables = {v.name: v for v in self.description.modelVariables}
+        self.real = [v for v in self.description.modelVariables if v.type == "Real"]
+        self.inputs = [v for v in self.real if v.causality == "input"]
+        self.outputs = [v for v in self.real if v.causality == "output"]
+        self.states = [d.variable.derivative for d in self.description.derivatives]
+        self.rates = [d.variable for d in self.description.derivatives]
+
+    def close(self):
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def reference(self, *names):
+        return [self.variables[name].valueReference for name in names]
+
+    def instantiate(self, kind=FMU2Slave, name="instance", **options):
+        interface = self.description.coSimulation if kind is FMU2Slave else self.description.modelExchange
+        fmu = kind(
+            guid=self.description.guid,
+            modelIdentifier=interface.modelIdentifier,
+            unzipDirectory=self.folder,
+            instanceName=name,
+        )
+        fmu.instantiate(**options)
+        return fmu
+
+    @contextlib.contextmanager
+    def running(self, kind=FMU2Slave, start=None, stop=None, tolerance=None, **options):
+        """An initialised instance."""
+        fmu = self.instantiate(kind, **options)
+        try:
+            self.initialize(fmu, start, stop, tolerance)
+            yield fmu
+            fmu.terminate()
+        finally:
+            fmu.freeInstance()
+
+    def initialize(self, fmu, start=None, stop=None, tolerance=None):
+        fmu.setupExperiment(startTime=0.0, stopTime=stop, tolerance=tolerance)
+        for name, value in (start or {}).items():
+            self.set(fmu, name, value)
+        fmu.enterInitializationMode()
+        fmu.exitInitializationMode()
+
+    def set(self, fmu, name, value):
+        variable = self.variables[name]
+        setter = {
+            "Real": fmu.setReal,
+            "Integer": fmu.setInteger,
+            "Enumeration": fmu.setInteger,
+            "Boolean": fmu.setBoolean,
+            "String": fmu.setString,
+        }[variable.type]
+        setter([variable.valueReference], [value])
+
+    def excitation(self, time):
+        """Inputs at a time: for each two sines of its own frequencies."""
+        values = []
+        for variable in self.inputs:
+            seed = zlib.crc32(variable.name.encode())
+            amplitude = AMPLITUDE[variable.unit]
+            low, high = 0.7 + seed % 7 * 0.3, 4.1 + seed % 11 * 0.7
+            values.append(
+                amplitude * (math.sin(math.tau * low * time + seed % 5) + 0.4 * math.sin(math.tau * high * time))
+            )
+        return values
+
+    def excite(self, fmu, time):
+        if self.inputs:
+            fmu.setReal([v.valueReference for v in self.inputs], self.excitation(time))
+
+    def read(self, fmu):
+        return fmu.getReal([v.valueReference for v in self.outputs])
+
+    def run(self, fmu, first, count, step=STEP):
+        """Takes steps with the excitation; the outputs after each."""
+        rows = []
+        for index in range(first, first + count):
+            time = index * step
+            self.excite(fmu, time)
+            fmu.doStep(currentCommunicationPoint=time, communicationStepSize=step)
+            rows.append(self.read(fmu))
+        return np.array(rows)
+
+
+def all_fmus(folder):
+    paths = sorted(Path(folder).glob("*.fmu"))
+    assert paths, f"no FMUs in {folder}"
+    return [Fmu(path) for path in paths]
