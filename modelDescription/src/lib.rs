@@ -1,1 +1,66 @@
-//! Model descriptions.
+//! Writes the `modelDescription.xml` of FMI 2.0 from what a model declares.
+//!
+//! ```
+//! # use strut_model_description::Header;
+//! # fn example(interface: &strut_model::Interface) {
+//! let header = Header { name: "QuarterCar", ..Header::default() };
+//! let xml = strut_model_description::write(interface, &header);
+//! # }
+//! ```
+//!
+//! The order of the variables, and so every index in the model structure, is that of
+//! [`Interface::variables`]. The text is a function of its arguments alone: no clock, no random
+//! number, so that the same sources give the same archive.
+
+mod content;
+mod schema;
+
+use strut_model::Interface;
+
+/// What stands in the head of a description and is not declared by the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Header<'a> {
+    /// Name of the FMU: the model's name and the name of the library in the archive.
+    pub name: &'a str,
+    /// What it is; the model's summary if empty.
+    pub description: &'a str,
+    /// Version of the model.
+    pub version: &'a str,
+    /// Where its equations and numbers come from; left out if empty.
+    pub author: &'a str,
+    /// License; left out if empty.
+    pub license: &'a str,
+    /// Copyright; left out if empty.
+    pub copyright: &'a str,
+    /// The tool that writes this.
+    pub generation_tool: &'a str,
+    /// Time of generation as `2026-01-31T12:00:00Z`; left out if none.
+    pub generated: Option<&'a str>,
+}
+
+impl Default for Header<'_> {
+    fn default() -> Self {
+        Self {
+            name: "",
+            description: "",
+            version: env!("CARGO_PKG_VERSION"),
+            author: "",
+            license: "",
+            copyright: "",
+            generation_tool: concat!("Strut ", env!("CARGO_PKG_VERSION")),
+            generated: None,
+        }
+    }
+}
+
+/// The description of a model as an XML document.
+pub fn write(interface: &Interface, header: &Header<'_>) -> String {
+    let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    let mut serializer = quick_xml::se::Serializer::new(&mut text);
+    serializer.indent(' ', 2);
+    let document = content::document(interface, header);
+    // Strings, numbers and lists in named structs: there is nothing that the serializer refuses.
+    serde::Serialize::serialize(&document, serializer).expect("the description is plain data");
+    text.push('\n');
+    text
+}

@@ -1,0 +1,181 @@
+//! From declarations to elements.
+
+use strut_model::{
+    Causality, Enumeration, Initial, Interface, LOG_CATEGORIES, Variability, Variable, VariableKind, unit,
+};
+
+use crate::{
+    Header,
+    schema::{
+        BaseUnit, Capabilities, Category, Choice, CoSimulation, Document, Experiment, Item, Kind, List, ModelExchange,
+        ModelStructure, Real, ScalarVariable, SimpleType, Start, Unit, Unknown,
+    },
+};
+
+/// What the FMUs of Strut can, in both interfaces.
+const CAPABILITIES: Capabilities =
+    Capabilities { only_once: false, own_memory: true, state: true, serializes: true, directional: true };
+
+/// The whole document.
+pub fn document(interface: &Interface, header: &Header<'_>) -> Document {
+    let about = interface.about;
+    let experiment = about.experiment;
+    Document {
+        fmi_version: "2.0",
+        model_name: header.name.into(),
+        guid: interface.guid(),
+        description: if header.description.is_empty() { about.summary } else { header.description }.into(),
+        author: header.author.into(),
+        version: header.version.into(),
+        copyright: header.copyright.into(),
+        license: header.license.into(),
+        generation_tool: header.generation_tool.into(),
+        generated: header.generated.map(str::to_owned),
+        naming: "structured",
+        event_indicators: 0,
+        model_exchange: ModelExchange {
+            identifier: header.name.into(),
+            completed_step_not_needed: true,
+            common: CAPABILITIES,
+        },
+        co_simulation: CoSimulation {
+            identifier: header.name.into(),
+            variable_step: true,
+            interpolates_inputs: true,
+            output_derivatives: 1,
+            common: CAPABILITIES,
+        },
+        units: units(&interface.variables),
+        types: types(&interface.variables),
+        log_categories: LOG_CATEGORIES.iter().map(|&(name, description)| Category { name, description }).collect(),
+        experiment: Experiment {
+            start: number(0.0),
+            stop: number(experiment.stop),
+            tolerance: number(experiment.tolerance),
+            step: number(experiment.step),
+        },
+        variables: interface.variables.iter().map(variable).collect(),
+        structure: structure(interface),
+    }
+}
+
+/// The shortest text that reads back as the same number.
+fn number(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
+}
+
+/// The units that are used, sorted by name. `1` is declared like any other: a variable without a unit
+/// would be one whose unit nobody knows, and a unit that is used but not declared is refused by some
+/// importers.
+fn units(variables: &[Variable]) -> List<Unit> {
+    let mut used: Vec<unit::Unit> = variables
+        .iter()
+        .filter_map(|variable| match variable.kind {
+            VariableKind::Real { unit, .. } if !unit.symbol.is_empty() => Some(unit),
+            _ => None,
+        })
+        .collect();
+    used.sort_by_key(|unit| unit.symbol);
+    used.dedup_by_key(|unit| unit.symbol);
+    used.into_iter()
+        .map(|unit::Unit { symbol, base, factor, offset }| {
+            let unit::Base { kg, m, s, a, k, rad } = base;
+            let other = |value: f64, default: f64| (value != default).then(|| number(value));
+            let (factor, offset) = (other(factor, 1.0), other(offset, 0.0));
+            Unit { name: symbol, base: BaseUnit { kg, m, s, a, k, rad, factor, offset } }
+        })
+        .collect()
+}
+
+/// The enumerations that are used, in order of appearance.
+fn types(variables: &[Variable]) -> List<SimpleType> {
+    let mut used: Vec<Enumeration> = Vec::new();
+    for variable in variables {
+        if let VariableKind::Choice { enumeration, .. } = variable.kind
+            && !used.iter().any(|other| other.name == enumeration.name)
+        {
+            used.push(enumeration);
+        }
+    }
+    used.into_iter()
+        .map(|Enumeration { name, doc, items }| SimpleType {
+            name,
+            description: doc,
+            items: (1..).zip(items).map(|(value, &(name, description))| Item { name, value, description }).collect(),
+        })
+        .collect()
+}
+
+fn variable(variable: &Variable) -> ScalarVariable {
+    let causality = match variable.causality {
+        Causality::Parameter => "parameter",
+        Causality::CalculatedParameter => "calculatedParameter",
+        Causality::Input => "input",
+        Causality::Output => "output",
+        Causality::Local => "local",
+    };
+    let variability = match variable.variability {
+        Variability::Fixed => "fixed",
+        Variability::Tunable => "tunable",
+        Variability::Discrete => "discrete",
+        Variability::Continuous => "continuous",
+    };
+    let initial = variable.initial.map(|initial| match initial {
+        Initial::Exact => "exact",
+        Initial::Calculated => "calculated",
+    });
+    ScalarVariable {
+        name: variable.name.clone(),
+        reference: variable.reference,
+        description: variable.doc.clone(),
+        causality,
+        variability,
+        initial,
+        kind: kind(&variable.kind),
+    }
+}
+
+fn kind(kind: &VariableKind) -> Kind {
+    match kind {
+        VariableKind::Real { unit, start, min, max, nominal, derivative_of } => Kind::Real(Real {
+            unit: unit.symbol,
+            min: min.map(number),
+            max: max.map(number),
+            nominal: nominal.map(number),
+            start: start.map(number),
+            derivative: derivative_of.map(|position| position + 1),
+        }),
+        VariableKind::Integer { start } => Kind::Integer(Start { start: *start }),
+        VariableKind::Boolean { start } => Kind::Boolean(Start { start: *start }),
+        VariableKind::Text { start } => Kind::String(Start { start: start.clone() }),
+        VariableKind::Choice { enumeration, start } => Kind::Enumeration(Choice {
+            declared_type: enumeration.name,
+            min: 1,
+            max: enumeration.items.len(),
+            start: *start,
+        }),
+    }
+}
+
+fn structure(interface: &Interface) -> ModelStructure {
+    let structure = &interface.structure;
+    let list = |unknowns: &[(usize, Vec<usize>)]| -> List<Unknown> {
+        let mut list: Vec<_> = unknowns.iter().map(unknown).collect();
+        list.sort_by_key(|unknown| unknown.index);
+        List { items: list }
+    };
+    ModelStructure {
+        outputs: list(&structure.outputs),
+        derivatives: list(&structure.derivatives),
+        initial_unknowns: list(&structure.initial_unknowns),
+    }
+}
+
+/// Positions count from zero, indices from one.
+fn unknown((position, dependencies): &(usize, Vec<usize>)) -> Unknown {
+    let mut indices: Vec<usize> = dependencies.iter().map(|position| position + 1).collect();
+    indices.sort_unstable();
+    let dependencies: Vec<String> = indices.into_iter().map(|index| index.to_string()).collect();
+    Unknown { index: position + 1, dependencies: dependencies.join(" ") }
+}
