@@ -235,3 +235,56 @@ impl<X: Array> Stepper<X> for Rodas5P<X> {
         Some(Trial { x: y, rates, error })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::SMatrix;
+
+    use super::*;
+
+    type Weights = SMatrix<f64, STAGES, STAGES>;
+
+    fn matrix(rows: &[[f64; STAGES - 1]; STAGES]) -> Weights {
+        Weights::from_fn(|i, j| if j < STAGES - 1 { rows[i][j] } else { 0.0 })
+    }
+
+    /// The increments of stages without a Jacobian are this matrix times h times their rates: the
+    /// coefficients then are those of an explicit Runge-Kutta method, which must fit together.
+    fn increments() -> Weights {
+        let gamma = Weights::from_diagonal_element(1.0 / GAMMA);
+        (gamma - matrix(&C))
+            .try_inverse()
+            .expect("a triangular matrix")
+    }
+
+    #[test]
+    fn times_are_the_row_sums() {
+        let by_time = increments().column_sum();
+        let times = (matrix(&A) * increments()).column_sum();
+        for i in 0..STAGES {
+            assert!((by_time[i] - BY_TIME[i]).abs() < 1e-13, "{i}");
+            assert!((times[i] - TIMES[i]).abs() < 1e-13, "{i}");
+        }
+    }
+
+    #[test]
+    fn weights_integrate_polynomials() {
+        let mut last = matrix(&A).row(STAGES - 1).into_owned();
+        last[STAGES - 1] = 1.0;
+        let weights = last * increments();
+        let error = increments().row(STAGES - 1).into_owned();
+        // Rates t^power: their derivative by time at the start is 1 for power 1, else 0.
+        let integral = |weights: &SMatrix<f64, 1, STAGES>, power: i32| -> f64 {
+            let slope = if power == 1 { 1.0 } else { 0.0 };
+            let rate = |i: usize| TIMES[i].powi(power) + slope * BY_TIME[i];
+            (0..STAGES).map(|i| weights[i] * rate(i)).sum()
+        };
+        for power in 0..5 {
+            assert!((integral(&weights, power) - 1.0 / f64::from(power + 1)).abs() < 1e-13);
+        }
+        for power in 0..4 {
+            assert!(integral(&error, power).abs() < 1e-13, "{power}");
+        }
+        assert!(integral(&error, 4).abs() > 1e-3);
+    }
+}

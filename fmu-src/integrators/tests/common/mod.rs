@@ -70,8 +70,7 @@ pub fn oscillator() -> Linear<2> {
     Linear([[0.0, 1.0], [-omega * omega, 0.0]])
 }
 
-/// Hairer & Wanner's pendulum-like test of order: x0' = x1^2 / x0 ..., not linear, autonomous, with
-/// the solution (exp(sin t), cos t, sin t) when started at (1, 1, 0).
+/// Autonomous and not linear; from (1, 1, 0) the solution is (exp(sin t), cos t, sin t).
 pub struct Curved;
 
 impl System<[f64; 3]> for Curved {
@@ -315,5 +314,21 @@ impl<A: Array, S: System<A>> System<A> for Watched<S, A> {
     fn jacobian(&mut self, t: f64, x: &A) -> (A::Square, A) {
         self.jacobians += 1;
         self.inner.jacobian(t, x)
+    }
+}
+
+/// A system given by its rates; the derivative by state is numerical, that by time left out.
+pub struct Scalar<F>(pub F);
+
+impl<F: FnMut(f64, f64) -> f64> System<[f64; 1]> for Scalar<F> {
+    fn rates(&mut self, t: f64, x: &[f64; 1]) -> [f64; 1] {
+        [(self.0)(t, x[0])]
+    }
+    fn jacobian(&mut self, t: f64, x: &[f64; 1]) -> (<[f64; 1] as Array>::Square, [f64; 1]) {
+        let d = 1e-6 * x[0].abs().max(1.0);
+        jacobian(
+            [[((self.0)(t, x[0] + d) - (self.0)(t, x[0] - d)) / (2.0 * d)]],
+            [0.0],
+        )
     }
 }
