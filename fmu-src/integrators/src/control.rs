@@ -1,5 +1,7 @@
 //! Whether a step was good enough, and how long the next one may be.
 
+use libm::pow;
+
 use crate::{array::Array, settings::Settings, system::System};
 
 /// What a method makes of one step.
@@ -128,7 +130,7 @@ impl<A: Array> Settings<A> {
         let step = if steepest <= 1e-15 {
             small
         } else {
-            (0.01 / steepest).powf(0.2).min(100.0 * small)
+            pow(0.01 / steepest, 0.2).min(100.0 * small)
         };
         // Not finite if the Euler step left the domain of the rates; `small` is what is left.
         if step > 0.0 { step.min(longest) } else { small }
@@ -138,16 +140,16 @@ impl<A: Array> Settings<A> {
 /// By what factor to change a step that was accepted; `previous` is the error of the one before.
 pub(crate) fn accepted_factor<A: Array, M: Stepper<A>>(squared: f64, previous: f64) -> f64 {
     // An error of zero gives infinity, and the longest step.
-    let plain = squared.powf(-0.5 * (0.2 - 0.75 * M::BETA));
+    let plain = pow(squared, -0.5 * (0.2 - 0.75 * M::BETA));
     let damped = if M::BETA == 0.0 {
         plain
     } else {
-        plain * previous.powf(M::BETA)
+        plain * pow(previous, M::BETA)
     };
     (SAFETY * damped).clamp(SHORTEN, LENGTHEN)
 }
 
 /// By what factor to shorten a step that was rejected.
 pub(crate) fn rejected_factor(squared: f64) -> f64 {
-    (SAFETY * squared.powf(-0.1)).clamp(SHORTEN, SAFETY)
+    (SAFETY * pow(squared, -0.1)).clamp(SHORTEN, SAFETY)
 }

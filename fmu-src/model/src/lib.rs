@@ -23,6 +23,7 @@ mod parameter_set;
 mod real;
 mod setting;
 mod simulation;
+mod tanh;
 pub mod unit;
 
 pub use bundle::{Bundle, Declaration, Declarations, Nothing};

@@ -19,7 +19,7 @@ pub fn noise(seed: u64, stream: u64, tick: u64) -> f64 {
     let spread = |number: u64| SplitMix64::from_seed(number.to_le_bytes()).next_u64();
     let mut pair = uniform(spread(spread(spread(seed) ^ stream) ^ tick));
     let (radius, angle) = (pair.next().unwrap_or(0.0), pair.next().unwrap_or(0.0));
-    (-2.0 * (1.0 - radius).ln()).sqrt() * (std::f64::consts::TAU * angle).cos()
+    (-2.0 * libm::log(1.0 - radius)).sqrt() * libm::cos(std::f64::consts::TAU * angle)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-use num_dual::{Dual64, DualNum, DualSVec64};
+use num_dual::{Dual64, DualSVec64};
 
 /// A real number, as equations see it.
 ///
@@ -76,6 +76,8 @@ pub trait Real:
     }
 }
 
+// The functions are in Rust, not the C library's: the same bits on every platform, and no
+// demand on the age of the C library.
 impl Real for f64 {
     #[inline]
     fn sqrt(self) -> Self {
@@ -83,19 +85,19 @@ impl Real for f64 {
     }
     #[inline]
     fn exp(self) -> Self {
-        self.exp()
+        libm::exp(self)
     }
     #[inline]
     fn sin(self) -> Self {
-        self.sin()
+        libm::sin(self)
     }
     #[inline]
     fn cos(self) -> Self {
-        self.cos()
+        libm::cos(self)
     }
     #[inline]
     fn tanh(self) -> Self {
-        self.tanh()
+        crate::tanh::tanh(self)
     }
     #[inline]
     fn select(self, then: Self, otherwise: Self) -> Self {
@@ -111,35 +113,43 @@ impl Real for f64 {
     }
 }
 
-/// The derivative-carrying scalars of num-dual: the functions are theirs, the choice between two
-/// values follows the value.
+/// A function's value at a dual number from the function's value and slope.
+macro_rules! chain {
+    ($number:expr, $value:expr, $slope:expr) => {{
+        let mut result = $number * $slope;
+        result.re = $value;
+        result
+    }};
+}
+
+/// The derivative-carrying scalars of num-dual: its arithmetic, our functions by the chain rule, and
+/// the choice between two values by the value.
 macro_rules! impl_real_for_dual {
     ($(#[$doc:meta])* [$($generics:tt)*] $dual:ty, $vanishing_derivative:expr) => {
         $(#[$doc])*
         impl<$($generics)*> Real for $dual {
             #[inline]
             fn sqrt(self) -> Self {
-                DualNum::sqrt(&self)
+                let root = self.re.sqrt();
+                chain!(self, root, 0.5 / root)
             }
             #[inline]
             fn exp(self) -> Self {
-                DualNum::exp(&self)
+                let power = Real::exp(self.re);
+                chain!(self, power, power)
             }
             #[inline]
             fn sin(self) -> Self {
-                DualNum::sin(&self)
+                chain!(self, Real::sin(self.re), Real::cos(self.re))
             }
             #[inline]
             fn cos(self) -> Self {
-                DualNum::cos(&self)
+                chain!(self, Real::cos(self.re), -Real::sin(self.re))
             }
             #[inline]
             fn tanh(self) -> Self {
-                // Not sinh/cosh, which overflow where the tangent is simply one.
-                let t = self.re.tanh();
-                let mut result = self * (1.0 - t * t);
-                result.re = t;
-                result
+                let tangent = Real::tanh(self.re);
+                chain!(self, tangent, 1.0 - tangent * tangent)
             }
             #[inline]
             fn select(self, then: Self, otherwise: Self) -> Self {
@@ -153,11 +163,7 @@ macro_rules! impl_real_for_dual {
             #[inline]
             fn lookup<const N: usize>(self, functions: impl Fn(f64) -> ([f64; N], [f64; N])) -> [Self; N] {
                 let (values, slopes) = functions(self.re);
-                std::array::from_fn(|i| {
-                    let mut result = self * slopes[i];
-                    result.re = values[i];
-                    result
-                })
+                std::array::from_fn(|i| chain!(self, values[i], slopes[i]))
             }
         }
     };
