@@ -1,0 +1,3 @@
+//! FourWheelRoad as an FMU.
+
+strut_fmi2::export_fmu!(strut_physics::roads::FourWheelRoad);

@@ -1,0 +1,56 @@
+//! Coulomb friction with a smooth zero crossing.
+
+use strut_model::{Real, Variables};
+
+/// Dry friction, TUM eq. 12: `F = F̂_f tanh(Δv k_f)` with `force` = F̂_f and `velocity` = 1/k_f.
+///
+/// Without force it costs one question and no tanh.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct Coulomb<R> {
+    /// Friction force once the motion is fast (F̂_f); zero switches the friction off
+    #[var(unit = N, start = 0.0, min = 0.0)]
+    pub force: R,
+    /// Velocity at which 76 % of the force is reached (1/k_f)
+    #[var(unit = M_PER_S, start = 0.008, min = 1e-6)]
+    pub velocity: R,
+}
+
+impl<R: Real> Coulomb<R> {
+    /// The force that resists `velocity`.
+    #[inline]
+    pub fn resistance(&self, velocity: R) -> R {
+        if self.force.vanishes() {
+            return R::from(0.0);
+        }
+        self.force * (velocity / self.velocity).tanh()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Table 10: 115 N, k_f = 125 s/m.
+    const STRUT: Coulomb<f64> = Coulomb { force: 115.0, velocity: 1.0 / 125.0 };
+
+    #[test]
+    fn at_one_over_k_f_it_is_tanh_of_one() {
+        assert!((STRUT.resistance(0.008) - 115.0 * 1.0_f64.tanh()).abs() < 1e-12);
+        assert_eq!(STRUT.resistance(0.0), 0.0);
+    }
+
+    proptest! {
+        #[test]
+        fn it_is_odd_bounded_and_takes_energy(v in -5.0..5.0_f64) {
+            let force = STRUT.resistance(v);
+            prop_assert_eq!(force, -STRUT.resistance(-v));
+            prop_assert!(force.abs() <= 115.0 && force * v >= 0.0);
+        }
+
+        #[test]
+        fn without_force_it_is_absent(v in -5.0..5.0_f64) {
+            prop_assert_eq!(Coulomb { force: 0.0, velocity: 0.008 }.resistance(v), 0.0);
+        }
+    }
+}

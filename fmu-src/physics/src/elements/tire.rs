@@ -1,0 +1,77 @@
+//! The tyre between wheel and road.
+
+use strut_model::{Real, Variables};
+
+use crate::effects::{Coulomb, LiftOff, Quadratic};
+
+/// Tyre, TUM eq. 5 with the quadratic rate (4.3.2) and the friction of Table 7:
+/// `F = c_w c + b c² + d_w ċ + F̂ tanh(ċ k_f)` with the compression c = x_g − x_w.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct Tire<R> {
+    /// Rate at static equilibrium (c_w, K_us, k_1, k_r)
+    #[var(unit = N_PER_M, start = 200e3, min = 1.0)]
+    pub stiffness: R,
+    /// Quadratic rate; zero makes the tyre linear
+    #[var(unit = N_PER_M2, start = 0.0)]
+    pub quadratic: R,
+    /// Damping rate (d_w, B_us, b_1)
+    #[var(unit = N_S_PER_M, start = 50.0, min = 0.0)]
+    pub damping: R,
+    /// Friction
+    pub coulomb: Coulomb<R>,
+}
+
+impl<R: Real> Tire<R> {
+    /// The force that presses on the road, less the static load, while the tyre cannot leave it.
+    #[inline]
+    pub fn force(&self, compression: R, velocity: R) -> R {
+        self.spring().force(compression) + self.damping * velocity + self.coulomb.resistance(velocity)
+    }
+
+    /// Where and with what the tyre leaves the road under a static load.
+    #[inline]
+    pub fn lift_off(&self, load: R) -> LiftOff<R> {
+        LiftOff { load, compression: self.spring().compression_at_relief(load) }
+    }
+
+    /// The spring alone.
+    #[inline]
+    pub fn spring(&self) -> Quadratic<R> {
+        Quadratic { stiffness: self.stiffness, quadratic: self.quadratic }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn tire(quadratic: f64, friction: f64) -> Tire<f64> {
+        Tire {
+            stiffness: 152_140.0,
+            quadratic,
+            damping: 50.0,
+            coulomb: Coulomb { force: friction, velocity: 0.008 },
+        }
+    }
+
+    #[test]
+    fn table_10_lifts_off_near_10_7_millimetres() {
+        let lift_off = tire(4_075_400.0, 0.0).lift_off((94.38 + 23.92) * crate::GRAVITY);
+        assert!((lift_off.load - 1160.127).abs() < 1e-3);
+        assert!((lift_off.compression + 10.682e-3).abs() < 1e-6);
+    }
+
+    proptest! {
+        #[test]
+        fn with_neutral_effects_it_is_equation_5(c in -0.05..0.05_f64, v in -2.0..2.0_f64) {
+            prop_assert!((tire(0.0, 0.0).force(c, v) - (152_140.0 * c + 50.0 * v)).abs() < 1e-9);
+        }
+
+        #[test]
+        fn what_is_not_spring_takes_energy(c in -0.05..0.05_f64, v in -2.0..2.0_f64) {
+            let tire = tire(4_075_400.0, 60.0);
+            prop_assert!((tire.force(c, v) - tire.force(c, 0.0)) * v >= 0.0);
+        }
+    }
+}

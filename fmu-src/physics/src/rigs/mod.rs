@@ -1,0 +1,5 @@
+//! Plants: masses and what holds them together.
+
+mod quarter_car;
+
+pub use quarter_car::QuarterCar;

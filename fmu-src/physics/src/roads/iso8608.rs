@@ -1,0 +1,157 @@
+//! Random roads with the power spectral densities of ISO 8608.
+
+use std::f64::consts::TAU;
+
+use strut_model::{Choice, Lanes, Real, uniform};
+
+use super::profile::HeightAndSlope;
+
+/// Class of a road, from very good to impassable.
+#[derive(Choice, Clone, Copy, Debug, PartialEq)]
+pub enum IsoClass {
+    /// Gd(n0) = 16e-6 m³
+    A,
+    /// Gd(n0) = 64e-6 m³
+    B,
+    /// Gd(n0) = 256e-6 m³
+    C,
+    /// Gd(n0) = 1024e-6 m³
+    D,
+    /// Gd(n0) = 4096e-6 m³
+    E,
+    /// Gd(n0) = 16384e-6 m³
+    F,
+    /// Gd(n0) = 65536e-6 m³
+    G,
+    /// Gd(n0) = 262144e-6 m³
+    H,
+}
+
+impl IsoClass {
+    /// Displacement density Gd(n0) in m³ at the reference n0 = 0.1 cycles/m: the geometric mean of the class.
+    pub fn roughness(self) -> f64 {
+        16e-6 * 4_f64.powi(self as i32)
+    }
+}
+
+/// Number of waves. A multiple of the number of lanes.
+const WAVES: usize = 256;
+/// Lowest and highest spatial frequency in cycles/m, as ISO 8608 reports them.
+const LOWEST: f64 = 0.011;
+const HIGHEST: f64 = 2.83;
+/// Reference spatial frequency n0 in cycles/m.
+const REFERENCE: f64 = 0.1;
+
+/// One track of a random road: a sum of waves with random phases whose power in every band is that of
+/// `Gd(n) = Gd(n0) (n/n0)^−2`.
+///
+/// Bands are logarithmic; a wave stands at the geometric mean n_i of its band, whose width is Δn_i, and has
+/// the amplitude √(2 Gd(n_i) Δn_i), with which it has just the power of the band: for an exponent of −2 the
+/// density at the geometric mean times the width is the integral.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IsoTrack {
+    waves: Vec<Waves>,
+    /// Height at the start, which is subtracted: a rig starts at rest on the road.
+    origin: f64,
+}
+
+/// As many waves as there are lanes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Waves {
+    /// In rad/m.
+    wave_number: Lanes,
+    phase: Lanes,
+    amplitude: Lanes,
+}
+
+impl IsoTrack {
+    /// Track number `track` of a seed: tracks of a seed use its random numbers one after the other.
+    pub fn new(class: IsoClass, seed: i32, track: usize) -> Self {
+        // The bits of the seed, so that every number is a seed of its own.
+        let mut random = uniform(i64::from(seed) as u64).skip(track * WAVES);
+        let end = |i: usize| LOWEST * (HIGHEST / LOWEST).powf(i as f64 / WAVES as f64);
+        let waves: Vec<[f64; 3]> = (0..WAVES)
+            .map(|i| {
+                let (low, high) = (end(i), end(i + 1));
+                let centre = (low * high).sqrt();
+                let density = class.roughness() * (centre / REFERENCE).powi(-2);
+                let phase = TAU * random.next().unwrap_or(0.0);
+                [TAU * centre, phase, (2.0 * density * (high - low)).sqrt()]
+            })
+            .collect();
+        let waves = waves
+            .chunks_exact(Lanes::COUNT)
+            .map(|chunk| {
+                let part = |which: usize| Lanes::new(std::array::from_fn(|lane| chunk[lane][which]));
+                Waves { wave_number: part(0), phase: part(1), amplitude: part(2) }
+            })
+            .collect();
+        let mut track = Self { waves, origin: 0.0 };
+        track.origin = track.shape(0.0)[0];
+        track
+    }
+
+    /// Height above the starting point and slope after a distance in metres.
+    pub(super) fn at<R: Real>(&self, distance: R) -> HeightAndSlope<R> {
+        let [height, slope] = distance.lookup(|distance| {
+            let [height, slope, curvature] = self.shape(distance);
+            ([height - self.origin, slope], [slope, curvature])
+        });
+        HeightAndSlope(height, slope)
+    }
+
+    /// Height, slope and curvature.
+    fn shape(&self, distance: f64) -> [f64; 3] {
+        let mut sums = [Lanes::from(0.0); 3];
+        for Waves { wave_number, phase, amplitude } in &self.waves {
+            let angle = *wave_number * distance + *phase;
+            let (height, slope) = (*amplitude * angle.sin(), *amplitude * *wave_number * angle.cos());
+            sums[0] += height;
+            sums[1] += slope;
+            sums[2] -= wave_number.squared() * height;
+        }
+        sums.map(|sum| sum.to_array().into_iter().sum())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn classes_quadruple_from_16_to_262144() {
+        assert_eq!(IsoClass::A.roughness(), 16e-6);
+        assert!((IsoClass::H.roughness() - 262_144e-6).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_power_is_the_integral_of_the_density() {
+        let track = IsoTrack::new(IsoClass::A, 3, 0);
+        let power: f64 = track.waves.iter().flat_map(|wave| wave.amplitude.to_array()).map(|a| 0.5 * a * a).sum();
+        // ∫ Gd(n0) n0² n⁻² dn.
+        let exact = 16e-6 * REFERENCE.powi(2) * (1.0 / LOWEST - 1.0 / HIGHEST);
+        assert!((power / exact - 1.0).abs() < 1e-12);
+    }
+
+    proptest! {
+        #[test]
+        fn four_times_the_density_is_twice_the_height(s in 0.0..300.0_f64, seed in any::<i32>()) {
+            let [a, b] = [IsoClass::A, IsoClass::B].map(|class| IsoTrack::new(class, seed, 0).at(s));
+            prop_assert!((2.0 * a.0 - b.0).abs() < 1e-12);
+        }
+
+        #[test]
+        fn seeds_and_tracks_differ_and_repeat(s in 1.0..300.0_f64, seed in -1000..1000_i32) {
+            let height = |seed: i32, track: usize| IsoTrack::new(IsoClass::C, seed, track).at(s).0;
+            prop_assert_eq!(height(seed, 0), height(seed, 0));
+            prop_assert_ne!(height(seed, 0), height(seed, 1));
+            prop_assert_ne!(height(seed, 0), height(seed + 1, 0));
+        }
+    }
+
+    #[test]
+    fn the_start_is_at_zero() {
+        assert_eq!(IsoTrack::new(IsoClass::D, 1, 0).at(0.0).0, 0.0);
+    }
+}
