@@ -13,7 +13,7 @@ pub(crate) fn tanh(x: f64) -> f64 {
         let z = x * x;
         let p = (-9.643_991_794_250_523e-1 * z - 9.928_772_310_019_185e1) * z - 1.614_687_684_417_084_5e3;
         let q = ((z + 1.128_116_784_916_329_3e2) * z + 2.235_488_390_601_004_5e3) * z + 4.844_063_053_251_255e3;
-        return x + x * z * p / q;
+        return (x + x * z * p / q).copysign(x);
     }
     // Beyond, 1 − tanh is below half a unit of rounding. NaN ends up here and stays NaN.
     if !(a < 20.0) {
