@@ -1,0 +1,127 @@
+//! The FMU's resources: where they are, and the parameter set in them.
+
+use std::{
+    ffi::{CStr, c_void},
+    io::ErrorKind,
+    path::{Path, PathBuf},
+};
+
+use strut_model::{Interface, Model, ParameterSet};
+
+use crate::{log::Failure, pointer, types::Text, uri};
+
+/// Name of the parameter set in the resources; without it the declared start values hold.
+const PARAMETER_SET: &str = "parameters.toml";
+
+/// What an instance is made from, each time that it is reset.
+#[derive(Debug)]
+pub struct Origin {
+    /// Folder of the resources.
+    pub resources: Option<PathBuf>,
+    /// The parameter set in it.
+    pub set: Option<ParameterSet>,
+    /// The identifier of model and parameter set.
+    pub guid: String,
+}
+
+impl Origin {
+    /// Reads the resources and checks that they belong to the description that the host has read.
+    ///
+    /// # Safety
+    /// Each text is null or ends with a zero.
+    pub unsafe fn find<M: Model>(guid: Text, location: Text, library: *const c_void) -> Result<Self, Failure> {
+        // SAFETY: by the caller.
+        let guid = pointer::utf8(unsafe { pointer::text(guid, "fmuGUID") }?, "fmuGUID")?;
+        let location = if location.is_null() {
+            ""
+        } else {
+            // SAFETY: by the caller.
+            pointer::utf8(unsafe { pointer::text(location, "fmuResourceLocation") }?, "fmuResourceLocation")?
+        };
+        let resources = if location.is_empty() {
+            beside_library(library)
+        } else {
+            Some(uri::to_path(location).map_err(Failure::error)?)
+        };
+        let set = resources.as_deref().map(read).transpose().map_err(Failure::error)?.flatten();
+        let expected = Interface::of::<M>(set.as_ref(), resources.as_deref())?.guid();
+        let origin = Self { resources, set, guid: expected };
+        if guid == origin.guid { Ok(origin) } else { Err(origin.stranger(guid, M::ABOUT.name)) }
+    }
+
+    /// Says that description, library and parameter set do not belong together.
+    fn stranger(&self, guid: &str, model: &str) -> Failure {
+        let start_values = match (&self.resources, &self.set) {
+            (Some(folder), Some(_)) => format!("the start values of {}", folder.join(PARAMETER_SET).display()),
+            (Some(folder), None) => {
+                format!("its declared start values, as there is no {PARAMETER_SET} in {}", folder.display())
+            }
+            (None, _) => "its declared start values, as no resource location was given".into(),
+        };
+        Failure::error(format!(
+            "the GUID {guid:?} is not {:?}, that of {model} with {start_values}: modelDescription.xml, library and \
+             {PARAMETER_SET} do not belong together; take all of them from one and the same FMU",
+            self.guid
+        ))
+    }
+}
+
+/// The parameter set in a folder, if there is one.
+fn read(folder: &Path) -> Result<Option<ParameterSet>, String> {
+    let path = folder.join(PARAMETER_SET);
+    match std::fs::read_to_string(&path) {
+        Ok(text) => ParameterSet::parse(&text).map(Some).map_err(|error| {
+            format!("{} is no parameter set: {error}; unpack the FMU again or repair the file", path.display())
+        }),
+        Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => Ok(None),
+        Err(error) => Err(format!("{} cannot be read: {error}; check the permissions of the unpacked FMU", path.display())),
+    }
+}
+
+/// The resources of the FMU that the library with this address was unpacked with: it is in
+/// `binaries/<platform>`.
+#[cfg(unix)]
+fn beside_library(address: *const c_void) -> Option<PathBuf> {
+    use std::{ffi::OsStr, mem::MaybeUninit, os::unix::ffi::OsStrExt};
+
+    let mut info = MaybeUninit::<libc::Dl_info>::zeroed();
+    // SAFETY: `dladdr` takes any address and writes to `info`, for which zeros are valid too.
+    let info = unsafe {
+        if libc::dladdr(address, info.as_mut_ptr()) == 0 {
+            return None;
+        }
+        info.assume_init()
+    };
+    if info.dli_fname.is_null() {
+        return None;
+    }
+    // SAFETY: the loader's name of the library ends with a zero and lives as long as the library.
+    let name = unsafe { CStr::from_ptr(info.dli_fname) };
+    let folder = Path::new(OsStr::from_bytes(name.to_bytes())).parent()?.join("../../resources");
+    folder.is_dir().then_some(folder)
+}
+
+/// Elsewhere a library is not asked where it is.
+#[cfg(not(unix))]
+fn beside_library(_: *const c_void) -> Option<PathBuf> {
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parameter_set_may_be_absent_but_not_broken() {
+        let folder = tempfile::tempdir().unwrap();
+        assert_eq!(read(folder.path()), Ok(None));
+        assert_eq!(read(&folder.path().join("nowhere")), Ok(None));
+        let path = folder.path().join(PARAMETER_SET);
+        std::fs::write(&path, "fmu = [").unwrap();
+        let error = read(folder.path()).unwrap_err();
+        assert!(error.contains(path.to_str().unwrap()) && error.contains("TOML"), "{error}");
+        std::fs::remove_file(&path).unwrap();
+        std::fs::create_dir(&path).unwrap();
+        assert!(read(folder.path()).unwrap_err().contains("cannot be read"));
+    }
+}
