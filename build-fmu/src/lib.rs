@@ -1,1 +1,99 @@
-//! The packager.
+//! The packager: models become FMUs, compositions of them become SSPs.
+//!
+//! An FMU is a zip archive of a shared library, its description and its documentation. The library is
+//! built by cargo; the description comes from the same declarations that the library was compiled from,
+//! which are linked into this program. Nothing is loaded to be asked for its variables, so that FMUs for
+//! any platform can be made on any other.
+//!
+//! A project hands its models to [`main`]:
+//!
+//! ```no_run
+//! use build_fmu::{Project, Source};
+//!
+//! let project = Project {
+//!     catalogue: strut_physics::CATALOGUE,
+//!     parameter_sets: strut_physics::PARAMETER_SETS,
+//!     systems: strut_physics::SYSTEMS,
+//!     source: Source::Workspace { files: "fmu-src/physics/parameters" },
+//!     license: "MIT",
+//! };
+//! build_fmu::main(&project);
+//! ```
+//!
+//! # A model of one's own
+//!
+//! `build-fmu --manifest-path my-model/Cargo.toml` packs a model of a crate outside this workspace. The
+//! crate exports the functions of FMI and a constant with its declarations:
+//!
+//! ```ignore
+//! strut_fmi2::export_fmu!(MyModel);
+//! pub const ENTRY: strut_model::Entry = strut_model::Entry::of::<MyModel>();
+//! ```
+//! A packager for it, a few lines long, is generated under the target folder and run: a program
+//! that links the crate knows its declarations, for whatever platform the library itself is built.
+
+mod archive;
+mod cargo;
+mod cli;
+mod documentation;
+mod failure;
+mod fmu;
+mod foreign;
+mod icon;
+mod plan;
+mod platform;
+mod plot;
+mod run;
+mod system;
+mod table;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use strut_model::Entry;
+
+/// What there is to build.
+#[derive(Clone, Copy, Debug)]
+pub struct Project<'a> {
+    /// The models.
+    pub catalogue: &'a [Entry],
+    /// File name and text of each parameter set; each gives an FMU.
+    pub parameter_sets: &'a [(&'a str, &'a str)],
+    /// File name and text of each system.
+    pub systems: &'a [(&'a str, &'a str)],
+    /// Where the libraries come from.
+    pub source: Source<'a>,
+    /// Text of the license; its first line goes into the descriptions.
+    pub license: &'a str,
+}
+
+/// Where cargo finds the libraries of models.
+#[derive(Clone, Copy, Debug)]
+pub enum Source<'a> {
+    /// In the workspace around: the library of `QuarterCar` is made by the package `fmu-quarter-car`.
+    Workspace {
+        /// The folder of the files that parameter sets bring, from the workspace's root.
+        files: &'a str,
+    },
+    /// In one package.
+    Package {
+        /// Its manifest.
+        manifest: &'a str,
+        /// Its name.
+        name: &'a str,
+    },
+}
+
+/// Builds what the command line asks for; failures are told on stderr.
+///
+/// The exit code is 0, 1 after a failure, and 2 if the command line was not understood.
+pub fn main(project: &Project) -> ExitCode {
+    let arguments = cli::Arguments::parse();
+    match run::run(project, &arguments) {
+        Ok(code) => code,
+        Err(failure) => {
+            eprintln!("{failure}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! Cargo builds the libraries.
+
+use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use cargo_metadata::{CrateType, Message, Metadata, MetadataCommand};
+
+use crate::failure::{Failure, Result, similar};
+use crate::platform::Platform;
+
+/// The program that runs us, or the one in the path.
+pub fn program() -> OsString {
+    std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
+}
+
+/// What cargo knows about a manifest.
+///
+/// # Errors
+/// If there is none or it is broken: in cargo's words.
+pub fn metadata(manifest: Option<&Path>) -> Result<Metadata> {
+    let mut command = MetadataCommand::new();
+    if let Some(manifest) = manifest {
+        command.manifest_path(manifest);
+    }
+    command.no_deps().exec().map_err(|error| match error {
+        cargo_metadata::Error::CargoMetadata { stderr } => {
+            Failure::new(format!("cargo does not understand the manifest\n{}", stderr.trim()))
+        }
+        other => Failure::new(format!("cannot ask cargo for the packages: {other}")),
+    })
+}
+
+/// The manifest of the workspace: where `cargo run` found us, else above the working folder.
+pub fn workspace_manifest() -> Option<PathBuf> {
+    std::env::var_os("CARGO_MANIFEST_DIR").map(|folder| PathBuf::from(folder).join("Cargo.toml")).filter(|it| it.exists())
+}
+
+/// The libraries of packages, by package name.
+pub type Libraries = BTreeMap<String, PathBuf>;
+
+/// Builds the shared libraries of packages for a platform (none: for this machine), in one go.
+///
+/// # Errors
+/// If a package is missing, the target is not installed, or the build fails.
+pub fn build(metadata: &Metadata, packages: &[String], platform: Option<&Platform>) -> Result<Libraries> {
+    for package in packages {
+        if !metadata.packages.iter().any(|other| other.name.as_str() == package) {
+            let names = metadata.packages.iter().map(|package| package.name.as_str());
+            let failure = Failure::new(format!("there is no package `{package}` in `{}`", metadata.workspace_root))
+                .help("every model is built by a package of its own, `fmu-` and the model's name in kebab-case");
+            return Err(match similar(package, names.filter(|name| name.starts_with("fmu-"))) {
+                Some(help) => failure.help(help),
+                None => failure,
+            });
+        }
+    }
+    let mut command = Command::new(program());
+    let zig = platform.is_some_and(|platform| platform.glibc);
+    command.arg(if zig { "zigbuild" } else { "build" });
+    command.args(["--release", "--lib", "--message-format=json-render-diagnostics", "--manifest-path"]);
+    command.arg(metadata.workspace_root.join("Cargo.toml"));
+    for package in packages {
+        command.args(["--package", package]);
+    }
+    if let Some(platform) = platform {
+        check_installed(platform)?;
+        command.args(["--target", &platform.given]);
+    }
+    let failed = |error: std::io::Error| Failure::new(format!("cannot run cargo: {error}"));
+    let mut child = command.stdout(Stdio::piped()).spawn().map_err(failed)?;
+    let output = child.stdout.take().expect("the output was asked for");
+    let mut libraries = Libraries::new();
+    for message in Message::parse_stream(BufReader::new(output)) {
+        if let Message::CompilerArtifact(artifact) = message.map_err(failed)?
+            && artifact.target.crate_types.contains(&CrateType::CDyLib)
+            && let Some(package) = metadata.packages.iter().find(|package| package.id == artifact.package_id)
+            && let Some(file) = artifact.filenames.iter().find(|file| {
+                matches!(file.extension(), Some("so" | "dll" | "dylib"))
+            })
+        {
+            libraries.insert(package.name.to_string(), file.clone().into());
+        }
+    }
+    if !child.wait().map_err(failed)?.success() {
+        return Err(Failure::new("the libraries cannot be built; cargo says why above"));
+    }
+    match packages.iter().find(|package| !libraries.contains_key(*package)) {
+        None => Ok(libraries),
+        Some(package) => Err(Failure::new(format!("package `{package}` makes no shared library"))
+            .help("its Cargo.toml needs `[lib]` with `crate-type = [\"cdylib\"]` (add \"rlib\" for a model of your own)")),
+    }
+}
+
+/// A target that is not there is found out before cargo fails on the first crate.
+fn check_installed(platform: &Platform) -> Result<()> {
+    let Platform { given, triple, glibc, .. } = platform;
+    // Who builds the standard library along with the rest needs none for the target.
+    if std::env::var_os("CARGO_UNSTABLE_BUILD_STD").is_none() {
+        let sysroot = rustc(&["--print", "sysroot"])?;
+        if !Path::new(sysroot.trim()).join("lib/rustlib").join(triple).join("lib").is_dir() {
+            let targets = rustc(&["--print", "target-list"])?;
+            if targets.lines().any(|target| target == triple) {
+                return Err(Failure::new(format!("the target `{triple}` is not installed"))
+                    .help(format!("run `rustup target add {triple}`")));
+            }
+            let failure = Failure::new(format!("rustc knows no target `{triple}`"));
+            let help = similar(triple, targets.lines());
+            return Err(help.into_iter().fold(failure, Failure::help));
+        }
+    }
+    if *glibc && !Command::new("cargo-zigbuild").arg("--version").output().is_ok_and(|output| output.status.success()) {
+        return Err(Failure::new(format!("building for the glibc of `{given}` needs cargo-zigbuild"))
+            .help("run `pip install ziglang cargo-zigbuild`, or build without the version"));
+    }
+    Ok(())
+}
+
+fn rustc(arguments: &[&str]) -> Result<String> {
+    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    match Command::new(rustc).args(arguments).output() {
+        Ok(output) if output.status.success() => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
+        Ok(output) => Err(Failure::new(format!("rustc fails: {}", String::from_utf8_lossy(&output.stderr).trim()))),
+        Err(error) => Err(Failure::new(format!("cannot run rustc: {error}"))),
+    }
+}
+
+/// The target of this machine.
+///
+/// # Errors
+/// If rustc does not run.
+pub fn host() -> Result<Platform> {
+    let version = rustc(&["-vV"])?;
+    let host = version.lines().find_map(|line| line.strip_prefix("host: "));
+    Platform::of(host.ok_or_else(|| Failure::new("rustc does not tell its host"))?)
+}
+
+/// `QuarterCar` is built by the package `fmu-quarter-car`.
+pub fn package_of(model: &str) -> String {
+    let mut name = String::from("fmu");
+    for c in model.chars() {
+        if c.is_ascii_uppercase() {
+            name.push('-');
+        }
+        name.push(c.to_ascii_lowercase());
+    }
+    name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn packages_are_named_after_their_model() {
+        assert_eq!(package_of("QuarterCar"), "fmu-quarter-car");
+        assert_eq!(package_of("ForceTwoDofLpv"), "fmu-force-two-dof-lpv");
+    }
+}

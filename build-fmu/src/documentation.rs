@@ -1,0 +1,131 @@
+//! The page that an FMU brings along.
+
+pub mod tables;
+
+use maud::{DOCTYPE, Markup, html};
+use strut_model::{About, Interface, Stimulus, Trajectory};
+
+use crate::fmu::Fmu;
+use crate::plot;
+
+/// What a page is about.
+pub struct Page<'a> {
+    /// The FMU.
+    pub fmu: &'a Fmu,
+    /// Its variables.
+    pub interface: &'a Interface,
+    /// Its default experiment.
+    pub trajectory: &'a Trajectory,
+}
+
+/// The page as well-formed HTML with nothing outside but the icon.
+pub fn html(page: &Page) -> String {
+    let Page { fmu, interface, .. } = page;
+    let about = fmu.entry.about;
+    let (inputs, outputs) = Fmu::ports(interface);
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (fmu.name) }
+                style { (maud::PreEscaped(include_str!("documentation/style.css"))) }
+            }
+            body {
+                header {
+                    img src="../model.png" alt=(about.kind.name()) width="72" height="72";
+                    div {
+                        h1 { (fmu.name) span.kind { (about.kind.name()) } }
+                        p.title { (fmu.title()) }
+                    }
+                }
+                p.facts {
+                    span { "FMI 2.0 co-simulation and model exchange" }
+                    span { (count(inputs, "input")) }
+                    span { (count(outputs, "output")) }
+                    span { (count(interface.states, "state")) }
+                    span { code { (interface.guid()) } }
+                }
+                @if fmu.set.is_some() {
+                    p { "The model " code { (about.name) } " with a published parameter set. " (about.summary) }
+                }
+                (equations(&about))
+                (notes(&about))
+                (experiment(page))
+                (tables::parameter_set(page))
+                (tables::variables(page))
+            }
+        }
+    }
+    .into_string()
+}
+
+fn count(number: usize, of: &str) -> String {
+    match number {
+        0 => format!("no {of}s"),
+        1 => format!("1 {of}"),
+        _ => format!("{number} {of}s"),
+    }
+}
+
+fn equations(about: &About) -> Markup {
+    html! {
+        @if !about.equations.is_empty() {
+            section {
+                h2 { "Equations" }
+                table.equations {
+                    @for equation in about.equations {
+                        tr { td { pre { (equation.text) } } td.source { (equation.source) } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn notes(about: &About) -> Markup {
+    html! {
+        @if !about.notes.is_empty() {
+            section {
+                h2 { "Notes" }
+                ul { @for note in about.notes { li { (note) } } }
+            }
+        }
+    }
+}
+
+fn experiment(page: &Page) -> Markup {
+    let experiment = page.fmu.entry.about.experiment;
+    let unit = |name: &str| {
+        page.trajectory.signals.iter().find(|(other, ..)| other == name).map_or_else(String::new, |(_, unit, _)| tables::printed(unit))
+    };
+    html! {
+        @if !page.trajectory.signals.is_empty() {
+            section {
+                h2 { "Default experiment" }
+                p {
+                    (tables::number(experiment.stop)) " s in steps of " (tables::number(experiment.step)) " s"
+                    @if experiment.stimuli.is_empty() { "; the inputs rest." }
+                    @for (index, (name, stimulus)) in experiment.stimuli.iter().enumerate() {
+                        @if index == 0 { "; " } @else { ", " }
+                        code { (name) } " " (words(*stimulus, &unit(name)))
+                    }
+                    @if !experiment.stimuli.is_empty() { "." }
+                }
+                (plot::svg(page.trajectory))
+            }
+        }
+    }
+}
+
+fn words(stimulus: Stimulus, unit: &str) -> String {
+    let n = tables::number;
+    match stimulus {
+        Stimulus::Step { at, height } => format!("steps to {} {unit} at {} s", n(height), n(at)),
+        Stimulus::Sine { amplitude, frequency } => format!("is a sine of {} {unit} at {} Hz", n(amplitude), n(frequency)),
+        Stimulus::Cosine { amplitude, frequency } => {
+            format!("is a cosine of {} {unit} at {} Hz", n(amplitude), n(frequency))
+        }
+    }
+}

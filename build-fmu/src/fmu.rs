@@ -1,0 +1,160 @@
+//! An FMU: a model, perhaps with a parameter set, and its archive.
+
+use std::path::PathBuf;
+
+use strut_model::{Causality, Entry, Error, Interface, ParameterSet};
+use strut_model_description::Header;
+
+use crate::archive::Archive;
+use crate::documentation::{self, Page};
+use crate::failure::{Failure, Result};
+use crate::{icon, platform::Platform};
+
+/// A published parameter set with where it comes from.
+#[derive(Clone, Debug)]
+pub struct Set {
+    /// As read.
+    pub parsed: ParameterSet,
+    /// Verbatim.
+    pub text: String,
+    /// Where its files are.
+    pub folder: PathBuf,
+}
+
+/// What an FMU is made of.
+#[derive(Clone, Debug)]
+pub struct Fmu {
+    /// Its name, and the name of the library in it.
+    pub name: String,
+    /// The model.
+    pub entry: Entry,
+    /// The parameter set; none for the model's own start values.
+    pub set: Option<Set>,
+}
+
+/// A packed FMU.
+#[derive(Clone, Debug)]
+pub struct Packed {
+    /// The archive.
+    pub bytes: Vec<u8>,
+    /// What it offers.
+    pub interface: Interface,
+}
+
+impl Fmu {
+    /// What it is, in one sentence.
+    pub fn title(&self) -> &str {
+        self.set.as_ref().map_or(self.entry.about.summary, |set| &set.parsed.title)
+    }
+
+    /// Its variables with the start values of its parameter set.
+    ///
+    /// # Errors
+    /// If the parameter set does not fit the model.
+    pub fn interface(&self) -> Result<Interface> {
+        self.entry.interface(self.parsed(), self.folder()).map_err(|error| self.refused(&error))
+    }
+
+    /// Numbers of inputs and outputs.
+    pub fn ports(interface: &Interface) -> (usize, usize) {
+        let count = |causality| interface.variables.iter().filter(|variable| variable.causality == causality).count();
+        (count(Causality::Input), count(Causality::Output))
+    }
+
+    /// The archive, with a library for each platform.
+    ///
+    /// # Errors
+    /// If the parameter set does not fit the model, a file of it is missing, or the default experiment
+    /// fails.
+    pub fn pack(&self, libraries: &[(Platform, Vec<u8>)], license: &str) -> Result<Packed> {
+        let interface = self.interface()?;
+        let about = self.entry.about;
+        let trajectory =
+            self.entry.demonstrate(self.parsed(), self.folder()).map_err(|error| self.refused(&error))?;
+        let generated = generation_time();
+        let header = Header {
+            name: &self.name,
+            description: self.title(),
+            license: license.lines().next().unwrap_or_default(),
+            generated: generated.as_deref(),
+            ..Header::default()
+        };
+        let mut archive = Archive::default();
+        archive.add("modelDescription.xml", strut_model_description::write(&interface, &header));
+        archive.add("model.png", icon::png(about.kind));
+        for (platform, library) in libraries {
+            archive.add_library(format!("binaries/{}/{}{}", platform.folder, self.name, platform.ending), library.as_slice());
+        }
+        let page = Page { fmu: self, interface: &interface, trajectory: &trajectory };
+        archive.add("documentation/index.html", documentation::html(&page));
+        if !license.is_empty() {
+            archive.add("documentation/licenses/LICENSE.txt", license);
+        }
+        if let Some(set) = &self.set {
+            archive.add("resources/parameters.toml", set.text.as_str());
+            for file in &set.parsed.files {
+                archive.add(format!("resources/{file}"), self.resource(set, file)?);
+            }
+        }
+        Ok(Packed { bytes: archive.bytes(), interface })
+    }
+
+    fn parsed(&self) -> Option<&ParameterSet> {
+        self.set.as_ref().map(|set| &set.parsed)
+    }
+
+    fn folder(&self) -> Option<&std::path::Path> {
+        self.set.as_ref().map(|set| set.folder.as_path())
+    }
+
+    fn resource(&self, set: &Set, file: &str) -> Result<Vec<u8>> {
+        // A name that climbs out of the archive's folder would be written over someone else's file.
+        let escapes = file.split(['/', '\\']).any(|part| part.is_empty() || part == "..");
+        if escapes || file == "parameters.toml" {
+            return Err(Failure::new(format!("the parameter set of {} cannot bring the file `{file}`", self.name))
+                .help("name files beside the parameter set, without `..`"));
+        }
+        let path = set.folder.join(file);
+        std::fs::read(&path)
+            .map_err(|error| Failure::new(format!("the parameter set of {} needs `{}`: {error}", self.name, path.display())))
+    }
+
+    fn refused(&self, error: &Error) -> Failure {
+        Failure::new(match &self.set {
+            Some(_) => format!("the parameter set of {} does not fit: {error}", self.name),
+            None => format!("{}: {error}", self.name),
+        })
+    }
+}
+
+/// The time that reproducible builds agree on, if there is one.
+fn generation_time() -> Option<String> {
+    let seconds: u64 = std::env::var("SOURCE_DATE_EPOCH").ok()?.parse().ok()?;
+    Some(date_and_time(seconds))
+}
+
+/// Seconds since 1970 as in ISO 8601, by H. Hinnant's `civil_from_days`: years begin in March, so that
+/// the leap day is the last.
+fn date_and_time(seconds: u64) -> String {
+    let (days, rest) = (seconds / 86_400 + 719_468, seconds % 86_400);
+    let (era, day_of_era) = (days / 146_097, days % 146_097);
+    let year_of_era = (day_of_era - day_of_era / 1_460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+    let month_from_march = (5 * day_of_year + 2) / 153;
+    let day = day_of_year - (153 * month_from_march + 2) / 5 + 1;
+    let month = if month_from_march < 10 { month_from_march + 3 } else { month_from_march - 9 };
+    let year = year_of_era + era * 400 + u64::from(month <= 2);
+    format!("{year:04}-{month:02}-{day:02}T{:02}:{:02}:{:02}Z", rest / 3600, rest / 60 % 60, rest % 60)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seconds_become_a_date() {
+        assert_eq!(date_and_time(0), "1970-01-01T00:00:00Z");
+        assert_eq!(date_and_time(951_782_400), "2000-02-29T00:00:00Z");
+        assert_eq!(date_and_time(1_767_225_599), "2025-12-31T23:59:59Z");
+    }
+}

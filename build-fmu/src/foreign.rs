@@ -1,0 +1,177 @@
+//! A model in a crate outside this workspace.
+//!
+//! Its declarations are known to a program that links it. Such a program is a manifest and five lines
+//! of Rust: they are written below the crate's target folder and run.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+use cargo_metadata::{CrateType, Metadata, MetadataCommand, Package as Described, Target};
+
+use crate::cargo;
+use crate::failure::{Failure, Result};
+
+/// A crate with a model.
+#[derive(Debug)]
+pub struct Package {
+    described: Described,
+    metadata: Metadata,
+}
+
+/// The package of a manifest; none if it is a part of the workspace that we are from.
+///
+/// # Errors
+/// If cargo does not understand the manifest or the crate is of another make.
+pub fn package(manifest: &Path) -> Result<Option<Package>> {
+    if !manifest.is_file() {
+        return Err(Failure::new(format!("there is no manifest `{}`", manifest.display()))
+            .help("give the path of the Cargo.toml of your model's crate"));
+    }
+    // Asked without dependencies first: that needs no network and tells most mistakes.
+    let alone = cargo::metadata(Some(manifest))?;
+    if alone.packages.iter().any(|package| package.name.as_str() == env!("CARGO_PKG_NAME")) {
+        return Ok(None);
+    }
+    let metadata = MetadataCommand::new()
+        .manifest_path(manifest)
+        .exec()
+        .map_err(|error| Failure::new(format!("cannot ask cargo for the packages: {error}")))?;
+    let described = metadata.root_package().cloned().ok_or_else(|| {
+        Failure::new(format!("`{}` is a workspace without a package", manifest.display()))
+            .help("give the Cargo.toml of your model's crate")
+    })?;
+    Ok(Some(Package { described, metadata }))
+}
+
+impl Package {
+    /// Writes the packager, runs it with our own arguments, and returns its exit code.
+    ///
+    /// # Errors
+    /// If the crate is no library or does not use Strut, or cargo does not run.
+    pub fn run(&self) -> Result<ExitCode> {
+        let folder = self.metadata.target_directory.join("build-fmu").join(self.described.name.as_str());
+        let library = self.library()?;
+        let write = |file: &str, text: &str| write_if_changed(&folder.join(file).into_std_path_buf(), text);
+        write("Cargo.toml", &self.manifest()?)?;
+        write("src/main.rs", &self.program(&library.name))?;
+        let mut command = Command::new(cargo::program());
+        command.args(["run", "--quiet", "--release", "--manifest-path"]).arg(folder.join("Cargo.toml"));
+        if let Some(root) = self.strut_root() {
+            // What this program was made of is compiled already, in the versions of its lock file.
+            let lock = root.join("Cargo.lock");
+            if !folder.join("Cargo.lock").exists() && lock.exists() {
+                let _ = fs::copy(lock, folder.join("Cargo.lock"));
+            }
+            if let Ok(strut) = cargo::metadata(Some(&root.join("Cargo.toml"))) {
+                command.arg("--target-dir").arg(strut.target_directory);
+            }
+        }
+        eprintln!("note: compiling a packager for `{}`", self.described.name);
+        let status = command.arg("--").args(std::env::args_os().skip(1)).status();
+        let status = status.map_err(|error| Failure::new(format!("cannot run cargo: {error}")))?;
+        match status.code() {
+            Some(code @ 0..=2) => Ok(ExitCode::from(code as u8)),
+            _ => Err(Failure::new(format!("the packager of `{}` cannot be built; cargo says why above", self.described.name))
+                .help("the crate needs `pub const ENTRY: strut_model::Entry = strut_model::Entry::of::<YourModel>();`")),
+        }
+    }
+
+    /// The library, which must be linkable from C and from Rust.
+    fn library(&self) -> Result<&Target> {
+        let name = &self.described.name;
+        let has = |target: &Target, ty: CrateType| target.crate_types.contains(&ty);
+        self.described
+            .targets
+            .iter()
+            .find(|target| has(target, CrateType::CDyLib) && (has(target, CrateType::RLib) || has(target, CrateType::Lib)))
+            .ok_or_else(|| {
+                Failure::new(format!("`{name}` is not both a shared library and a Rust library"))
+                    .help("write `crate-type = [\"cdylib\", \"rlib\"]` under `[lib]` in its Cargo.toml")
+            })
+    }
+
+    fn strut_model(&self) -> Option<&Described> {
+        self.metadata.packages.iter().find(|package| package.name.as_str() == "strut-model")
+    }
+
+    /// The root of the workspace that the crate takes strut-model from, if it is on this machine.
+    fn strut_root(&self) -> Option<PathBuf> {
+        let model = self.strut_model().filter(|model| model.source.is_none())?;
+        Some(model.manifest_path.parent()?.parent()?.parent()?.into())
+    }
+
+    /// Depends on the crate and on this packager, from where the crate has strut-model: another
+    /// copy's types would be other types.
+    fn manifest(&self) -> Result<String> {
+        let model = self.strut_model().ok_or_else(|| {
+            Failure::new(format!("`{}` does not depend on strut-model", self.described.name))
+                .help("a model implements `strut_model::Model`")
+        })?;
+        let packager = match (self.strut_root(), &model.source) {
+            (Some(root), _) => format!("path = {}", quoted(&root.join("build-fmu").to_string_lossy())),
+            (None, Some(source)) if source.repr.starts_with("git+") => git(&source.repr),
+            _ => format!("version = \"={}\"", model.version),
+        };
+        let folder = self.described.manifest_path.parent().map_or("", |folder| folder.as_str());
+        Ok(format!(
+            "# Written by build-fmu.\n[package]\nname = \"packager-of-{name}\"\nedition = \"2024\"\npublish = false\n\n\
+             [dependencies]\nbuild-fmu = {{ {packager} }}\nmodel = {{ package = {}, path = {} }}\n\n[workspace]\n\n\
+             # As in Strut's own workspace, so that what it has compiled is used again.\n\
+             [profile.release]\ncodegen-units = 1\nlto = \"fat\"\nstrip = \"debuginfo\"\n",
+            quoted(&self.described.name), quoted(folder), name = self.described.name,
+        ))
+    }
+
+    fn program(&self, library: &str) -> String {
+        let license = self.described.license.as_deref().unwrap_or_default();
+        format!(
+            "//! Knows the declarations of `{library}`. Written by build-fmu.\n\n\
+             fn main() -> std::process::ExitCode {{\n    build_fmu::main(&build_fmu::Project {{\n        \
+             catalogue: &[model::ENTRY],\n        parameter_sets: &[],\n        systems: &[],\n        \
+             source: build_fmu::Source::Package {{ manifest: {:?}, name: {:?} }},\n        license: {license:?},\n    \
+             }})\n}}\n",
+            self.described.manifest_path.as_str(), self.described.name.as_str(),
+        )
+    }
+}
+
+/// `git+https://host/repo?branch=main#0123` as a dependency of the same source.
+fn git(source: &str) -> String {
+    let source = source.trim_start_matches("git+");
+    let address = source.split('#').next().unwrap_or(source);
+    match address.split_once('?') {
+        None => format!("git = {}", quoted(address)),
+        Some((url, query)) => {
+            let (key, value) = query.split_once('=').unwrap_or(("branch", query));
+            format!("git = {}, {key} = {}", quoted(url), quoted(value))
+        }
+    }
+}
+
+/// A basic string of TOML.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
+}
+
+/// An unchanged file keeps its date, and cargo has nothing to do.
+fn write_if_changed(path: &Path, text: &str) -> Result<()> {
+    if fs::read_to_string(path).is_ok_and(|old| old == text) {
+        return Ok(());
+    }
+    let folder = path.parent().unwrap_or(Path::new("."));
+    fs::create_dir_all(folder)
+        .and_then(|()| fs::write(path, text))
+        .map_err(|error| Failure::new(format!("cannot write `{}`: {error}", path.display())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_git_source_stays_the_same_source() {
+        assert_eq!(git("git+https://a.b/c?tag=v1#0a1b"), "git = \"https://a.b/c\", tag = \"v1\"");
+        assert_eq!(git("git+https://a.b/c#0a1b"), "git = \"https://a.b/c\"");
+    }
+}

@@ -1,0 +1,169 @@
+//! From the command line to the files.
+
+use std::collections::BTreeMap;
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::archive::Folder;
+use crate::cargo::{self, Libraries};
+use crate::cli::Arguments;
+use crate::failure::{Failure, Result};
+use crate::fmu::{Fmu, Packed};
+use crate::plan::Plan;
+use crate::platform::Platform;
+use crate::{Project, Source, foreign, table};
+
+/// Does what the arguments say.
+///
+/// # Errors
+/// Whatever goes wrong first.
+pub fn run(project: &Project, arguments: &Arguments) -> Result<ExitCode> {
+    if let (Some(manifest), Source::Workspace { .. }) = (&arguments.manifest_path, project.source)
+        && let Some(package) = foreign::package(manifest)?
+    {
+        return package.run();
+    }
+    let manifest = match project.source {
+        Source::Package { manifest, .. } => Some(PathBuf::from(manifest)),
+        Source::Workspace { .. } => arguments.manifest_path.clone().or_else(cargo::workspace_manifest),
+    };
+    let metadata = cargo::metadata(manifest.as_deref())?;
+    let files = match project.source {
+        Source::Workspace { files } => metadata.workspace_root.as_std_path().join(files),
+        Source::Package { .. } => metadata.workspace_root.as_std_path().into(),
+    };
+    let plan = Plan::new(project, arguments, &files)?;
+    if arguments.list {
+        print(&listing(&plan)?);
+        return Ok(ExitCode::SUCCESS);
+    }
+    let platforms = platforms(&arguments.targets)?;
+    // Mistakes in systems come to light before minutes of compiling.
+    let mut needed = plan.wanted.clone();
+    for system in &plan.systems {
+        let components = plan.components(system)?;
+        system.check(&interfaces(&plan, &components)?)?;
+        needed.extend(components);
+    }
+    needed.sort_unstable();
+    needed.dedup();
+    let folder = Folder::open(&arguments.out)?;
+    let package = |fmu: &Fmu| match project.source {
+        Source::Workspace { .. } => cargo::package_of(fmu.entry.about.name),
+        Source::Package { name, .. } => name.to_owned(),
+    };
+    let mut packages: Vec<String> = needed.iter().map(|index| package(&plan.fmus[*index])).collect();
+    packages.sort();
+    packages.dedup();
+    let mut built: Vec<(Platform, Libraries)> = Vec::new();
+    for (platform, asked) in platforms {
+        let libraries = cargo::build(&metadata, &packages, asked.then_some(&platform))?;
+        built.push((platform, libraries));
+    }
+    let progress = progress(needed.len() + plan.systems.len());
+    let mut packed: BTreeMap<usize, Packed> = BTreeMap::new();
+    let mut rows = Vec::new();
+    for index in needed {
+        let fmu = &plan.fmus[index];
+        progress.set_message(fmu.name.clone());
+        let libraries = built
+            .iter()
+            .map(|(platform, libraries)| Ok((platform.clone(), library(&libraries[&package(fmu)])?)))
+            .collect::<Result<Vec<_>>>()?;
+        let result = fmu.pack(&libraries, project.license)?;
+        if plan.wanted.contains(&index) {
+            let file = format!("{}.fmu", fmu.name);
+            folder.write(&file, &result.bytes)?;
+            rows.push(row(fmu, &result, &arguments.out.join(file)));
+        }
+        packed.insert(index, result);
+        progress.inc(1);
+    }
+    for system in &plan.systems {
+        progress.set_message(system.name.clone());
+        let components: Vec<(&Fmu, &Packed)> =
+            plan.components(system)?.into_iter().map(|index| (&plan.fmus[index], &packed[&index])).collect();
+        let bytes = system.pack(&components);
+        let file = format!("{}.ssp", system.name);
+        folder.write(&file, &bytes)?;
+        let parts = format!("{} FMUs", components.len());
+        let path = arguments.out.join(file).display().to_string();
+        rows.push(vec![system.name.clone(), "system".into(), parts, system.source.clone(), table::size(bytes.len()), path]);
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+    print(&table::aligned(&["NAME", "KIND", "IN → OUT", "PARAMETERS", "SIZE", "PATH"], &[4], &rows));
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The platforms to build for, and whether they were asked for by name.
+fn platforms(targets: &[String]) -> Result<Vec<(Platform, bool)>> {
+    if targets.is_empty() {
+        return Ok(vec![(cargo::host()?, false)]);
+    }
+    let mut platforms: Vec<(Platform, bool)> = Vec::new();
+    for target in targets {
+        let platform = Platform::of(target)?;
+        if let Some((other, _)) = platforms.iter().find(|(other, _)| other.folder == platform.folder) {
+            return Err(Failure::new(format!(
+                "`{}` and `{}` are both `{}` in an FMU", other.given, platform.given, platform.folder
+            ))
+            .help("give one of them"));
+        }
+        platforms.push((platform, true));
+    }
+    Ok(platforms)
+}
+
+fn interfaces(plan: &Plan, components: &[usize]) -> Result<Vec<strut_model::Interface>> {
+    components.iter().map(|index| plan.fmus[*index].interface()).collect()
+}
+
+fn library(path: &Path) -> Result<Vec<u8>> {
+    std::fs::read(path).map_err(|error| Failure::new(format!("cannot read `{}`: {error}", path.display())))
+}
+
+/// A bar on stderr; none if nobody looks.
+fn progress(steps: usize) -> ProgressBar {
+    let target = if std::io::stderr().is_terminal() { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+    let style = ProgressStyle::with_template("{prefix:>12.cyan.bold} [{bar:27}] {pos}/{len}: {msg}")
+        .expect("a valid template")
+        .progress_chars("=> ");
+    ProgressBar::with_draw_target(Some(steps as u64), target).with_style(style).with_prefix("Packing")
+}
+
+fn row(fmu: &Fmu, packed: &Packed, path: &Path) -> Vec<String> {
+    let mut row = described(fmu, &packed.interface);
+    row.extend([table::size(packed.bytes.len()), path.display().to_string()]);
+    row
+}
+
+fn described(fmu: &Fmu, interface: &strut_model::Interface) -> Vec<String> {
+    let (inputs, outputs) = Fmu::ports(interface);
+    let set = fmu.set.as_ref().map_or("–".into(), |set| format!("{} ({})", set.parsed.source, set.parsed.model));
+    vec![fmu.name.clone(), fmu.entry.about.kind.name().into(), format!("{inputs} → {outputs}"), set]
+}
+
+/// What there is: with its title, since that is what one chooses by.
+fn listing(plan: &Plan) -> Result<String> {
+    let mut rows = Vec::new();
+    for fmu in plan.wanted.iter().map(|index| &plan.fmus[*index]) {
+        let mut row = described(fmu, &fmu.interface()?);
+        row[3] = fmu.title().to_owned();
+        rows.push(row);
+    }
+    for system in &plan.systems {
+        rows.push(vec![
+            system.name.clone(), "system".into(), format!("{} FMUs", system.components.len()), system.title.clone(),
+        ]);
+    }
+    Ok(table::aligned(&["NAME", "KIND", "IN → OUT", "WHAT IT IS"], &[], &rows))
+}
+
+/// Who closes the pipe, as `head` does, has seen enough.
+fn print(text: &str) {
+    let _ = std::io::stdout().write_all(text.as_bytes());
+}

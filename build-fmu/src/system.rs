@@ -1,0 +1,154 @@
+//! Systems: components and the connections between them.
+
+mod check;
+mod ssp;
+mod xml;
+
+use indexmap::IndexMap;
+use serde::Deserialize;
+use strut_model::{Interface, Value};
+use toml::Value as Toml;
+
+use crate::failure::{Failure, Result};
+use crate::fmu::{Fmu, Packed};
+
+/// A composition of FMUs, from a TOML file.
+///
+/// ```toml
+/// name = "quanser-lqr"
+/// title = "Active suspension with state feedback"
+/// source = "Quanser 3.1"
+/// components = { road = "QuanserRoad", rig = "QuanserQuarterCar" }    # name = FMU
+/// connections = ["road.position -> rig.road.position"]                 # first the component, then its variable
+/// outputs = ["rig.body.position"]                                      # what to look at
+///
+/// [experiment]
+/// stop = 10.0
+/// step = 1e-3
+///
+/// [parameters]
+/// "road.frequency" = { value = 0.3, unit = "Hz" }
+/// ```
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct System {
+    /// Name of the SSP.
+    pub name: String,
+    /// What it is, one sentence.
+    pub title: String,
+    /// Where it is from.
+    pub source: String,
+    /// FMU of each component, in the order of calculation.
+    pub components: IndexMap<String, String>,
+    connections: Vec<String>,
+    #[serde(default)]
+    outputs: Vec<String>,
+    experiment: Experiment,
+    #[serde(default)]
+    parameters: IndexMap<String, Toml>,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Experiment {
+    stop: f64,
+    step: f64,
+}
+
+/// A variable of a component.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Port {
+    component: String,
+    variable: String,
+}
+
+/// A start value for a component.
+#[derive(Clone, Debug, PartialEq)]
+struct Setting {
+    port: Port,
+    value: Value,
+    unit: Option<String>,
+}
+
+impl System {
+    /// Reads the TOML form; `file` is named in messages.
+    ///
+    /// # Errors
+    /// If the text is no TOML of this form.
+    pub fn parse(file: &str, text: &str) -> Result<Self> {
+        let system: Self = toml::from_str(text)
+            .map_err(|error| Failure::new(format!("the system `{file}` is broken: {}", error.to_string().trim_end())))?;
+        let plain = |name: &str| {
+            !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_'))
+        };
+        if let Some(name) = [&system.name].into_iter().chain(system.components.keys()).find(|name| !plain(name)) {
+            return Err(Failure::new(format!("the system `{file}` has the name `{name}` in it"))
+                .help("names of systems and components are letters, digits, `-` and `_`"));
+        }
+        let Experiment { stop, step } = system.experiment;
+        if !(step > 0.0 && stop >= step && stop.is_finite()) {
+            return Err(Failure::new(format!("the experiment of the system `{file}` cannot stop at {stop} s in steps of {step} s")));
+        }
+        Ok(system)
+    }
+
+    /// Checks names, roles, units and values against the components' interfaces, which are in the order
+    /// of the components.
+    ///
+    /// # Errors
+    /// The first mistake, by name.
+    pub fn check(&self, interfaces: &[Interface]) -> Result<()> {
+        check::Checked::new(self, interfaces).map(|_| ())
+    }
+
+    /// The SSP. The components are in the order of the system's; it has been checked.
+    pub fn pack(&self, components: &[(&Fmu, &Packed)]) -> Vec<u8> {
+        let interfaces: Vec<Interface> = components.iter().map(|(_, packed)| packed.interface.clone()).collect();
+        let checked = check::Checked::new(self, &interfaces).expect("a system is checked before it is packed");
+        ssp::archive(self, &checked, components)
+    }
+
+    /// The parameters, with nested tables flattened to dotted names.
+    fn settings(&self) -> Result<Vec<Setting>> {
+        let mut settings = Vec::new();
+        for (name, value) in &self.parameters {
+            self.collect(name, value, &mut settings)?;
+        }
+        Ok(settings)
+    }
+
+    fn collect(&self, name: &str, value: &Toml, into: &mut Vec<Setting>) -> Result<()> {
+        let wrong = || {
+            Failure::new(format!("the parameter `{name}` of the system {} is not understood", self.name))
+                .help("write \"component.variable\" = { value = 1.0, unit = \"m\" }")
+        };
+        let table = value.as_table().ok_or_else(wrong)?;
+        let Some(value) = table.get("value") else {
+            return table.iter().try_for_each(|(key, value)| self.collect(&format!("{name}.{key}"), value, into));
+        };
+        if table.keys().any(|key| !matches!(key.as_str(), "value" | "unit" | "source")) {
+            return Err(wrong());
+        }
+        let value = match value {
+            Toml::Float(number) => Value::Real(*number),
+            Toml::Integer(number) => Value::Integer(i32::try_from(*number).map_err(|_| wrong())?),
+            Toml::Boolean(flag) => Value::Boolean(*flag),
+            Toml::String(text) => Value::Text(text.clone()),
+            _ => return Err(wrong()),
+        };
+        let unit = table.get("unit").map(|unit| unit.as_str().map(str::to_owned).ok_or_else(wrong)).transpose()?;
+        into.push(Setting { port: self.port(name)?, value, unit });
+        Ok(())
+    }
+
+    /// `rig.body.position` is the variable `body.position` of the component `rig`.
+    fn port(&self, text: &str) -> Result<Port> {
+        match text.trim().split_once('.') {
+            Some((component, variable)) if !variable.is_empty() => {
+                Ok(Port { component: component.into(), variable: variable.into() })
+            }
+            _ => Err(Failure::new(format!("`{text}` in the system {} names no variable of a component", self.name))
+                .help("write the component, a dot, and the variable: `rig.body.position`")),
+        }
+    }
+}
