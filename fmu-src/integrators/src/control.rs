@@ -1,7 +1,5 @@
 //! Whether a step was good enough, and how long the next one may be.
 
-use libm::pow;
-
 use crate::{array::Array, settings::Settings, system::System};
 
 /// What a method makes of one step.
@@ -135,6 +133,11 @@ impl<A: Array> Settings<A> {
         // Not finite if the Euler step left the domain of the rates; `small` is what is left.
         if step > 0.0 { step.min(longest) } else { small }
     }
+}
+
+/// A power that need not be exact, in a quarter of the time of one that is.
+fn pow(base: f64, exponent: f64) -> f64 {
+    libm::exp(exponent * libm::log(base))
 }
 
 /// By what factor to change a step that was accepted; `previous` is the error of the one before.

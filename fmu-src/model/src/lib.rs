@@ -39,5 +39,5 @@ pub use parameter_set::{Given, ParameterSet};
 pub use real::Real;
 pub use setting::{Enumeration, NoSettings, Setting, SettingDeclaration, SettingKind, Settings, Value};
 pub use simulation::{Access, Simulation, Snapshot};
-pub use strut_integrators::{IntegrationError, Work};
+pub use strut_integrators::{Array, IntegrationError, Work};
 pub use strut_model_derive::{Choice, Settings, Variables};

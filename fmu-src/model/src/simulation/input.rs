@@ -56,6 +56,11 @@ impl<A: Array> InputPath<A> {
         self.moving = true;
     }
 
+    /// The values and derivatives belong to time `start`.
+    pub fn begin_at(&mut self, start: f64) {
+        self.origin = start;
+    }
+
     /// Ends a step at time `end`: the derivatives hold for one step, so that the inputs stay where they
     /// have led to. True if they had been moving.
     #[inline]

@@ -11,17 +11,20 @@ pub use variables::Access;
 
 use std::path::{Path, PathBuf};
 
-use strut_integrators::{Array, Integrator, InvalidSettings, Work};
+use strut_integrators::{Array, Integrator, InvalidSettings, System, Work};
 
 use crate::{
     Bundle, Error, Model, Now, ParameterSet, Settings,
-    bundle::{from_slice, to_array},
+    bundle::from_slice,
     interface::declared_settings,
     layout::{InputArray, Layout, OutputArray, Section, Solver, SolverSettings, StateArray},
     parameter_set::Starts,
 };
 use flow::Flow;
 use input::InputPath;
+
+/// Ticks that one step may have: a day of milliseconds.
+const MAX_TICKS: f64 = 86_400e3;
 
 /// A model with its parameters, inputs, states and integrator.
 ///
@@ -123,6 +126,7 @@ impl<M: Model> Simulation<M> {
         }
         self.start = start;
         self.time = start;
+        self.input.begin_at(start);
         self.stale = true;
         Ok(())
     }
@@ -223,6 +227,13 @@ impl<M: Model> Simulation<M> {
 
     /// Integrates from tick to tick; all or nothing.
     fn flow_and_tick_to(&mut self, end: f64, period: f64) -> Result<(), Error> {
+        // A step of astronomic length would tick for ever, as would a period of zero.
+        if !(end - self.tick_time(period) <= MAX_TICKS * period) {
+            return Err(Error::Time(format!(
+                "a step from {} s to {end} s has more than {MAX_TICKS} ticks of {period} s: make shorter steps",
+                self.time
+            )));
+        }
         let before = (self.time, self.ticks, self.memory, self.state);
         let result = loop {
             let next = self.tick_time(period);
@@ -308,18 +319,19 @@ impl<M: Model> Simulation<M> {
         }
         if self.stale {
             let memory = if self.initializing && self.period.is_some() { self.ticked() } else { self.memory };
-            let (state, input) = (from_slice(self.state.as_slice()), from_slice(self.input.at(self.time).as_slice()));
-            let (rates, output) = self.model.equations(Now {
-                time: self.time,
-                state: &state,
-                input: &input,
+            // Through the integrator's way in: one place that calls the equations is one that the compiler
+            // puts them into.
+            let mut flow = Flow {
+                model: &self.model,
                 parameters: &self.parameters,
                 derived: &self.derived,
                 memory: &memory,
+                input: &self.input,
                 tick: self.ticks,
-            });
-            self.rates = to_array(&rates);
-            self.output = to_array(&output);
+                rates: &mut self.rates,
+                output: &mut self.output,
+            };
+            flow.rates(self.time, &self.state);
             self.stale = false;
         }
         Ok(())

@@ -52,6 +52,9 @@ impl<M: Model> Simulation<M> {
         let solver = bundle(words)?;
         let input = InputPath::from_words(words)?;
         let mut integrator = self.integrator.clone();
+        if integrator.method() != snapshot.solver_settings.method.into() {
+            integrator = super::new_integrator::<M>(&snapshot.solver_settings, &solver).ok()?;
+        }
         integrator.load(words)?;
         if words.next().is_some() {
             return None;
