@@ -14,7 +14,7 @@
 //!     catalogue: strut_physics::CATALOGUE,
 //!     parameter_sets: strut_physics::PARAMETER_SETS,
 //!     systems: strut_physics::SYSTEMS,
-//!     source: Source::Workspace { files: "fmu-src/physics/parameters" },
+//!     source: Source::Workspace { files: "fmu-src/physics/parameters/resources" },
 //!     license: "MIT",
 //! };
 //! build_fmu::main(&project);

@@ -9,7 +9,7 @@ fn main() -> ExitCode {
         catalogue: strut_physics::CATALOGUE,
         parameter_sets: strut_physics::PARAMETER_SETS,
         systems: strut_physics::SYSTEMS,
-        source: Source::Workspace { files: "fmu-src/physics/parameters" },
+        source: Source::Workspace { files: "fmu-src/physics/parameters/resources" },
         license: include_str!("../../LICENSE"),
     })
 }

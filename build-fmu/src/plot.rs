@@ -72,18 +72,18 @@ fn draw(panel: &Panel, trajectory: &Trajectory, top: f64, time: &Axis, x: &impl 
     html! {
         g {
             @for tick in &axis.ticks {
-                line class="grid" x1=(LEFT) x2=(right) y1=(px(y(*tick))) y2=(px(y(*tick)));
+                line class="grid" x1=(LEFT) x2=(right) y1=(px(y(*tick))) y2=(px(y(*tick))) {}
                 text x=(px(LEFT - 7.0)) y=(px(y(*tick) + 4.0)) text-anchor="end" { (axis.label(*tick)) }
             }
             @for tick in &time.ticks {
-                line class="grid" x1=(px(x(*tick))) x2=(px(x(*tick))) y1=(px(top)) y2=(px(bottom));
+                line class="grid" x1=(px(x(*tick))) x2=(px(x(*tick))) y1=(px(top)) y2=(px(bottom)) {}
             }
-            rect class="frame" x=(LEFT) y=(px(top)) width=(px(right - LEFT)) height=(px(PANEL));
+            rect class="frame" x=(LEFT) y=(px(top)) width=(px(right - LEFT)) height=(px(PANEL)) {}
             text class="unit" transform=(format!("translate(18 {}) rotate(-90)", px(top + PANEL / 2.0))) text-anchor="middle" { (unit) }
             @for (index, (name, values)) in panel.signals.iter().enumerate() {
                 path class="curve" stroke=(COLORS[index]) d=(path(&trajectory.time, values, x, &y)) {}
                 @let start = legend_start(panel, index);
-                line class="key" stroke=(COLORS[index]) x1=(px(start)) x2=(px(start + 20.0)) y1=(px(top - 9.0)) y2=(px(top - 9.0));
+                line class="key" stroke=(COLORS[index]) x1=(px(start)) x2=(px(start + 20.0)) y1=(px(top - 9.0)) y2=(px(top - 9.0)) {}
                 text x=(px(start + 25.0)) y=(px(top - 5.0)) { (name) }
             }
         }

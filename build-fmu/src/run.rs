@@ -152,15 +152,26 @@ fn listing(plan: &Plan) -> Result<String> {
     let mut rows = Vec::new();
     for fmu in plan.wanted.iter().map(|index| &plan.fmus[*index]) {
         let mut row = described(fmu, &fmu.interface()?);
-        row[3] = fmu.title().to_owned();
+        row[3] = shortened(fmu.title());
         rows.push(row);
     }
     for system in &plan.systems {
         rows.push(vec![
-            system.name.clone(), "system".into(), format!("{} FMUs", system.components.len()), system.title.clone(),
+            system.name.clone(), "system".into(), format!("{} FMUs", system.components.len()), shortened(&system.title),
         ]);
     }
     Ok(table::aligned(&["NAME", "KIND", "IN → OUT", "WHAT IT IS"], &[], &rows))
+}
+
+/// A title that leaves the table readable; the documentation has all of it.
+fn shortened(title: &str) -> String {
+    const MOST: usize = 64;
+    if title.chars().count() <= MOST {
+        return title.to_owned();
+    }
+    let kept: String = title.chars().take(MOST).collect();
+    let words = kept.rsplit_once(' ').map_or(kept.as_str(), |(words, _)| words);
+    format!("{} …", words.trim_end_matches([',', ';', ':']))
 }
 
 /// Who closes the pipe, as `head` does, has seen enough.
