@@ -89,7 +89,8 @@ mod tests {
     proptest! {
         #[test]
         fn what_was_written_is_read(snapshot: Vec<u8>) {
-            prop_assert_eq!(read(GUID, &write(GUID, example(&snapshot))), Ok(example(&snapshot)));
+            let bytes = write(GUID, example(&snapshot));
+            prop_assert_eq!(read(GUID, &bytes), Ok(example(&snapshot)));
         }
 
         #[test]

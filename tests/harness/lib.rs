@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-const REQUIREMENTS: &str = include_str!("masters/requirements.txt");
+const REQUIREMENTS: &str = include_str!("../masters/requirements.txt");
 
 /// The project's root folder.
 pub fn root() -> &'static Path {
