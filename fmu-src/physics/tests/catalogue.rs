@@ -1,0 +1,151 @@
+//! Parameter sets fit their models; systems connect what exists, with equal units.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use strut_model::{Causality, Entry, Interface, ParameterSet, Value, Variable, VariableKind};
+use strut_physics::{CATALOGUE, PARAMETER_SETS, SYSTEMS};
+use toml::Table;
+
+const PARAMETERS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/parameters");
+
+fn resources() -> std::path::PathBuf {
+    Path::new(PARAMETERS).join("resources")
+}
+
+fn model(name: &str) -> &'static Entry {
+    CATALOGUE.iter().find(|entry| entry.about.name == name).unwrap_or_else(|| panic!("no model {name}"))
+}
+
+fn sets() -> Vec<ParameterSet> {
+    PARAMETER_SETS
+        .iter()
+        .map(|(file, text)| {
+            let set = ParameterSet::parse(text).unwrap_or_else(|error| panic!("{file}: {error}"));
+            assert_eq!(*file, format!("{}.toml", set.fmu));
+            set
+        })
+        .collect()
+}
+
+/// The interface of an FMU: that of a set, or of a model as it is declared.
+fn fmu(name: &str) -> Interface {
+    let result = match sets().iter().find(|set| set.fmu == name) {
+        Some(set) => model(&set.model).interface(Some(set), Some(&resources())),
+        None => model(name).interface(None, None),
+    };
+    result.unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+#[test]
+fn every_set_fits_its_model_and_runs() {
+    for set in sets() {
+        let entry = model(&set.model);
+        // Names, units and bounds are checked here, what must hold together by the run.
+        let interface = entry.interface(Some(&set), Some(&resources())).unwrap_or_else(|error| panic!("{}: {error}", set.fmu));
+        for (name, given) in &set.values {
+            let variable = interface.variable(name).unwrap();
+            let is_real = matches!(variable.kind, VariableKind::Real { .. });
+            assert_eq!(given.unit.is_some(), is_real, "{}: {name} needs a unit if it is a real number", set.fmu);
+            assert!(!given.source.is_empty(), "{}: {name} needs a source", set.fmu);
+        }
+        let trajectory = entry.demonstrate(Some(&set), Some(&resources())).unwrap_or_else(|error| panic!("{}: {error}", set.fmu));
+        for (name, _, values) in &trajectory.signals {
+            assert!(values.iter().all(|value| value.is_finite()), "{}: {name}", set.fmu);
+        }
+    }
+}
+
+#[test]
+fn every_declared_model_runs_and_shows_something() {
+    for entry in CATALOGUE {
+        let trajectory = entry.demonstrate(None, None).unwrap_or_else(|error| panic!("{}: {error}", entry.about.name));
+        for name in entry.about.experiment.plot {
+            let (_, _, values) = trajectory.signals.iter().find(|(signal, _, _)| signal == name).unwrap();
+            assert!(values.iter().any(|value| *value != values[0]), "{}: {name} rests", entry.about.name);
+        }
+        for (name, _) in entry.about.experiment.stimuli {
+            assert!(trajectory.signals.iter().any(|(signal, _, _)| signal == name), "{}: no input {name}", entry.about.name);
+        }
+    }
+}
+
+#[test]
+fn names_are_unique_and_files_are_listed() {
+    let mut names: BTreeSet<String> = CATALOGUE.iter().map(|entry| entry.about.name.to_owned()).collect();
+    for set in sets() {
+        assert!(names.insert(set.fmu.clone()), "{} twice", set.fmu);
+        for file in &set.files {
+            assert!(resources().join(file).is_file(), "{}: {file}", set.fmu);
+        }
+    }
+    let listed: BTreeSet<&str> = PARAMETER_SETS.iter().map(|(file, _)| *file).collect();
+    let found: BTreeSet<String> = std::fs::read_dir(PARAMETERS)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|file| file.ends_with(".toml"))
+        .collect();
+    assert!(found.iter().map(String::as_str).eq(listed), "{found:?}");
+}
+
+#[test]
+fn sources_are_in_the_bibliography() {
+    let literature = std::fs::read_to_string(Path::new(PARAMETERS).join("literature.bib")).unwrap();
+    for set in sets() {
+        assert!(literature.contains(&format!("{{{},", set.source)), "{}: {}", set.fmu, set.source);
+    }
+}
+
+fn variable<'a>(components: &'a [(String, Interface)], path: &str) -> &'a Variable {
+    let (component, name) = path.split_once('.').unwrap_or_else(|| panic!("{path} has no component"));
+    let (_, interface) =
+        components.iter().find(|(known, _)| known == component).unwrap_or_else(|| panic!("no component {component}"));
+    interface.variable(name).unwrap_or_else(|| panic!("no variable {path}"))
+}
+
+fn unit(variable: &Variable) -> &'static str {
+    match variable.kind {
+        VariableKind::Real { unit, .. } => unit.symbol,
+        _ => panic!("{} is no real number", variable.name),
+    }
+}
+
+#[test]
+fn systems_connect_outputs_with_inputs_of_equal_unit() {
+    for (file, text) in SYSTEMS {
+        let system: Table = text.parse().unwrap_or_else(|error| panic!("{file}: {error}"));
+        assert_eq!(*file, format!("{}.toml", system["name"].as_str().unwrap()));
+        let components: Vec<(String, Interface)> = system["components"]
+            .as_table()
+            .unwrap()
+            .iter()
+            .map(|(name, component)| (name.clone(), fmu(component.as_str().unwrap())))
+            .collect();
+        let mut fed = BTreeSet::new();
+        for connection in system["connections"].as_array().unwrap() {
+            let (from, to) = connection.as_str().unwrap().split_once(" -> ").unwrap();
+            let (source, sink) = (variable(&components, from), variable(&components, to));
+            assert_eq!((source.causality, sink.causality), (Causality::Output, Causality::Input), "{file}: {connection:?}");
+            assert_eq!(unit(source), unit(sink), "{file}: {connection:?}");
+            assert!(fed.insert(to.to_owned()), "{file}: {to} is fed twice");
+        }
+        for output in system["outputs"].as_array().unwrap() {
+            let path = output.as_str().unwrap();
+            assert_eq!(variable(&components, path).causality, Causality::Output, "{file}: {path}");
+        }
+        for (path, given) in system["parameters"].as_table().unwrap() {
+            let VariableKind::Real { unit, start, .. } = variable(&components, path).kind else { panic!("{path}") };
+            assert_eq!(given["unit"].as_str(), Some(unit.symbol), "{file}: {path}");
+            assert_eq!(given["value"].as_float(), start, "{file}: {path} must restate what is built in");
+        }
+    }
+}
+
+#[test]
+fn quansers_finding_stands_in_the_sets() {
+    let tire = |name: &str| match sets().iter().find(|set| set.fmu == name).unwrap().values["tire.stiffness"].value {
+        Value::Real(value) => value,
+        _ => f64::NAN,
+    };
+    assert_eq!((tire("QuanserQuarterCar"), tire("QuanserTable31QuarterCar")), (2500.0, 1250.0));
+}
