@@ -217,7 +217,12 @@ impl<M: Model> Simulation<M> {
                 rates: &mut self.rates,
                 output: &mut self.output,
             };
-            self.integrator.advance(&mut flow, self.time, end, &mut self.state)?;
+            let advanced = self.integrator.advance(&mut flow, self.time, end, &mut self.state);
+            if let Err(error) = advanced {
+                // The last evaluation was elsewhere.
+                self.stale = true;
+                return Err(error.into());
+            }
             // The integrator's last evaluation is the one at the end.
             self.stale = false;
         }
