@@ -46,7 +46,8 @@ pub fn read<'a>(guid: &str, bytes: &'a [u8]) -> Result<Content<'a>, &'static str
     if *rest != checksum(&bytes[..bytes.len() - rest.len()]).to_le_bytes() {
         return Err("their checksum is wrong: they were damaged since they were saved");
     }
-    let state = State::from_bits(u16::from_le_bytes(*state)).ok_or("they name a state that does not exist")?;
+    let state =
+        State::from_bits(u16::from_le_bytes(*state)).ok_or("they name a state that does not exist")?;
     Ok(Content { state, stop: f64::from_le_bytes(*stop), snapshot })
 }
 
@@ -60,7 +61,9 @@ fn part(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
 
 /// FNV-1a: every change of a single byte changes it.
 fn checksum(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
+    bytes
+        .iter()
+        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 #[cfg(test)]

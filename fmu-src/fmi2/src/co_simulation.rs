@@ -1,5 +1,7 @@
 //! Steps, and what a host may ask about them.
 
+use std::mem::MaybeUninit;
+
 use strut_model::{Error, Model};
 
 use crate::{
@@ -7,7 +9,10 @@ use crate::{
     log::Failure,
     pointer::{one, slice, slice_mut},
     state_table::{self as table, Function, Phase},
-    types::{Boolean, Component, FALSE, Integer, RawStatusKind, Real, Size, Status, StatusKind, Text, ValueReference},
+    types::{
+        Boolean, Component, FALSE, Integer, RawStatusKind, Real, Size, Status, StatusKind, Text,
+        ValueReference,
+    },
 };
 
 /// `fmi2SetRealInputDerivatives`.
@@ -45,8 +50,9 @@ pub unsafe fn get_real_output_derivatives<M: Model>(
 ) -> Status {
     let body = |instance: &mut Instance<M>| {
         // SAFETY: by the caller.
-        let (references, orders, values) =
-            unsafe { (slice(references, n, "vr")?, slice(orders, n, "order")?, slice_mut(values, n, "value")?) };
+        let (references, orders, values) = unsafe {
+            (slice(references, n, "vr")?, slice(orders, n, "order")?, slice_mut(values, n, "value")?)
+        };
         Ok(instance.simulation.output_derivatives(references, orders, values)?)
     };
     // SAFETY: by the caller.
@@ -59,7 +65,12 @@ pub unsafe fn get_real_output_derivatives<M: Model>(
 /// # Safety
 /// As for [`set_real_input_derivatives`].
 #[inline]
-pub unsafe fn do_step<M: Model>(component: Component, point: Real, size: Real, _no_set_state: Boolean) -> Status {
+pub unsafe fn do_step<M: Model>(
+    component: Component,
+    point: Real,
+    size: Real,
+    _no_set_state: Boolean,
+) -> Status {
     let body = |instance: &mut Instance<M>| {
         if point + size > instance.stop {
             check_stop(point, size, instance.stop)?;
@@ -117,10 +128,10 @@ unsafe fn status<M: Model, T>(
 ) -> Status {
     let body = |instance: &mut Instance<M>| {
         // SAFETY: by the caller.
-        let value = unsafe { one(value, "value") }?;
+        let value = unsafe { one(value.cast::<MaybeUninit<T>>(), "value") }?;
         let asked = StatusKind::from_raw(kind)
             .ok_or_else(|| Failure::error(format!("status kind {kind} is unknown: give 0 to 3")))?;
-        *value = answer(instance, asked).ok_or_else(|| Failure {
+        let answer = answer(instance, asked).ok_or_else(|| Failure {
             status: Status::Discard,
             message: match asked {
                 StatusKind::LastSuccessfulTime => "ask fmi2GetRealStatus for the last successful time".into(),
@@ -130,6 +141,7 @@ unsafe fn status<M: Model, T>(
                 }
             },
         })?;
+        value.write(answer);
         Ok(())
     };
     // SAFETY: by the caller.
@@ -149,8 +161,14 @@ pub unsafe fn get_status<M: Model>(component: Component, kind: RawStatusKind, va
 ///
 /// # Safety
 /// As for [`get_status`].
-pub unsafe fn get_real_status<M: Model>(component: Component, kind: RawStatusKind, value: *mut Real) -> Status {
-    let answer = |instance: &Instance<M>, kind| (kind == StatusKind::LastSuccessfulTime).then(|| instance.simulation.time());
+pub unsafe fn get_real_status<M: Model>(
+    component: Component,
+    kind: RawStatusKind,
+    value: *mut Real,
+) -> Status {
+    let answer = |instance: &Instance<M>, kind| {
+        (kind == StatusKind::LastSuccessfulTime).then(|| instance.simulation.time())
+    };
     // SAFETY: by the caller.
     unsafe { status(component, &table::GET_REAL_STATUS, kind, value, answer) }
 }
@@ -159,7 +177,11 @@ pub unsafe fn get_real_status<M: Model>(component: Component, kind: RawStatusKin
 ///
 /// # Safety
 /// As for [`get_status`].
-pub unsafe fn get_integer_status<M: Model>(component: Component, kind: RawStatusKind, value: *mut Integer) -> Status {
+pub unsafe fn get_integer_status<M: Model>(
+    component: Component,
+    kind: RawStatusKind,
+    value: *mut Integer,
+) -> Status {
     // SAFETY: by the caller.
     unsafe { status::<M, _>(component, &table::GET_INTEGER_STATUS, kind, value, |_, _| None) }
 }
@@ -168,7 +190,11 @@ pub unsafe fn get_integer_status<M: Model>(component: Component, kind: RawStatus
 ///
 /// # Safety
 /// As for [`get_status`].
-pub unsafe fn get_boolean_status<M: Model>(component: Component, kind: RawStatusKind, value: *mut Boolean) -> Status {
+pub unsafe fn get_boolean_status<M: Model>(
+    component: Component,
+    kind: RawStatusKind,
+    value: *mut Boolean,
+) -> Status {
     let answer = |_: &Instance<M>, kind| (kind == StatusKind::Terminated).then_some(FALSE);
     // SAFETY: by the caller.
     unsafe { status(component, &table::GET_BOOLEAN_STATUS, kind, value, answer) }
@@ -178,7 +204,11 @@ pub unsafe fn get_boolean_status<M: Model>(component: Component, kind: RawStatus
 ///
 /// # Safety
 /// As for [`get_status`].
-pub unsafe fn get_string_status<M: Model>(component: Component, kind: RawStatusKind, value: *mut Text) -> Status {
+pub unsafe fn get_string_status<M: Model>(
+    component: Component,
+    kind: RawStatusKind,
+    value: *mut Text,
+) -> Status {
     // SAFETY: by the caller.
     unsafe { status::<M, _>(component, &table::GET_STRING_STATUS, kind, value, |_, _| None) }
 }

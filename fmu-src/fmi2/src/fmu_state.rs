@@ -60,7 +60,8 @@ pub unsafe fn get_fmu_state<M: Model>(component: Component, state: *mut FmuState
     let body = |instance: &mut Instance<M>| {
         // SAFETY: by the caller.
         let state = unsafe { one(state, "FMUstate") }?;
-        let saved = Saved { state: instance.state, stop: instance.stop, snapshot: instance.simulation.save() };
+        let saved =
+            Saved { state: instance.state, stop: instance.stop, snapshot: instance.simulation.save() };
         instance.keep(state, saved)
     };
     // SAFETY: by the caller.
@@ -105,7 +106,11 @@ pub unsafe fn free_fmu_state<M: Model>(component: Component, state: *mut FmuStat
 ///
 /// # Safety
 /// As for [`set_fmu_state`]; the size is null or may be written.
-pub unsafe fn serialized_fmu_state_size<M: Model>(component: Component, state: FmuState, size: *mut Size) -> Status {
+pub unsafe fn serialized_fmu_state_size<M: Model>(
+    component: Component,
+    state: FmuState,
+    size: *mut Size,
+) -> Status {
     let body = |instance: &mut Instance<M>| {
         // SAFETY: by the caller.
         *unsafe { one(size, "size") }? = instance.bytes(state)?.len();
@@ -153,11 +158,14 @@ pub unsafe fn de_serialize_fmu_state<M: Model>(
 ) -> Status {
     let body = |instance: &mut Instance<M>| {
         // SAFETY: by the caller.
-        let (bytes, place) = unsafe { (slice(bytes.cast::<u8>(), size, "serializedState")?, one(state, "FMUstate")?) };
+        let (bytes, place) =
+            unsafe { (slice(bytes.cast::<u8>(), size, "serializedState")?, one(state, "FMUstate")?) };
         let refused = |reason| Failure::error(format!("the bytes cannot be a saved state: {reason}"));
         let Content { state, stop, snapshot } = blob::read(&instance.origin.guid, bytes).map_err(refused)?;
         if state.kind() != instance.state.kind() {
-            return Err(refused("they were saved in the other of model exchange and co-simulation: restore them there"));
+            return Err(refused(
+                "they were saved in the other of model exchange and co-simulation: restore them there",
+            ));
         }
         instance.keep(place, Saved { state, stop, snapshot: Snapshot::from_bytes(snapshot)? })
     };

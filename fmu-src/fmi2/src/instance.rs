@@ -149,7 +149,10 @@ pub fn fatal(panic: &(dyn Any + Send)) -> Failure {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let reason = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no reason given");
     let remedy = FREE_INSTANCE.name;
-    Failure { status: Status::Fatal, message: format!("the model failed beyond repair ({reason}): call {remedy}, and report this") }
+    Failure {
+        status: Status::Fatal,
+        message: format!("the model failed beyond repair ({reason}): call {remedy}, and report this"),
+    }
 }
 
 /// Calls a function's body with the instance, if the function is legal in its state.

@@ -37,16 +37,16 @@ pub use strut_model::Entry;
 pub mod functions {
     pub use crate::{
         co_simulation::{
-            cancel_step, do_step, get_boolean_status, get_integer_status, get_real_output_derivatives, get_real_status,
-            get_status, get_string_status, set_real_input_derivatives,
+            cancel_step, do_step, get_boolean_status, get_integer_status, get_real_output_derivatives,
+            get_real_status, get_status, get_string_status, set_real_input_derivatives,
         },
         fmu_state::{
-            de_serialize_fmu_state, free_fmu_state, get_fmu_state, serialize_fmu_state, serialized_fmu_state_size,
-            set_fmu_state,
+            de_serialize_fmu_state, free_fmu_state, get_fmu_state, serialize_fmu_state,
+            serialized_fmu_state_size, set_fmu_state,
         },
         life_cycle::{
-            enter_initialization_mode, exit_initialization_mode, free_instance, instantiate, reset, set_debug_logging,
-            setup_experiment, terminate, types_platform, version,
+            enter_initialization_mode, exit_initialization_mode, free_instance, instantiate, reset,
+            set_debug_logging, setup_experiment, terminate, types_platform, version,
         },
         model_exchange::{
             completed_integrator_step, enter_continuous_time_mode, enter_event_mode, get_continuous_states,
@@ -54,8 +54,8 @@ pub mod functions {
             set_continuous_states, set_time,
         },
         variables::{
-            get_boolean, get_directional_derivative, get_integer, get_real, get_string, set_boolean, set_integer,
-            set_real, set_string,
+            get_boolean, get_directional_derivative, get_integer, get_real, get_string, set_boolean,
+            set_integer, set_real, set_string,
         },
     };
 }

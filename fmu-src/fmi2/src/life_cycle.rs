@@ -41,18 +41,26 @@ pub unsafe fn instantiate<M: Model>(
     logging_on: Boolean,
 ) -> Component {
     // SAFETY: by the caller. Without callbacks there is nobody to tell that they are missing.
-    let Ok([callbacks]) = (unsafe { pointer::slice(callbacks, 1, "functions") }) else { return ptr::null_mut() };
+    let Ok([callbacks]) = (unsafe { pointer::slice(callbacks, 1, "functions") }) else {
+        return ptr::null_mut();
+    };
     let library = instantiate::<M> as *const c_void;
     let make = AssertUnwindSafe(|| {
         // SAFETY: by the caller.
         let name = unsafe { pointer::text(name, "instanceName") };
-        let log = Log::new(callbacks, name.as_ref().map_or_else(|_| CString::default(), |name| (*name).into()), logging_on != FALSE);
+        let log = Log::new(
+            callbacks,
+            name.as_ref().map_or_else(|_| CString::default(), |name| (*name).into()),
+            logging_on != FALSE,
+        );
         let instance = name.and_then(|name| {
             if name.is_empty() {
                 return Err(Failure::error("instanceName is empty: give the instance a name"));
             }
             let kind = Kind::from_raw(kind).ok_or_else(|| {
-                Failure::error(format!("fmuType {kind} is unknown: give 0 (model exchange) or 1 (co-simulation)"))
+                Failure::error(format!(
+                    "fmuType {kind} is unknown: give 0 (model exchange) or 1 (co-simulation)"
+                ))
             })?;
             // SAFETY: by the caller.
             let origin = unsafe { Origin::find::<M>(guid, resources, library) }?;
@@ -101,7 +109,10 @@ pub unsafe fn set_debug_logging<M: Model>(
             let category = unsafe { pointer::text(*category, "a category") }?;
             if !LOG_CATEGORIES.iter().any(|(name, _)| name.as_bytes() == category.to_bytes()) {
                 let names: Vec<&str> = LOG_CATEGORIES.iter().map(|(name, _)| *name).collect();
-                return Err(Failure::error(format!("category {category:?} is unknown: give any of {}", names.join(", "))));
+                return Err(Failure::error(format!(
+                    "category {category:?} is unknown: give any of {}",
+                    names.join(", ")
+                )));
             }
             concerned |= category == c"logAll" || category == c"logStatusDiscard";
         }

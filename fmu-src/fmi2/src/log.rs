@@ -61,7 +61,13 @@ impl Log {
         // SAFETY: the host gave the logger for these arguments; the strings end with a zero and outlive
         // the call, and the message, being a format, names no further arguments.
         unsafe {
-            logger(self.environment, self.instance.as_ptr(), failure.status, category.as_ptr(), message.as_ptr());
+            logger(
+                self.environment,
+                self.instance.as_ptr(),
+                failure.status,
+                category.as_ptr(),
+                message.as_ptr(),
+            );
         }
     }
 }

@@ -90,7 +90,9 @@ pub unsafe fn completed_integrator_step<M: Model>(
 pub unsafe fn set_time<M: Model>(component: Component, time: Real) -> Status {
     let body = |instance: &mut Instance<M>| {
         if !time.is_finite() {
-            return Err(Failure::error(format!("the time cannot be {time}: give a finite number of seconds")));
+            return Err(Failure::error(format!(
+                "the time cannot be {time}: give a finite number of seconds"
+            )));
         }
         instance.simulation.set_time(time);
         Ok(())
@@ -143,7 +145,11 @@ pub unsafe fn get_derivatives<M: Model>(component: Component, rates: *mut Real, 
 ///
 /// # Safety
 /// As for [`enter_event_mode`].
-pub unsafe fn get_event_indicators<M: Model>(component: Component, _indicators: *mut Real, n: Size) -> Status {
+pub unsafe fn get_event_indicators<M: Model>(
+    component: Component,
+    _indicators: *mut Real,
+    n: Size,
+) -> Status {
     // SAFETY: by the caller.
     unsafe { call::<M>(component, &table::GET_EVENT_INDICATORS, |_| count(n, 0, "ni")) }
 }
@@ -167,11 +173,16 @@ pub unsafe fn get_continuous_states<M: Model>(component: Component, states: *mut
 ///
 /// # Safety
 /// As for [`set_continuous_states`].
-pub unsafe fn get_nominals_of_continuous_states<M: Model>(component: Component, nominals: *mut Real, n: Size) -> Status {
+pub unsafe fn get_nominals_of_continuous_states<M: Model>(
+    component: Component,
+    nominals: *mut Real,
+    n: Size,
+) -> Status {
     let body = |instance: &mut Instance<M>| {
         count(n, instance.simulation.states().len(), "nx")?;
         // SAFETY: by the caller.
-        unsafe { slice_mut(nominals, n, "x_nominal") }?.copy_from_slice(Simulation::<M>::nominals().as_slice());
+        unsafe { slice_mut(nominals, n, "x_nominal") }?
+            .copy_from_slice(Simulation::<M>::nominals().as_slice());
         Ok(())
     };
     // SAFETY: by the caller.
@@ -183,5 +194,7 @@ fn count(given: Size, right: usize, name: &str) -> Result<(), Failure> {
     if given == right {
         return Ok(());
     }
-    Err(Failure::error(format!("{name} = {given}, but this model has {right}: see ModelStructure in modelDescription.xml")))
+    Err(Failure::error(format!(
+        "{name} = {given}, but this model has {right}: see ModelStructure in modelDescription.xml"
+    )))
 }

@@ -77,7 +77,10 @@ fn check<T>(pointer: *const T, len: Size, name: &str) -> Result<(), Failure> {
 #[cold]
 fn refused(null: bool, len: Size, name: &str) -> Failure {
     Failure::error(if null {
-        format!("{name} is a null pointer: give the address of {len} value{}", if len == 1 { "" } else { "s" })
+        format!(
+            "{name} is a null pointer: give the address of {len} value{}",
+            if len == 1 { "" } else { "s" }
+        )
     } else {
         format!("{name} with {len} values cannot be an array: check address and length")
     })

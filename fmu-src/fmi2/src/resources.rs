@@ -29,7 +29,11 @@ impl Origin {
     ///
     /// # Safety
     /// Each text is null or ends with a zero.
-    pub unsafe fn find<M: Model>(guid: Text, location: Text, library: *const c_void) -> Result<Self, Failure> {
+    pub unsafe fn find<M: Model>(
+        guid: Text,
+        location: Text,
+        library: *const c_void,
+    ) -> Result<Self, Failure> {
         // SAFETY: by the caller.
         let guid = pointer::utf8(unsafe { pointer::text(guid, "fmuGUID") }?, "fmuGUID")?;
         let location = if location.is_null() {
@@ -44,7 +48,14 @@ impl Origin {
             Some(uri::to_path(location).map_err(Failure::error)?)
         };
         let set = resources.as_deref().map(read).transpose().map_err(Failure::error)?.flatten();
-        let expected = Interface::of::<M>(set.as_ref(), resources.as_deref())?.guid();
+        let expected = Interface::of::<M>(set.as_ref(), resources.as_deref())
+            .map_err(|error| match &resources {
+                Some(folder) => {
+                    Failure::error(format!("{} does not fit {}: {error}", folder.display(), M::ABOUT.name))
+                }
+                None => error.into(),
+            })?
+            .guid();
         let origin = Self { resources, set, guid: expected };
         if guid == origin.guid { Ok(origin) } else { Err(origin.stranger(guid, M::ABOUT.name)) }
     }
@@ -52,7 +63,9 @@ impl Origin {
     /// Says that description, library and parameter set do not belong together.
     fn stranger(&self, guid: &str, model: &str) -> Failure {
         let start_values = match (&self.resources, &self.set) {
-            (Some(folder), Some(_)) => format!("the start values of {}", folder.join(PARAMETER_SET).display()),
+            (Some(folder), Some(_)) => {
+                format!("the start values of {}", folder.join(PARAMETER_SET).display())
+            }
             (Some(folder), None) => {
                 format!("its declared start values, as there is no {PARAMETER_SET} in {}", folder.display())
             }
@@ -71,10 +84,16 @@ fn read(folder: &Path) -> Result<Option<ParameterSet>, String> {
     let path = folder.join(PARAMETER_SET);
     match std::fs::read_to_string(&path) {
         Ok(text) => ParameterSet::parse(&text).map(Some).map_err(|error| {
-            format!("{} is no parameter set: {error}; unpack the FMU again or repair the file", path.display())
+            format!(
+                "{} is no parameter set: {error}; unpack the FMU again or repair the file",
+                path.display()
+            )
         }),
         Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => Ok(None),
-        Err(error) => Err(format!("{} cannot be read: {error}; check the permissions of the unpacked FMU", path.display())),
+        Err(error) => Err(format!(
+            "{} cannot be read: {error}; check the permissions of the unpacked FMU",
+            path.display()
+        )),
     }
 }
 

@@ -28,8 +28,14 @@ pub enum Phase {
 
 impl Phase {
     const ALL: [Self; 8] = [
-        Self::Instantiated, Self::Initialization, Self::Event, Self::Continuous,
-        Self::StepComplete, Self::StepFailed, Self::Terminated, Self::Fatal,
+        Self::Instantiated,
+        Self::Initialization,
+        Self::Event,
+        Self::Continuous,
+        Self::StepComplete,
+        Self::StepFailed,
+        Self::Terminated,
+        Self::Fatal,
     ];
 
     /// Its name, and how one gets there.
@@ -150,8 +156,12 @@ impl Function {
             return "an earlier call returned fmi2Fatal: only fmi2FreeInstance may follow".into();
         }
         let kind = state.kind();
-        let places: Vec<&str> =
-            self.legal.iter().filter(|other| other.kind() == kind).map(|other| other.phase().explained()).collect();
+        let places: Vec<&str> = self
+            .legal
+            .iter()
+            .filter(|other| other.kind() == kind)
+            .map(|other| other.phase().explained())
+            .collect();
         let remedy = if !places.is_empty() {
             format!("call it in: {}", places.join(", "))
         } else if let Some(other) = self.legal.iter().next() {
@@ -164,8 +174,12 @@ impl Function {
 }
 
 macro_rules! bit {
-    (x $kind:ident $phase:ident) => { State::new(Kind::$kind, Phase::$phase).0 };
-    (- $kind:ident $phase:ident) => { 0 };
+    (x $kind:ident $phase:ident) => {
+        State::new(Kind::$kind, Phase::$phase).0
+    };
+    (- $kind:ident $phase:ident) => {
+        0
+    };
 }
 
 macro_rules! table {

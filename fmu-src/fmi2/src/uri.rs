@@ -132,7 +132,9 @@ mod tests {
 
     fn encode(path: &str) -> String {
         let keep = |byte: u8| byte.is_ascii_alphanumeric() || b"/-._~".contains(&byte);
-        path.bytes().map(|byte| if keep(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") }).collect()
+        path.bytes()
+            .map(|byte| if keep(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") })
+            .collect()
     }
 
     proptest! {

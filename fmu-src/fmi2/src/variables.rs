@@ -128,7 +128,11 @@ pub unsafe fn set_integer<M: Model>(
     values: *const Integer,
 ) -> Status {
     // SAFETY: by the caller.
-    unsafe { set::<M, _>(component, &table::SET_INTEGER, (references, n, values), |value| Ok(Value::Integer(value))) }
+    unsafe {
+        set::<M, _>(component, &table::SET_INTEGER, (references, n, values), |value| {
+            Ok(Value::Integer(value))
+        })
+    }
 }
 
 /// `fmi2GetBoolean`.
@@ -178,7 +182,9 @@ pub unsafe fn get_string<M: Model>(
         for reference in references {
             if let Value::Text(text) = instance.simulation.setting(*reference, "string")? {
                 strings.push(CString::new(text).map_err(|error| {
-                    Failure::error(format!("string {reference} contains a zero byte ({error}): set it without"))
+                    Failure::error(format!(
+                        "string {reference} contains a zero byte ({error}): set it without"
+                    ))
                 })?);
             }
         }
@@ -223,10 +229,12 @@ pub unsafe fn get_directional_derivative<M: Model>(
 ) -> Status {
     let body = |instance: &mut Instance<M>| {
         // SAFETY: by the caller.
-        let (unknowns, sensitivity) =
-            unsafe { (slice(unknowns, n_unknowns, "vUnknown_ref")?, slice_mut(sensitivity, n_unknowns, "dvUnknown")?) };
+        let (unknowns, sensitivity) = unsafe {
+            (slice(unknowns, n_unknowns, "vUnknown_ref")?, slice_mut(sensitivity, n_unknowns, "dvUnknown")?)
+        };
         // SAFETY: by the caller.
-        let (knowns, seed) = unsafe { (slice(knowns, n_knowns, "vKnown_ref")?, slice(seed, n_knowns, "dvKnown")?) };
+        let (knowns, seed) =
+            unsafe { (slice(knowns, n_knowns, "vKnown_ref")?, slice(seed, n_knowns, "dvKnown")?) };
         if let Some(wrong) = seed.iter().find(|number| !number.is_finite()) {
             return Err(Failure::error(format!("dvKnown contains {wrong}: give finite numbers")));
         }

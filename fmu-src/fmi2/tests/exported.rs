@@ -15,17 +15,50 @@ use strut_fmi2::types::*;
 
 /// Every function of FMI 2.0, as `fmi2Functions.h` lists them.
 const STANDARD: [&str; 44] = [
-    "fmi2GetTypesPlatform", "fmi2GetVersion", "fmi2SetDebugLogging", "fmi2Instantiate", "fmi2FreeInstance",
-    "fmi2SetupExperiment", "fmi2EnterInitializationMode", "fmi2ExitInitializationMode", "fmi2Terminate",
-    "fmi2Reset", "fmi2GetReal", "fmi2GetInteger", "fmi2GetBoolean", "fmi2GetString", "fmi2SetReal",
-    "fmi2SetInteger", "fmi2SetBoolean", "fmi2SetString", "fmi2GetFMUstate", "fmi2SetFMUstate",
-    "fmi2FreeFMUstate", "fmi2SerializedFMUstateSize", "fmi2SerializeFMUstate", "fmi2DeSerializeFMUstate",
-    "fmi2GetDirectionalDerivative", "fmi2EnterEventMode", "fmi2NewDiscreteStates",
-    "fmi2EnterContinuousTimeMode", "fmi2CompletedIntegratorStep", "fmi2SetTime", "fmi2SetContinuousStates",
-    "fmi2GetDerivatives", "fmi2GetEventIndicators", "fmi2GetContinuousStates",
-    "fmi2GetNominalsOfContinuousStates", "fmi2SetRealInputDerivatives", "fmi2GetRealOutputDerivatives",
-    "fmi2DoStep", "fmi2CancelStep", "fmi2GetStatus", "fmi2GetRealStatus", "fmi2GetIntegerStatus",
-    "fmi2GetBooleanStatus", "fmi2GetStringStatus",
+    "fmi2GetTypesPlatform",
+    "fmi2GetVersion",
+    "fmi2SetDebugLogging",
+    "fmi2Instantiate",
+    "fmi2FreeInstance",
+    "fmi2SetupExperiment",
+    "fmi2EnterInitializationMode",
+    "fmi2ExitInitializationMode",
+    "fmi2Terminate",
+    "fmi2Reset",
+    "fmi2GetReal",
+    "fmi2GetInteger",
+    "fmi2GetBoolean",
+    "fmi2GetString",
+    "fmi2SetReal",
+    "fmi2SetInteger",
+    "fmi2SetBoolean",
+    "fmi2SetString",
+    "fmi2GetFMUstate",
+    "fmi2SetFMUstate",
+    "fmi2FreeFMUstate",
+    "fmi2SerializedFMUstateSize",
+    "fmi2SerializeFMUstate",
+    "fmi2DeSerializeFMUstate",
+    "fmi2GetDirectionalDerivative",
+    "fmi2EnterEventMode",
+    "fmi2NewDiscreteStates",
+    "fmi2EnterContinuousTimeMode",
+    "fmi2CompletedIntegratorStep",
+    "fmi2SetTime",
+    "fmi2SetContinuousStates",
+    "fmi2GetDerivatives",
+    "fmi2GetEventIndicators",
+    "fmi2GetContinuousStates",
+    "fmi2GetNominalsOfContinuousStates",
+    "fmi2SetRealInputDerivatives",
+    "fmi2GetRealOutputDerivatives",
+    "fmi2DoStep",
+    "fmi2CancelStep",
+    "fmi2GetStatus",
+    "fmi2GetRealStatus",
+    "fmi2GetIntegerStatus",
+    "fmi2GetBooleanStatus",
+    "fmi2GetStringStatus",
 ];
 
 /// The example's library, which `cargo test` builds before it runs the tests.
@@ -59,15 +92,15 @@ fn exactly_the_functions_of_the_standard_are_exported() {
     }
     let nm = Command::new("nm").args(["-D", "--defined-only"]).arg(self::library()).output().unwrap();
     let listed = String::from_utf8(nm.stdout).unwrap();
-    let mut exported: Vec<&str> =
-        listed.split_whitespace().filter(|word| word.starts_with("fmi2")).collect();
+    let mut exported: Vec<&str> = listed.split_whitespace().filter(|word| word.starts_with("fmi2")).collect();
     let mut standard = STANDARD;
     exported.sort_unstable();
     standard.sort_unstable();
     assert_eq!(exported, standard);
     // The table lists those that work on an instance.
     let own = ["fmi2GetTypesPlatform", "fmi2GetVersion", "fmi2Instantiate"];
-    let mut listed: Vec<&str> = strut_fmi2::state_table::FUNCTIONS.iter().map(|function| function.name).collect();
+    let mut listed: Vec<&str> =
+        strut_fmi2::state_table::FUNCTIONS.iter().map(|function| function.name).collect();
     listed.extend(own);
     listed.sort_unstable();
     assert_eq!(listed, standard);
@@ -75,7 +108,15 @@ fn exactly_the_functions_of_the_standard_are_exported() {
 
 #[test]
 fn a_library_without_a_resource_location_finds_the_parameters_beside_it() {
-    type Instantiate = unsafe extern "C" fn(Text, RawType, Text, Text, *const CallbackFunctions, Boolean, Boolean) -> Component;
+    type Instantiate = unsafe extern "C" fn(
+        Text,
+        RawType,
+        Text,
+        Text,
+        *const CallbackFunctions,
+        Boolean,
+        Boolean,
+    ) -> Component;
     type Step = unsafe extern "C" fn(Component) -> Status;
     type Get = unsafe extern "C" fn(Component, *const u32, usize, *mut f64) -> Status;
     type Version = unsafe extern "C" fn() -> Text;
@@ -111,7 +152,15 @@ fn a_library_without_a_resource_location_finds_the_parameters_beside_it() {
         let free: Free = std::mem::transmute(symbol(library, "fmi2FreeInstance"));
         assert_eq!((CStr::from_ptr(version()), CStr::from_ptr(platform())), (c"2.0", c"default"));
         for kind in [0, 1] {
-            let c = instantiate(c"a".as_ptr(), kind, guid.as_ptr(), ptr::null(), &raw const callbacks, FALSE, FALSE);
+            let c = instantiate(
+                c"a".as_ptr(),
+                kind,
+                guid.as_ptr(),
+                ptr::null(),
+                &raw const callbacks,
+                FALSE,
+                FALSE,
+            );
             assert!(!c.is_null());
             assert_eq!(enter(c), Status::Ok);
             let mut level = 0.0;

@@ -46,7 +46,10 @@ fn what_is_wrong_with_an_instantiation_is_named() {
         (instantiate::<Decay>(name, CS, right, c"file:///%ff".as_ptr()), "UTF-8"),
     ] {
         let message = result.unwrap_err();
-        assert!(message.format.starts_with("fmi2Instantiate: ") && message.format.contains(part), "{message:?}");
+        assert!(
+            message.format.starts_with("fmi2Instantiate: ") && message.format.contains(part),
+            "{message:?}"
+        );
         assert_eq!((message.category.as_str(), message.status), ("logStatusError", Status::Error));
     }
 }
@@ -62,17 +65,31 @@ fn the_parameter_set_in_the_resources_is_used_and_belongs_to_the_guid() {
     let right = strut_model::Interface::of::<Decay>(Some(&set), Some(&resources)).unwrap().guid();
     let right = CString::new(right).unwrap();
     let path = resources.to_str().unwrap();
-    for uri in [path.to_owned(), format!("file://{path}"), format!("file://{}/", path.replace(' ', "%20").replace('ü', "%C3%BC"))] {
+    for uri in [
+        path.to_owned(),
+        format!("file://{path}"),
+        format!("file://{}/", path.replace(' ', "%20").replace('ü', "%C3%BC")),
+    ] {
         let uri = CString::new(uri).unwrap();
         assert_eq!(instantiate::<Decay>(c"a".as_ptr(), CS, right.as_ptr(), uri.as_ptr()), Ok(()));
     }
     let uri = CString::new(path).unwrap();
-    let message = instantiate::<Decay>(c"a".as_ptr(), CS, guid::<Decay>().as_ptr(), uri.as_ptr()).unwrap_err();
-    assert!(message.format.contains("start values of") && message.format.contains("parameters.toml"), "{message:?}");
+    let message =
+        instantiate::<Decay>(c"a".as_ptr(), CS, guid::<Decay>().as_ptr(), uri.as_ptr()).unwrap_err();
+    assert!(
+        message.format.contains("start values of") && message.format.contains("parameters.toml"),
+        "{message:?}"
+    );
     let message = instantiate::<Decay>(c"a".as_ptr(), CS, right.as_ptr(), ptr::null()).unwrap_err();
     assert!(message.format.contains("no resource location was given"), "{message:?}");
     let message = instantiate::<Decay>(c"a".as_ptr(), CS, right.as_ptr(), c"/nowhere".as_ptr()).unwrap_err();
     assert!(message.format.contains("no parameters.toml in /nowhere"), "{message:?}");
+    fs::write(resources.join("parameters.toml"), text.replace("rate", "rat")).unwrap();
+    let message = instantiate::<Decay>(c"a".as_ptr(), CS, right.as_ptr(), uri.as_ptr()).unwrap_err();
+    assert!(
+        message.format.contains("does not fit Decay") && message.format.contains("`rate`?"),
+        "{message:?}"
+    );
     fs::write(resources.join("parameters.toml"), "100 % wrong").unwrap();
     let message = instantiate::<Decay>(c"a".as_ptr(), CS, right.as_ptr(), uri.as_ptr()).unwrap_err();
     assert!(message.format.contains("parameters.toml is no parameter set"), "{message:?}");

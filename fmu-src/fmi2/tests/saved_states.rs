@@ -113,7 +113,9 @@ fn a_pointer_to_a_saved_state_is_reused_freed_and_looked_up() {
     assert!(state.is_null());
     assert_eq!(host.free_fmu_state(&mut state), Status::Ok);
     let other = Host::<Decay>::initialized(CS);
-    for (mut wrong, part) in [(first, "was freed"), (other.save(), "serialize it"), (ptr::null_mut(), "is none")] {
+    for (mut wrong, part) in
+        [(first, "was freed"), (other.save(), "serialize it"), (ptr::null_mut(), "is none")]
+    {
         assert_eq!(host.set_fmu_state(wrong), Status::Error);
         assert!(host.message().format.contains(part));
         assert_eq!(host.serialized_fmu_state_size(wrong, &mut 0), Status::Error);

@@ -113,15 +113,28 @@ fn derivatives_of_outputs_and_by_variables_are_those_of_the_equations() {
     assert_eq!(host.set("force", 0.5), Status::Ok);
     let (x, rate, gain) = (host.real("position"), host.real("rate"), host.real("gain"));
     let mut slope = 0.0;
-    assert_eq!(host.get_real_output_derivatives(&reference::<Decay>("signal"), 1, &1, &mut slope), Status::Ok);
+    assert_eq!(
+        host.get_real_output_derivatives(&reference::<Decay>("signal"), 1, &1, &mut slope),
+        Status::Ok
+    );
     close(slope, 2.0 * gain * x * (0.5 - rate * x), 1e-15);
-    assert_eq!(host.get_real_output_derivatives(&reference::<Decay>("signal"), 1, &2, &mut slope), Status::Error);
+    assert_eq!(
+        host.get_real_output_derivatives(&reference::<Decay>("signal"), 1, &2, &mut slope),
+        Status::Error
+    );
 
     let unknowns = ["signal", "der(position)"].map(reference::<Decay>);
     let knowns = ["force", "position"].map(reference::<Decay>);
     let (seed, mut found) = ([0.3, -0.7], [0.0; 2]);
     let derivative = |found: &mut [f64; 2]| {
-        host.get_directional_derivative(unknowns.as_ptr(), 2, knowns.as_ptr(), 2, seed.as_ptr(), found.as_mut_ptr())
+        host.get_directional_derivative(
+            unknowns.as_ptr(),
+            2,
+            knowns.as_ptr(),
+            2,
+            seed.as_ptr(),
+            found.as_mut_ptr(),
+        )
     };
     assert_eq!(derivative(&mut found), Status::Ok);
     // Central differences, in a model exchange instance, where states can be set.
@@ -136,8 +149,14 @@ fn derivatives_of_outputs_and_by_variables_are_those_of_the_equations() {
     for i in 0..2 {
         close(found[i], (plus[i] - minus[i]) / 2e-5, 1e-9);
     }
-    assert_eq!(host.get_directional_derivative(&unknowns[0], 1, &unknowns[0], 1, &1.0, &mut slope), Status::Error);
-    assert_eq!(host.get_directional_derivative(&unknowns[0], 1, &knowns[0], 1, &f64::NAN, &mut slope), Status::Error);
+    assert_eq!(
+        host.get_directional_derivative(&unknowns[0], 1, &unknowns[0], 1, &1.0, &mut slope),
+        Status::Error
+    );
+    assert_eq!(
+        host.get_directional_derivative(&unknowns[0], 1, &knowns[0], 1, &f64::NAN, &mut slope),
+        Status::Error
+    );
 }
 
 fn event<M: Model>(host: &Host<M>) -> EventInfo {
@@ -202,7 +221,10 @@ fn model_exchange_and_co_simulation_agree() {
             // The first tick is made at the initial event, before the input is set.
             assert_eq!(stepped.set("force", if step == 0 { 0.0 } else { 0.3 }), Status::Ok);
             let first = step == 0;
-            assert_eq!(stepped.do_step(0.02 * f64::from(step), if first { 1e-6 } else { 0.02 }, TRUE), Status::Ok);
+            assert_eq!(
+                stepped.do_step(0.02 * f64::from(step), if first { 1e-6 } else { 0.02 }, TRUE),
+                Status::Ok
+            );
             if first {
                 assert_eq!(stepped.set("force", 0.3), Status::Ok);
                 assert_eq!(stepped.do_step(1e-6, 0.02 - 1e-6, TRUE), Status::Ok);

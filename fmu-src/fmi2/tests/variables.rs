@@ -49,7 +49,9 @@ fn what_is_refused_is_named() {
     told(host.set("signal", 1.0), "`signal` cannot be set: it is an output");
     assert_eq!(host.get_real(ptr::null(), 0, ptr::null_mut()), Status::Ok);
     let host = Host::<Decay>::new(CS);
-    for (name, value) in [("force", f64::NAN), ("force", f64::INFINITY), ("rate", -1.0), ("position", f64::NAN)] {
+    for (name, value) in
+        [("force", f64::NAN), ("force", f64::INFINITY), ("rate", -1.0), ("position", f64::NAN)]
+    {
         assert_eq!(host.set(name, value), Status::Error);
         assert!(host.message().format.contains(name));
     }

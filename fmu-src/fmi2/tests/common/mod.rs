@@ -28,12 +28,19 @@ pub struct Message {
 
 /// The logger's fixed arguments. Rust cannot define a variadic function, but on the platforms that the
 /// tests run on the fixed arguments of one arrive as those of any other.
-unsafe extern "C" fn record(environment: *mut c_void, instance: Text, status: Status, category: Text, format: Text) {
+unsafe extern "C" fn record(
+    environment: *mut c_void,
+    instance: Text,
+    status: Status,
+    category: Text,
+    format: Text,
+) {
     // SAFETY: the environment is the host's list, texts come from the library.
     unsafe {
         assert!(!instance.is_null() && !category.is_null() && !format.is_null());
         let text = |pointer| CStr::from_ptr(pointer).to_str().unwrap().to_owned();
-        let message = Message { instance: text(instance), status, category: text(category), format: text(format) };
+        let message =
+            Message { instance: text(instance), status, category: text(category), format: text(format) };
         (*environment.cast::<Vec<Message>>()).push(message);
     }
 }
@@ -96,7 +103,15 @@ impl<M: Model> Host<M> {
         let guid = guid::<M>();
         // SAFETY: all pointers live.
         let c = unsafe {
-            f::instantiate::<M>(c"test".as_ptr(), kind, guid.as_ptr(), ptr::null(), &raw const callbacks, FALSE, TRUE)
+            f::instantiate::<M>(
+                c"test".as_ptr(),
+                kind,
+                guid.as_ptr(),
+                ptr::null(),
+                &raw const callbacks,
+                FALSE,
+                TRUE,
+            )
         };
         let host = Self { c, messages, model: PhantomData };
         assert!(!c.is_null(), "{:?}", host.messages());
