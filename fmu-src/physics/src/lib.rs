@@ -46,8 +46,14 @@ pub const PARAMETER_SETS: &[(&str, &str)] = &[
     ("TumQuarterVehicle.toml", include_str!("../parameters/TumQuarterVehicle.toml")),
     ("TumRoad.toml", include_str!("../parameters/TumRoad.toml")),
     ("TumSkyhook.toml", include_str!("../parameters/TumSkyhook.toml")),
-    ("TumTable7MeasuredQuarterVehicle.toml", include_str!("../parameters/TumTable7MeasuredQuarterVehicle.toml")),
-    ("TumTable7OptimisedQuarterVehicle.toml", include_str!("../parameters/TumTable7OptimisedQuarterVehicle.toml")),
+    (
+        "TumTable7MeasuredQuarterVehicle.toml",
+        include_str!("../parameters/TumTable7MeasuredQuarterVehicle.toml"),
+    ),
+    (
+        "TumTable7OptimisedQuarterVehicle.toml",
+        include_str!("../parameters/TumTable7OptimisedQuarterVehicle.toml"),
+    ),
 ];
 
 /// File name and text of each composition of components to a system.

@@ -42,14 +42,23 @@ fn every_set_fits_its_model_and_runs() {
     for set in sets() {
         let entry = model(&set.model);
         // Names, units and bounds are checked here, what must hold together by the run.
-        let interface = entry.interface(Some(&set), Some(&resources())).unwrap_or_else(|error| panic!("{}: {error}", set.fmu));
+        let interface = entry
+            .interface(Some(&set), Some(&resources()))
+            .unwrap_or_else(|error| panic!("{}: {error}", set.fmu));
         for (name, given) in &set.values {
             let variable = interface.variable(name).unwrap();
             let is_real = matches!(variable.kind, VariableKind::Real { .. });
-            assert_eq!(given.unit.is_some(), is_real, "{}: {name} needs a unit if it is a real number", set.fmu);
+            assert_eq!(
+                given.unit.is_some(),
+                is_real,
+                "{}: {name} needs a unit if it is a real number",
+                set.fmu
+            );
             assert!(!given.source.is_empty(), "{}: {name} needs a source", set.fmu);
         }
-        let trajectory = entry.demonstrate(Some(&set), Some(&resources())).unwrap_or_else(|error| panic!("{}: {error}", set.fmu));
+        let trajectory = entry
+            .demonstrate(Some(&set), Some(&resources()))
+            .unwrap_or_else(|error| panic!("{}: {error}", set.fmu));
         for (name, _, values) in &trajectory.signals {
             assert!(values.iter().all(|value| value.is_finite()), "{}: {name}", set.fmu);
         }
@@ -59,13 +68,18 @@ fn every_set_fits_its_model_and_runs() {
 #[test]
 fn every_declared_model_runs_and_shows_something() {
     for entry in CATALOGUE {
-        let trajectory = entry.demonstrate(None, None).unwrap_or_else(|error| panic!("{}: {error}", entry.about.name));
+        let trajectory =
+            entry.demonstrate(None, None).unwrap_or_else(|error| panic!("{}: {error}", entry.about.name));
         for name in entry.about.experiment.plot {
             let (_, _, values) = trajectory.signals.iter().find(|(signal, _, _)| signal == name).unwrap();
             assert!(values.iter().any(|value| *value != values[0]), "{}: {name} rests", entry.about.name);
         }
         for (name, _) in entry.about.experiment.stimuli {
-            assert!(trajectory.signals.iter().any(|(signal, _, _)| signal == name), "{}: no input {name}", entry.about.name);
+            assert!(
+                trajectory.signals.iter().any(|(signal, _, _)| signal == name),
+                "{}: no input {name}",
+                entry.about.name
+            );
         }
     }
 }
@@ -98,8 +112,10 @@ fn sources_are_in_the_bibliography() {
 
 fn variable<'a>(components: &'a [(String, Interface)], path: &str) -> &'a Variable {
     let (component, name) = path.split_once('.').unwrap_or_else(|| panic!("{path} has no component"));
-    let (_, interface) =
-        components.iter().find(|(known, _)| known == component).unwrap_or_else(|| panic!("no component {component}"));
+    let (_, interface) = components
+        .iter()
+        .find(|(known, _)| known == component)
+        .unwrap_or_else(|| panic!("no component {component}"));
     interface.variable(name).unwrap_or_else(|| panic!("no variable {path}"))
 }
 
@@ -125,7 +141,11 @@ fn systems_connect_outputs_with_inputs_of_equal_unit() {
         for connection in system["connections"].as_array().unwrap() {
             let (from, to) = connection.as_str().unwrap().split_once(" -> ").unwrap();
             let (source, sink) = (variable(&components, from), variable(&components, to));
-            assert_eq!((source.causality, sink.causality), (Causality::Output, Causality::Input), "{file}: {connection:?}");
+            assert_eq!(
+                (source.causality, sink.causality),
+                (Causality::Output, Causality::Input),
+                "{file}: {connection:?}"
+            );
             assert_eq!(unit(source), unit(sink), "{file}: {connection:?}");
             assert!(fed.insert(to.to_owned()), "{file}: {to} is fed twice");
         }
@@ -134,7 +154,9 @@ fn systems_connect_outputs_with_inputs_of_equal_unit() {
             assert_eq!(variable(&components, path).causality, Causality::Output, "{file}: {path}");
         }
         for (path, given) in system["parameters"].as_table().unwrap() {
-            let VariableKind::Real { unit, start, .. } = variable(&components, path).kind else { panic!("{path}") };
+            let VariableKind::Real { unit, start, .. } = variable(&components, path).kind else {
+                panic!("{path}")
+            };
             assert_eq!(given["unit"].as_str(), Some(unit.symbol), "{file}: {path}");
             assert_eq!(given["value"].as_float(), start, "{file}: {path} must restate what is built in");
         }
@@ -143,7 +165,9 @@ fn systems_connect_outputs_with_inputs_of_equal_unit() {
 
 #[test]
 fn quansers_finding_stands_in_the_sets() {
-    let tire = |name: &str| match sets().iter().find(|set| set.fmu == name).unwrap().values["tire.stiffness"].value {
+    let tire = |name: &str| match sets().iter().find(|set| set.fmu == name).unwrap().values["tire.stiffness"]
+        .value
+    {
         Value::Real(value) => value,
         _ => f64::NAN,
     };

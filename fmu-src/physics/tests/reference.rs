@@ -4,7 +4,12 @@ mod common;
 
 use common::{Case, Named, cases};
 use strut_model::{Model, Value};
-use strut_physics::{actuators::LinearMotor, controllers::{LqrController, Skyhook}, rigs::QuarterCar, roads::Road};
+use strut_physics::{
+    actuators::LinearMotor,
+    controllers::{LqrController, Skyhook},
+    rigs::QuarterCar,
+    roads::Road,
+};
 
 /// Largest error relative to the column's scale at the default tolerance.
 const BOUND: f64 = 1e-6;
@@ -15,7 +20,10 @@ fn own_name(column: &str) -> &str {
         "v1" => "current_loop",
         "v2" => "delayed",
         "q" => "overload",
-        other => other.strip_prefix("road.").filter(|rest| ["position", "velocity"].contains(rest)).unwrap_or(other),
+        other => other
+            .strip_prefix("road.")
+            .filter(|rest| ["position", "velocity"].contains(rest))
+            .unwrap_or(other),
     }
 }
 
@@ -31,7 +39,8 @@ fn run<M: Model>(case: &Case) -> Vec<(String, f64)> {
     model.initialize();
     let (step, stop) = (case.number("step"), case.number("stop"));
     let steps = (stop / step).round() as usize;
-    let mut errors: Vec<(String, f64)> = case.columns[1..].iter().map(|column| (column.clone(), 0.0)).collect();
+    let mut errors: Vec<(String, f64)> =
+        case.columns[1..].iter().map(|column| (column.clone(), 0.0)).collect();
     let mut compare = |model: &mut Named<M>, row: &[f64]| {
         for ((column, worst), expected) in errors.iter_mut().zip(&row[1..]) {
             // An input's name in the table is the FMU's own.
@@ -125,7 +134,11 @@ fn roads_follow_the_reference_formulas() {
             }
             for (column, expected) in case.columns[1..].iter().zip(&row[1..]) {
                 let error = (road.get(own_name(column)) - expected).abs() / case.scale(column);
-                assert!(error < 1e-11, "{}: {column} at {now} s is off by {error:.1e} of its scale", case.name);
+                assert!(
+                    error < 1e-11,
+                    "{}: {column} at {now} s is off by {error:.1e} of its scale",
+                    case.name
+                );
             }
         }
     }
@@ -136,20 +149,23 @@ fn controllers_follow_the_reference_laws() {
     for case in cases("static") {
         let errors = match case.text("fmu") {
             "Skyhook" => held::<Skyhook>(&case, &[("damping", case.number("damping"))]),
-            "LqrController" => held::<LqrController>(&case, &[
-                ("switch_on_time", case.number("switch_on_time")),
-                ("sprung_mass", 2.45),
-                ("unsprung_mass", 1.0),
-                ("strut.stiffness", 900.0),
-                ("strut.damping", 7.5),
-                ("tire.stiffness", 2500.0),
-                ("tire.damping", 5.0),
-                ("weight.suspension_deflection", 450.0),
-                ("weight.body_velocity", 30.0),
-                ("weight.tire_deflection", 5.0),
-                ("weight.wheel_velocity", 0.01),
-                ("weight.force", 0.01),
-            ]),
+            "LqrController" => held::<LqrController>(
+                &case,
+                &[
+                    ("switch_on_time", case.number("switch_on_time")),
+                    ("sprung_mass", 2.45),
+                    ("unsprung_mass", 1.0),
+                    ("strut.stiffness", 900.0),
+                    ("strut.damping", 7.5),
+                    ("tire.stiffness", 2500.0),
+                    ("tire.damping", 5.0),
+                    ("weight.suspension_deflection", 450.0),
+                    ("weight.body_velocity", 30.0),
+                    ("weight.tire_deflection", 5.0),
+                    ("weight.wheel_velocity", 0.01),
+                    ("weight.force", 0.01),
+                ],
+            ),
             other => panic!("{}: {other} is not tested here", case.name),
         };
         assert!(errors < 1e-12, "{}: {errors:.1e}", case.name);

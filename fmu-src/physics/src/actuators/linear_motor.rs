@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use strut_model::{About, Equation, Experiment, Kind, Model, NoSettings, Now, Real, Stimulus, Variables, bundles};
+use strut_model::{
+    About, Equation, Experiment, Kind, Model, NoSettings, Now, Real, Stimulus, Variables, bundles,
+};
 
 /// The suspension actuator of TUM 3.2.2 and 4.2: a voltage commands a current, the current makes the force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -135,25 +137,36 @@ pub struct Derived<R> {
 impl Model for LinearMotor {
     const ABOUT: About = About {
         name: "LinearMotor",
-        summary: "Linear motor in a suspension: current loop with a lag, voltage and I²t limits, stroke and speed reserve",
+        summary: "Linear motor in a suspension: current loop with a lag, voltage and I²t limits, stroke and \
+            speed reserve",
         kind: Kind::Actuator,
         equations: &[
             Equation { text: "v1' = -320.4019 v1 + 1.2131 u, v2' = 250 (v1 - v2)", source: "TUM eq. 10" },
             Equation { text: "i = 839.4076 v2, F = 100 N/A i", source: "TUM eq. 11, corrected" },
-            Equation { text: "u = voltage + force_reference/(force per volt), |u| <= 10 V, |u| <= i_limit/(current per volt)", source: "TUM 3.5, Table 3" },
+            Equation {
+                text: "u = voltage + force_reference/(force per volt), |u| <= 10 V, |u| <= i_limit/(current \
+                    per volt)",
+                source: "TUM 3.5, Table 3",
+            },
             Equation { text: "q' = i^2 - i_c^2 between 0 and Q = (i_p^2 - i_c^2) 1 s", source: "TUM eq. 1" },
-            Equation { text: "i_limit = i_c + (i_p - i_c) clamp((Q - q)/(0.02 Q), 0, 1)", source: "TUM eq. 1, smoothed" },
+            Equation {
+                text: "i_limit = i_c + (i_p - i_c) clamp((Q - q)/(0.02 Q), 0, 1)",
+                source: "TUM eq. 1, smoothed",
+            },
         ],
         notes: &[
-            "TUM prints \"1 A ~ 1 kN\" at eq. 11. The static gain of eq. 10-11 is 3.178 A/V, so 10 V would make 31.8 kN; with \
-             100 N/A they make 3178 N, which is the motor's peak force of 3200 N (Table 3). 100 N/A is used.",
-            "TUM calls the second row of eq. 10 a first-order Padé approximation of 4 ms; as printed it is a lag of 4 ms.",
+            "TUM prints \"1 A ~ 1 kN\" at eq. 11. The static gain of eq. 10-11 is 3.178 A/V, so 10 V would \
+             make 31.8 kN; with 100 N/A they make 3178 N, which is the motor's peak force of 3200 N (Table \
+             3). 100 N/A is used.",
+            "TUM calls the second row of eq. 10 a first-order Padé approximation of 4 ms; as printed it is \
+             a lag of 4 ms.",
             "The gain is down by exactly 3 dB at 28.619 Hz; printed are 28.6 Hz.",
-            "TUM eq. 1 switches from peak to continuous current at once when the overload reaches Q, and back as soon as it \
-             has fallen: the current would chatter between both. Here the limit moves linearly over the last 2 % of Q, so that \
-             under a lasting demand the current settles at the continuous one.",
-            "Eq. 1 is given for the excitation motor (1860 N for 1 s, 276 N rms); peak and continuous force of this motor are \
-             those of Table 3, the second is taken over.",
+            "TUM eq. 1 switches from peak to continuous current at once when the overload reaches Q, and \
+             back as soon as it has fallen: the current would chatter between both. Here the limit moves \
+             linearly over the last 2 % of Q, so that under a lasting demand the current settles at the \
+             continuous one.",
+            "Eq. 1 is given for the excitation motor (1860 N for 1 s, 276 N rms); peak and continuous force \
+             of this motor are those of Table 3, the second is taken over.",
         ],
         experiment: Experiment {
             stop: 8.0,
@@ -185,7 +198,8 @@ impl Model for LinearMotor {
             return Ok(());
         }
         Err(format!(
-            "peak_current = {} A must be larger than continuous_current = {} A: there would be no overload to limit",
+            "peak_current = {} A must be larger than continuous_current = {} A: there would be no overload \
+             to limit",
             p.peak_current, p.continuous_current
         ))
     }
@@ -197,7 +211,8 @@ impl Model for LinearMotor {
 
         let surplus = current.squared() - p.continuous_current.squared();
         // Empty it cannot fall, full it cannot grow.
-        let charging = (now.derived.overload_capacity - x.overload).select(surplus, surplus.min(R::from(0.0)));
+        let charging =
+            (now.derived.overload_capacity - x.overload).select(surplus, surplus.min(R::from(0.0)));
         let overload = x.overload.select(charging, charging.max(R::from(0.0)));
 
         let rates = State {
@@ -278,7 +293,8 @@ mod tests {
 
     fn simulation(voltage: f64) -> Simulation<LinearMotor> {
         let mut simulation = Simulation::new(None, None).unwrap();
-        let reference = Interface::of::<LinearMotor>(None, None).unwrap().variable("voltage").unwrap().reference;
+        let reference =
+            Interface::of::<LinearMotor>(None, None).unwrap().variable("voltage").unwrap().reference;
         simulation.set_up(0.0, None).unwrap();
         simulation.initialize().unwrap();
         simulation.set_real(&[reference], &[voltage], Access::Inputs).unwrap();
@@ -286,7 +302,8 @@ mod tests {
     }
 
     fn current(simulation: &mut Simulation<LinearMotor>) -> f64 {
-        let reference = Interface::of::<LinearMotor>(None, None).unwrap().variable("current").unwrap().reference;
+        let reference =
+            Interface::of::<LinearMotor>(None, None).unwrap().variable("current").unwrap().reference;
         let mut value = [0.0];
         simulation.real(&[reference], &mut value).unwrap();
         value[0]

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use strut_model::{About, Equation, Experiment, Kind, Model, Nothing, Now, Real, Settings, Stimulus, Variables, bundles};
+use strut_model::{
+    About, Equation, Experiment, Kind, Model, Nothing, Now, Real, Settings, Stimulus, Variables, bundles,
+};
 
 use super::riccati::Problem;
 
@@ -166,19 +168,26 @@ const RESIDUAL: f64 = 1e-6;
 impl Model for LqrController {
     const ABOUT: About = About {
         name: "LqrController",
-        summary: "Linear quadratic regulator of a quarter car, its gain given or computed from plant and weights",
+        summary: "Linear quadratic regulator of a quarter car, its gain given or computed from plant and \
+            weights",
         kind: Kind::Controller,
         equations: &[
-            Equation { text: "F_c = -K x, x = (z_s - z_us, z_s', z_us - z_r, z_us')", source: "Quanser 2.2.3, eq. 2.10" },
+            Equation {
+                text: "F_c = -K x, x = (z_s - z_us, z_s', z_us - z_r, z_us')",
+                source: "Quanser 2.2.3, eq. 2.10",
+            },
             Equation { text: "J = integral of x' Q x + R F_c^2", source: "Quanser eq. 2.22" },
-            Equation { text: "K = R^-1 B' X, A' X + X A - X B R^-1 B' X + Q = 0", source: "Riccati equation of eq. 2.22-2.23" },
+            Equation {
+                text: "K = R^-1 B' X, A' X + X A - X B R^-1 B' X + Q = 0",
+                source: "Riccati equation of eq. 2.22-2.23",
+            },
         ],
         notes: &[
-            "Quanser's Table 3.1 gives K_us = 1250 N/m, but the printed gain [24.66 48.87 -0.47 3.68] belongs to 2500 N/m; \
-             with 1250 N/m it is [24.66 47.61 38.74 4.51].",
+            "Quanser's Table 3.1 gives K_us = 1250 N/m, but the printed gain [24.66 48.87 -0.47 3.68] \
+             belongs to 2500 N/m; with 1250 N/m it is [24.66 47.61 38.74 4.51].",
             "The force is held between samples. A sample at the switch-on time is controlled already.",
-            "The gain is computed when a parameter changes. Parameters for which the Riccati equation has no stabilising \
-             solution are refused.",
+            "The gain is computed when a parameter changes. Parameters for which the Riccati equation has \
+             no stabilising solution are refused.",
         ],
         experiment: Experiment {
             stop: 2.0,
@@ -227,9 +236,10 @@ impl Model for LqrController {
             return Ok(());
         }
         Err(format!(
-            "no gain stabilises the plant at least cost (relative residual of the Riccati equation {residual:.1e}): with \
-             strut.damping = {} N.s/m, tire.damping = {} N.s/m and the given weights a mode of the plant stays undamped; \
-             raise a weight.*, lower weight.force = {} 1/N2, or give a gain and set gain.computed to false",
+            "no gain stabilises the plant at least cost (relative residual of the Riccati equation \
+             {residual:.1e}): with strut.damping = {} N.s/m, tire.damping = {} N.s/m and the given weights \
+             a mode of the plant stays undamped; raise a weight.*, lower weight.force = {} 1/N2, or give a \
+             gain and set gain.computed to false",
             p.strut.damping, p.tire.damping, p.weight.force
         ))
     }

@@ -42,7 +42,9 @@ impl<R: Real> Problem<R> {
         let unit = [one, shift, one, shift];
         let a = from_fn(|i, j| self.state[i][j] * unit[j] / (unit[i] * shift));
         let g = from_fn(|i, j| self.coupling(i, j) / (unit[i] * unit[j] * shift));
-        let h = from_fn(|i, j| if i == j { self.state_weight[i] * unit[i] * unit[j] / shift } else { R::from(0.0) });
+        let h = from_fn(
+            |i, j| if i == j { self.state_weight[i] * unit[i] * unit[j] / shift } else { R::from(0.0) },
+        );
 
         // Cayley transform.
         let shifted = from_fn(|i, j| a[i][j] - R::from(f64::from(i == j)));
@@ -146,7 +148,8 @@ fn transpose<R: Real>(a: &Matrix<R>) -> Matrix<R> {
 /// The inverse by Laplace expansion in 2×2 minors of the upper and lower two rows: an elimination would have
 /// to choose its pivots by value.
 fn invert<R: Real>(a: &Matrix<R>) -> Matrix<R> {
-    let minor = |rows: [usize; 2], i: usize, j: usize| a[rows[0]][i] * a[rows[1]][j] - a[rows[0]][j] * a[rows[1]][i];
+    let minor =
+        |rows: [usize; 2], i: usize, j: usize| a[rows[0]][i] * a[rows[1]][j] - a[rows[0]][j] * a[rows[1]][i];
     const PAIRS: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
     let upper = PAIRS.map(|[i, j]| minor([0, 1], i, j));
     let lower = PAIRS.map(|[i, j]| minor([2, 3], i, j));
@@ -155,12 +158,7 @@ fn invert<R: Real>(a: &Matrix<R>) -> Matrix<R> {
         + upper[5] * lower[0];
     // The minor of the columns that are not `without` and not `column`, with its sign in the expansion.
     let expand = |minors: &[R; 6], row: usize, without: usize| {
-        let mut columns = [0; 3];
-        let mut next = 0;
-        for column in (0..4).filter(|column| *column != without) {
-            columns[next] = column;
-            next += 1;
-        }
+        let columns: [usize; 3] = std::array::from_fn(|place| place + usize::from(place >= without));
         let pair = |i: usize, j: usize| {
             let place = PAIRS.iter().position(|pair| *pair == [columns[i], columns[j]]);
             minors[place.unwrap_or_default()]
@@ -189,7 +187,12 @@ mod tests {
     fn a_double_integrator_chain_has_its_known_solution() {
         // ẍ = u for x and, apart from it, a stable pair: Q = diag(1, 0), R = 1 gives K = [1, √2].
         let state = [[0.0, 1.0, 0.0, 0.0], [0.0; 4], [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, -1.0, -1.0]];
-        let problem = Problem { state, input: [0.0, 1.0, 0.0, 0.0], state_weight: [1.0, 0.0, 0.0, 0.0], input_weight: 1.0 };
+        let problem = Problem {
+            state,
+            input: [0.0, 1.0, 0.0, 0.0],
+            state_weight: [1.0, 0.0, 0.0, 0.0],
+            input_weight: 1.0,
+        };
         let gain = problem.gain(&problem.solve(1.0));
         for (found, exact) in gain.into_iter().zip([1.0, 2_f64.sqrt(), 0.0, 0.0]) {
             assert!((found - exact).abs() < 1e-13, "{gain:?}");

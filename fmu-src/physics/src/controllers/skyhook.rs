@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use strut_model::{About, Equation, Experiment, Kind, Model, NoSettings, Nothing, Now, Real, Stimulus, Variables, bundles};
+use strut_model::{
+    About, Equation, Experiment, Kind, Model, NoSettings, Nothing, Now, Real, Stimulus, Variables, bundles,
+};
 
 /// Skyhook control, Ajala eq. 28: `F_a,ref = −ż_a C_SH`, sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,7 +50,9 @@ impl Model for Skyhook {
         summary: "Skyhook controller: the force of a damper between the body and the sky",
         kind: Kind::Controller,
         equations: &[Equation { text: "F_ref = -C_SH z_a'", source: "Ajala eq. 28" }],
-        notes: &["The force is held between samples. Ajala gives no value for C_SH; the declared one is assumed."],
+        notes: &[
+            "The force is held between samples. Ajala gives no value for C_SH; the declared one is assumed.",
+        ],
         experiment: Experiment {
             stop: 2.0,
             step: 1e-3,

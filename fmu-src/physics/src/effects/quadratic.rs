@@ -61,7 +61,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn relief_is_the_root_nearest_zero(stiffness in 1e3..3e5_f64, quadratic in -4e6..4e6_f64, load in 1.0..5e3_f64) {
+        fn relief_is_the_root_nearest_zero(
+            stiffness in 1e3..3e5_f64,
+            quadratic in -4e6..4e6_f64,
+            load in 1.0..5e3_f64,
+        ) {
             let spring = Quadratic { stiffness, quadratic };
             prop_assume!(spring.reaches(load));
             let c = spring.compression_at_relief(load);

@@ -7,7 +7,9 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use strut_model::{About, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles};
+use strut_model::{
+    About, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
+};
 
 use crate::GRAVITY;
 use crate::effects::Coulomb;
@@ -187,13 +189,15 @@ pub struct TireDerived<R> {
 impl Model for QuarterCar {
     const ABOUT: About = About {
         name: "QuarterCar",
-        summary: "A body on a strut, a wheel on a tyre: linear quarter car or, with its effects on, nonlinear test rig",
+        summary: "A body on a strut, a wheel on a tyre: linear quarter car or, with its effects on, \
+            nonlinear test rig",
         kind: Kind::Rig,
         equations: &[
             Equation { text: "m_s a_s = -F_strut + F_act - F_guide", source: "TUM eq. 2; guide: 4.3.3" },
             Equation { text: "m_u a_u = F_strut - F_act + F_tire", source: "TUM eq. 3" },
             Equation {
-                text: "F_strut = k x + d (v + alpha (sqrt(v^2 + eps^2) - eps)) + F_c tanh(v/v_0), x = z_s - z_u, v = x'",
+                text: "F_strut = k x + d (v + alpha (sqrt(v^2 + eps^2) - eps)) + F_c tanh(v/v_0), x = z_s - \
+                    z_u, v = x'",
                 source: "TUM eq. 12, 14; asymmetry derived from Table 9",
             },
             Equation { text: "F_guide = F_g tanh(z_s'/v_0)", source: "TUM eq. 12" },
@@ -207,14 +211,24 @@ impl Model for QuarterCar {
             },
         ],
         notes: &[
-            "Positions count upwards from static equilibrium. A positive actuator force pushes body and wheel apart; \
-             a positive wheel force presses on the road.",
-            "TUM eq. 12 prints Δv1 = ẋ_c for F_f,1 and Δv2 = ẋ_c − ẋ_w for F_f,2. Its text and tables make F_f,1 (115 N) \
-             the strut's friction and F_f,2 (20 N) that of the guides, so the velocities are exchanged here.",
-            "TUM eq. 9 prints 1 as the last entry of E; with eq. 3 it is d_w/m_w, which is what this model has.",
+            "Positions count upwards from static equilibrium. A positive actuator force pushes body and \
+             wheel apart; a positive wheel force presses on the road.",
+            "TUM eq. 12 prints Δv1 = ẋ_c for F_f,1 and Δv2 = ẋ_c − ẋ_w for F_f,2. Its text and tables make \
+             F_f,1 (115 N) the strut's friction and F_f,2 (20 N) that of the guides, so the velocities are \
+             exchanged here.",
+            "TUM eq. 9 prints 1 as the last entry of E; with eq. 3 it is d_w/m_w, which is what this model \
+             has.",
             "TUM's damper characteristic is a lost figure: two rates joined smoothly stand for it.",
-            "The uncoupled natural frequencies and damping ratios are sqrt(k/m_s), d/(2 sqrt(k m_s)), sqrt(k_t/m_u) and \
-             d/(2 sqrt((k + k_t) m_u)), which reproduce TUM's Tables 9 and 10.",
+            "The uncoupled natural frequencies and damping ratios are sqrt(k/m_s), d/(2 sqrt(k m_s)), \
+             sqrt(k_t/m_u) and d/(2 sqrt((k + k_t) m_u)), which reproduce TUM's Tables 9 and 10.",
+            "TUM's tyre polynomial (149693 N/m, 3.94e6 N/m2) and its linearised rate of 152186 N/m agree \
+             only if it is taken about static equilibrium (the rate is met 0.3 mm off it), so the \
+             compression counts from there.",
+            "TUM's tables contradict themselves: Table 9, measured, prints 758 N.s/m but damping ratios of \
+             769 N.s/m, and 1.51 Hz where spring and mass make 1.528 Hz; Table 7, optimised, includes the \
+             strut spring in the wheel frequency 12.92 Hz, unlike the others (12.57 Hz), and its wheel \
+             ratio 0.212 does not fit its chassis ratio 0.47 (0.222). Table 10 prints c_c = i^-2 times the \
+             spring rate where eq. 13 has i^2.",
             "At lift-off the tyre's damping ends and at landing it begins at once, as in any point contact.",
         ],
         experiment: Experiment {
@@ -224,7 +238,13 @@ impl Model for QuarterCar {
             // without these 1e-6 would do.
             tolerance: 1e-8,
             stimuli: &[("road.position", Stimulus::Step { at: 0.5, height: 0.01 })],
-            plot: &["body.position", "wheel.position", "body.acceleration", "suspension.deflection", "wheel.force"],
+            plot: &[
+                "body.position",
+                "wheel.position",
+                "body.acceleration",
+                "suspension.deflection",
+                "wheel.force",
+            ],
         },
         ..About::DEFAULT
     };
@@ -262,9 +282,9 @@ impl Model for QuarterCar {
             return Ok(());
         }
         Err(format!(
-            "the tyre would never leave the road: with tire.stiffness = {} N/m and tire.quadratic = {} N/m2 its force never \
-             falls to the static load of {load} N below rest; lift-off needs tire.quadratic < tire.stiffness^2 / (4 · load) = \
-             {} N/m2, or set tire.lift_off to false",
+            "the tyre would never leave the road: with tire.stiffness = {} N/m and tire.quadratic = {} N/m2 \
+             its force never falls to the static load of {load} N below rest; lift-off needs tire.quadratic \
+             < tire.stiffness^2 / (4 · load) = {} N/m2, or set tire.lift_off to false",
             p.tire.stiffness,
             p.tire.quadratic,
             p.tire.stiffness.powi(2) / (4.0 * load)
@@ -306,7 +326,8 @@ impl QuarterCar {
             return force;
         }
         let derived = now.derived.tire;
-        let lift_off = crate::effects::LiftOff { load: derived.static_load, compression: -derived.lift_off_deflection };
+        let lift_off =
+            crate::effects::LiftOff { load: derived.static_load, compression: -derived.lift_off_deflection };
         lift_off.applied(force, compression)
     }
 }

@@ -35,12 +35,17 @@ impl Recorded {
             None if Path::new(file).is_absolute() => file.into(),
             None => {
                 return Err(format!(
-                    "the profile {file:?} cannot be found: the FMU was given no resource folder; name an absolute path"
+                    "the profile {file:?} cannot be found: the FMU was given no resource folder; name an \
+                     absolute path"
                 ));
             }
         };
         let text = std::fs::read_to_string(&path).map_err(|error| {
-            format!("the profile {} cannot be read: {error}; put it into the FMU's resources or name another `file`", path.display())
+            format!(
+                "the profile {} cannot be read: {error}; put it into the FMU's resources or name \
+                another `file`",
+                path.display()
+            )
         })?;
         Self::parse(&text).map_err(|error| format!("{}: {error}", path.display()))
     }
@@ -69,7 +74,10 @@ impl Recorded {
             if let Some(last) = points.last()
                 && time <= last.time
             {
-                return Err(format!("line {number}: time {time} s does not come after {} s; times must increase", last.time));
+                return Err(format!(
+                    "line {number}: time {time} s does not come after {} s; times must increase",
+                    last.time
+                ));
             }
             points.push(Point { time, position, velocity: 0.0 });
         }
@@ -115,8 +123,11 @@ fn cubic(a: Point, b: Point, x: f64) -> [f64; 3] {
 /// Velocities at the points: the weighted harmonic mean of the slopes on both sides, zero at an extremum.
 fn set_velocities(points: &mut [Point]) {
     let steps: Vec<f64> = points.windows(2).map(|pair| pair[1].time - pair[0].time).collect();
-    let slopes: Vec<f64> =
-        points.windows(2).zip(&steps).map(|(pair, step)| (pair[1].position - pair[0].position) / step).collect();
+    let slopes: Vec<f64> = points
+        .windows(2)
+        .zip(&steps)
+        .map(|(pair, step)| (pair[1].position - pair[0].position) / step)
+        .collect();
     let last = slopes.len() - 1;
     for i in 1..=last {
         let (before, after) = (slopes[i - 1], slopes[i]);
@@ -201,7 +212,9 @@ mod tests {
     fn outside_the_record_the_height_is_held() {
         let recorded = profile("1,0.5\n2,0.7\n");
         assert_eq!((recorded.motion(0.0), recorded.motion(3.0)), ([0.5, 0.0, 0.0], [0.7, 0.0, 0.0]));
-        assert!((recorded.motion(1.5)[0] - 0.6).abs() < 1e-15 && (recorded.motion(1.5)[1] - 0.2).abs() < 1e-14);
+        assert!(
+            (recorded.motion(1.5)[0] - 0.6).abs() < 1e-15 && (recorded.motion(1.5)[1] - 0.2).abs() < 1e-14
+        );
     }
 
     #[test]

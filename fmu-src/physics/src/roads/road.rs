@@ -44,15 +44,18 @@ pub struct Output<R> {
 /// What must be known about any road.
 pub(super) const NOTES: &[&str] = &[
     "The velocity is the exact derivative of the position. It jumps where a sine or a random road starts.",
-    "Square and step have edges of finite duration (a cosine half wave beginning at the switching instant): the sources \
-     switch at once, which no tyre damper could follow.",
-    "A random road is the sum of 256 waves between 0.011 and 2.83 cycles/m with the power of Gd(n) = Gd(n0) (n/n0)^-2 and \
-     phases from SplitMix64 of the seed; it counts from its height at the start.",
+    "Square and step have edges of finite duration (a cosine half wave beginning at the switching instant): \
+     the sources switch at once, which no tyre damper could follow.",
+    "A random road is the sum of 256 waves between 0.011 and 2.83 cycles/m with the power of Gd(n) = Gd(n0) \
+     (n/n0)^-2 and phases from SplitMix64 of the seed; it counts from its height at the start.",
 ];
 
 /// The formulas of the shapes.
 pub(super) const EQUATIONS: &[Equation] = &[
-    Equation { text: "square: edges at k/(2f), from 0 to +A at k = 0, then to -A and +A in turn", source: "Quanser 3.1.1" },
+    Equation {
+        text: "square: edges at k/(2f), from 0 to +A at k = 0, then to -A and +A in turn",
+        source: "Quanser 3.1.1",
+    },
     Equation {
         text: "chirp: A sin(2 pi (f0 tau + (f1 - f0) tau^2/(2 T))) up to T, then f1 with continuous phase",
         source: "Quanser 3.2.2",
@@ -73,7 +76,12 @@ impl Model for Road {
         kind: Kind::Road,
         equations: EQUATIONS,
         notes: NOTES,
-        experiment: Experiment { stop: 10.0, step: 1e-3, plot: &["position", "velocity"], ..Experiment::DEFAULT },
+        experiment: Experiment {
+            stop: 10.0,
+            step: 1e-3,
+            plot: &["position", "velocity"],
+            ..Experiment::DEFAULT
+        },
         ..About::DEFAULT
     };
 

@@ -25,7 +25,8 @@ pub fn cases(kind: &str) -> Vec<Case> {
         .collect();
     names.sort();
     let all = names.into_iter().map(|name| {
-        let json: Json = serde_json::from_str(&std::fs::read_to_string(format!("{CASES}/{name}.json")).unwrap()).unwrap();
+        let json: Json =
+            serde_json::from_str(&std::fs::read_to_string(format!("{CASES}/{name}.json")).unwrap()).unwrap();
         let csv = std::fs::read_to_string(format!("{CASES}/{name}.csv")).unwrap();
         let mut lines = csv.lines();
         let columns = lines.next().unwrap().split(',').map(str::to_owned).collect();
@@ -47,7 +48,11 @@ impl Case {
     /// Name and number of each entry of an object.
     pub fn numbers(&self, key: &str) -> Vec<(String, f64)> {
         let object = self.json[key].as_object();
-        object.into_iter().flatten().filter_map(|(name, value)| Some((name.clone(), value.as_f64()?))).collect()
+        object
+            .into_iter()
+            .flatten()
+            .filter_map(|(name, value)| Some((name.clone(), value.as_f64()?)))
+            .collect()
     }
 
     /// The magnitude that a column's errors are relative to.
@@ -73,7 +78,8 @@ fn value(formula: &Json, t: f64) -> f64 {
     let list = |key: &str| formula[key].as_array().cloned().unwrap_or_default();
     let number = |entry: &Json, i: usize| entry[i].as_f64().unwrap();
     let sines = list("sines");
-    let sines = sines.iter().map(|s| number(s, 0) * (std::f64::consts::TAU * number(s, 1) * t + number(s, 2)).sin());
+    let sines =
+        sines.iter().map(|s| number(s, 0) * (std::f64::consts::TAU * number(s, 1) * t + number(s, 2)).sin());
     let steps = list("steps");
     let steps = steps.iter().map(|s| if t >= number(s, 1) { number(s, 0) } else { 0.0 });
     sines.sum::<f64>() + steps.sum::<f64>()
@@ -88,7 +94,8 @@ pub struct Named<M: Model> {
 impl<M: Model> Named<M> {
     pub fn new() -> Self {
         let interface = Interface::of::<M>(None, None).unwrap();
-        let references = interface.variables.into_iter().map(|variable| (variable.name, variable.reference)).collect();
+        let references =
+            interface.variables.into_iter().map(|variable| (variable.name, variable.reference)).collect();
         Self { simulation: Simulation::new(None, None).unwrap(), references }
     }
 

@@ -1,3 +1,4 @@
+use num_dual::Dual64;
 use proptest::prelude::*;
 use strut_model::{Access, Bundle, Declarations, Interface, Simulation};
 
@@ -118,7 +119,13 @@ fn an_undamped_plant_that_nothing_is_asked_of_is_refused() {
     let mut p = declared();
     (p.strut.damping, p.tire.damping) = (0.0, 0.0);
     let f = p.weight.force;
-    p.weight = Weight { suspension_deflection: 0.0, body_velocity: 0.0, tire_deflection: 0.0, wheel_velocity: 0.0, force: f };
+    p.weight = Weight {
+        suspension_deflection: 0.0,
+        body_velocity: 0.0,
+        tire_deflection: 0.0,
+        wheel_velocity: 0.0,
+        force: f,
+    };
     let error = COMPUTED.check(&p, &COMPUTED.derive(&p)).unwrap_err();
     assert!(error.contains("strut.damping = 0 N.s/m"), "{error}");
 }
@@ -127,10 +134,28 @@ fn an_undamped_plant_that_nothing_is_asked_of_is_refused() {
 fn a_gain_depends_on_every_parameter_of_plant_and_weight() {
     let interface = Interface::of::<LqrController>(None, None).unwrap();
     let gain = interface.variables.iter().position(|variable| variable.name == "gain.body_velocity").unwrap();
-    let (_, known) = interface.structure.initial_unknowns.iter().find(|(unknown, _)| *unknown == gain).unwrap();
+    let (_, known) =
+        interface.structure.initial_unknowns.iter().find(|(unknown, _)| *unknown == gain).unwrap();
     for name in ["sprung_mass", "tire.damping", "weight.force", "gain.given.body_velocity"] {
-        assert!(known.contains(&interface.variables.iter().position(|variable| variable.name == name).unwrap()), "{name}");
+        assert!(
+            known.contains(&interface.variables.iter().position(|variable| variable.name == name).unwrap()),
+            "{name}"
+        );
     }
+}
+
+#[test]
+fn derivatives_pass_through_the_riccati_equation() {
+    let h = 1e-4;
+    let [below, above] = [2500.0 - h, 2500.0 + h].map(|tire| gain(&quanser(tire)));
+    let mut parameters = Vec::new();
+    quanser(2500.0).for_each(|_, value| parameters.push(value));
+    let tire = Declarations::of::<Parameters<f64>>().iter().position(|d| d.name == "tire.stiffness").unwrap();
+    let dual: Parameters<Dual64> = Bundle::from_fn(|i| Dual64::new(parameters[i], f64::from(i == tire)));
+    COMPUTED.derive(&dual).for_each(|i, found| {
+        let difference = (above[i] - below[i]) / (2.0 * h);
+        assert!((found.eps - difference).abs() < 1e-6, "{} {difference}", found.eps);
+    });
 }
 
 #[test]
@@ -149,6 +174,9 @@ fn the_force_is_held_for_a_period() {
         simulation.real(&[reference("force")], &mut value).unwrap();
         forces.push(value[0]);
     }
-    assert!(forces[..4].iter().all(|force| *force == forces[0]) && forces[4..].iter().all(|force| *force == forces[4]));
+    assert!(
+        forces[..4].iter().all(|force| *force == forces[0])
+            && forces[4..].iter().all(|force| *force == forces[4])
+    );
     assert!(forces[4] < forces[0]);
 }

@@ -3,7 +3,13 @@ use strut_model::{Bundle, Error, Simulation};
 
 use super::*;
 
-fn parameters(sprung_mass: f64, unsprung_mass: f64, stiffness: f64, damping: f64, tire: f64) -> Parameters<f64> {
+fn parameters(
+    sprung_mass: f64,
+    unsprung_mass: f64,
+    stiffness: f64,
+    damping: f64,
+    tire: f64,
+) -> Parameters<f64> {
     let declared = strut_model::Declarations::of::<Parameters<f64>>();
     let start: Parameters<f64> = Bundle::from_fn(|i| declared[i].start);
     Parameters {
@@ -84,14 +90,19 @@ fn a_parabola_that_never_reaches_zero_load_is_refused() {
 /// Kinetic energy and that of both springs.
 fn energy(p: &Parameters<f64>, x: &[f64]) -> f64 {
     let c = -x[2];
-    0.5 * (p.sprung_mass * x[1] * x[1] + p.unsprung_mass * x[3] * x[3] + p.strut.stiffness * (x[0] - x[2]).powi(2))
+    0.5 * (p.sprung_mass * x[1] * x[1]
+        + p.unsprung_mass * x[3] * x[3]
+        + p.strut.stiffness * (x[0] - x[2]).powi(2))
         + 0.5 * p.tire.stiffness * c * c
         + p.tire.quadratic * c * c * c / 3.0
 }
 
 proptest! {
     #[test]
-    fn forces_between_the_masses_cancel(x in prop::array::uniform4(-0.05..0.05_f64), u in prop::array::uniform3(-0.02..0.02_f64)) {
+    fn forces_between_the_masses_cancel(
+        x in prop::array::uniform4(-0.05..0.05_f64),
+        u in prop::array::uniform3(-0.02..0.02_f64),
+    ) {
         let mut p = table_10();
         p.guide.coulomb.force = 0.0;
         let (_, output) = evaluate(CAR, &p, x, [u[0], u[1], 1e4 * u[2]]);
@@ -112,7 +123,10 @@ proptest! {
     }
 
     #[test]
-    fn the_neutral_car_is_the_matrix_of_quanser_equation_2_11(x in prop::array::uniform4(-0.05..0.05_f64), u in prop::array::uniform3(-0.02..0.02_f64)) {
+    fn the_neutral_car_is_the_matrix_of_quanser_equation_2_11(
+        x in prop::array::uniform4(-0.05..0.05_f64),
+        u in prop::array::uniform3(-0.02..0.02_f64),
+    ) {
         let (ms, mus, ks, bs, kus, bus) = (2.45, 1.0, 900.0, 7.5, 2500.0, 5.0);
         let mut p = parameters(ms, mus, ks, bs, kus);
         p.tire.damping = bus;
@@ -130,7 +144,9 @@ proptest! {
 fn an_undamped_car_keeps_its_energy() {
     let mut simulation = Simulation::<QuarterCar>::new(None, None).unwrap();
     let interface = strut_model::Interface::of::<QuarterCar>(None, None).unwrap();
-    for (name, value) in [("strut.damping", 0.0), ("tire.damping", 0.0), ("body.position", 0.03), ("solver.tolerance", 1e-11)] {
+    for (name, value) in
+        [("strut.damping", 0.0), ("tire.damping", 0.0), ("body.position", 0.03), ("solver.tolerance", 1e-11)]
+    {
         let reference = interface.variable(name).unwrap().reference;
         simulation.set_real(&[reference], &[value], strut_model::Access::All).unwrap();
     }
