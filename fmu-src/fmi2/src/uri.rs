@@ -140,6 +140,7 @@ mod tests {
     proptest! {
         #[test]
         fn every_encoded_path_comes_back(path in "/[^\u{0}/:][^\u{0}]{0,30}") {
+            prop_assume!(!starts_with_drive(&path[1..]));
             for start in ["file:", "file://", "file://localhost"] {
                 prop_assert_eq!(to_path(&format!("{start}{}", encode(&path))), Ok(PathBuf::from(&path)));
             }
