@@ -11,6 +11,18 @@ use cargo_metadata::{CrateType, Message, Metadata, MetadataCommand};
 use crate::failure::{Failure, Result, similar};
 use crate::platform::Platform;
 
+/// How a library that ships is compiled, in whatever workspace it stands: one codegen unit and the
+/// optimiser at link time, so that the equations are inlined into the solver's loop.
+const SHIPPED: [&str; 7] = [
+    "--release",
+    "--config",
+    "profile.release.lto='fat'",
+    "--config",
+    "profile.release.codegen-units=1",
+    "--config",
+    "profile.release.strip='debuginfo'",
+];
+
 /// The program that runs us, or the one in the path.
 pub fn program() -> OsString {
     std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
@@ -60,7 +72,7 @@ pub fn build(metadata: &Metadata, packages: &[String], platform: Option<&Platfor
     let mut command = Command::new(program());
     let zig = platform.is_some_and(|platform| platform.glibc);
     command.arg(if zig { "zigbuild" } else { "build" });
-    command.args(["--release", "--lib", "--message-format=json-render-diagnostics", "--manifest-path"]);
+    command.args(SHIPPED).args(["--lib", "--message-format=json-render-diagnostics", "--manifest-path"]);
     command.arg(metadata.workspace_root.join("Cargo.toml"));
     for package in packages {
         command.args(["--package", package]);

@@ -129,3 +129,56 @@ fn words(stimulus: Stimulus, unit: &str) -> String {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    use crate::fmu::Set;
+    use strut_model::ParameterSet;
+
+    /// Elements of HTML that have no end tag.
+    fn closed(html: &str) -> String {
+        let mut text = html.replace("<!DOCTYPE html>", "").replace("<br>", "<br/>");
+        for void in ["<meta ", "<img "] {
+            let parts: Vec<&str> = text.split(void).collect();
+            let closed: Vec<String> = parts[1..].iter().map(|part| part.replacen('>', "/>", 1)).collect();
+            text = parts[0].to_owned() + &closed.iter().map(|part| format!("{void}{part}")).collect::<String>();
+        }
+        text
+    }
+
+    fn page(fmu: &Fmu) -> String {
+        let set = fmu.set.as_ref().map(|set| &set.parsed);
+        let resources = fmu.set.as_ref().map(|set| set.folder.as_path());
+        let interface = fmu.entry.interface(set, resources).unwrap();
+        let trajectory = fmu.entry.demonstrate(set, resources).unwrap();
+        html(&Page { fmu, interface: &interface, trajectory: &trajectory })
+    }
+
+    #[test]
+    fn every_page_is_well_formed_and_says_everything() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fmu-src/physics/parameters/resources");
+        let plain = strut_physics::CATALOGUE.iter().map(|entry| Fmu { name: entry.about.name.into(), entry: *entry, set: None });
+        let published = strut_physics::PARAMETER_SETS.iter().map(|(_, text)| {
+            let parsed = ParameterSet::parse(text).unwrap();
+            let entry = *strut_physics::CATALOGUE.iter().find(|entry| entry.about.name == parsed.model).unwrap();
+            Fmu { name: parsed.fmu.clone(), entry, set: Some(Set { parsed, text: (*text).into(), folder: folder.clone() }) }
+        });
+        for fmu in plain.chain(published) {
+            let html = page(&fmu);
+            let xml = closed(&html);
+            let document = roxmltree::Document::parse(&xml).unwrap_or_else(|error| panic!("{}: {error}", fmu.name));
+            assert!(!html.contains("NaN") && !html.contains(">inf"), "{}", fmu.name);
+            let text: String = document.descendants().filter_map(|node| node.text()).collect();
+            for variable in fmu.interface().unwrap().variables {
+                let is_rate = variable.name.starts_with("der(");
+                assert!(is_rate || text.contains(&variable.name), "{}: {}", fmu.name, variable.name);
+            }
+            for equation in fmu.entry.about.equations {
+                assert!(text.contains(equation.text) && text.contains(equation.source), "{}", fmu.name);
+            }
+        }
+    }
+}

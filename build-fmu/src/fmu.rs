@@ -151,6 +151,45 @@ fn date_and_time(seconds: u64) -> String {
 mod tests {
     use super::*;
 
+    fn recorded_road(files: &[&str]) -> Fmu {
+        let (_, text) = strut_physics::PARAMETER_SETS.iter().find(|(name, _)| *name == "RecordedRoad.toml").unwrap();
+        let mut parsed = ParameterSet::parse(text).unwrap();
+        parsed.files = files.iter().map(|file| (*file).to_owned()).collect();
+        let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../fmu-src/physics/parameters/resources");
+        let entry = *strut_physics::CATALOGUE.iter().find(|entry| entry.about.name == "Road").unwrap();
+        Fmu { name: parsed.fmu.clone(), entry, set: Some(Set { parsed, text: (*text).into(), folder }) }
+    }
+
+    #[test]
+    fn an_archive_has_everything_in_its_place() {
+        let platforms = ["x86_64-unknown-linux-gnu", "x86_64-pc-windows-gnu"].map(|triple| Platform::of(triple).unwrap());
+        let libraries = platforms.map(|platform| (platform, b"library".to_vec()));
+        let fmu = recorded_road(&["profile.csv"]);
+        let packed = fmu.pack(&libraries, "MIT License\n\n...").unwrap();
+        assert_eq!(packed.bytes, fmu.pack(&libraries, "MIT License\n\n...").unwrap().bytes);
+        let mut zip = zip::ZipArchive::new(std::io::Cursor::new(packed.bytes)).unwrap();
+        let names: Vec<String> = zip.file_names().map(|name| name.unwrap().into_owned()).collect();
+        assert_eq!(names, [
+            "modelDescription.xml", "model.png", "binaries/linux64/RecordedRoad.so", "binaries/win64/RecordedRoad.dll",
+            "documentation/index.html", "documentation/licenses/LICENSE.txt", "resources/parameters.toml",
+            "resources/profile.csv",
+        ]);
+        let mut xml = String::new();
+        std::io::Read::read_to_string(&mut zip.by_name("modelDescription.xml").unwrap(), &mut xml).unwrap();
+        assert!(xml.contains("modelIdentifier=\"RecordedRoad\"") && xml.contains("license=\"MIT License\""));
+        assert!(xml.contains(&packed.interface.guid()));
+    }
+
+    #[test]
+    fn files_stay_within_the_archive() {
+        for file in ["../../../LICENSE", "/etc/hostname", "a//b", "parameters.toml", "c\\..\\d"] {
+            let error = recorded_road(&[file]).pack(&[], "").unwrap_err().to_string();
+            assert!(error.contains("cannot bring the file"), "{error}");
+        }
+        let error = recorded_road(&["missing.csv"]).pack(&[], "").unwrap_err().to_string();
+        assert!(error.contains("RecordedRoad needs") && error.contains("missing.csv"), "{error}");
+    }
+
     #[test]
     fn seconds_become_a_date() {
         assert_eq!(date_and_time(0), "1970-01-01T00:00:00Z");

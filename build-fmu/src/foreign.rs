@@ -73,7 +73,7 @@ impl Package {
         match status.code() {
             Some(code @ 0..=2) => Ok(ExitCode::from(code as u8)),
             _ => Err(Failure::new(format!("the packager of `{}` cannot be built; cargo says why above", self.described.name))
-                .help("the crate needs `pub const ENTRY: strut_model::Entry = strut_model::Entry::of::<YourModel>();`")),
+                .help("its lib.rs must end with `strut_fmi2::export_fmu!(YourModel);`, outside of any module")),
         }
     }
 
@@ -116,9 +116,7 @@ impl Package {
         let folder = self.described.manifest_path.parent().map_or("", |folder| folder.as_str());
         Ok(format!(
             "# Written by build-fmu.\n[package]\nname = \"packager-of-{name}\"\nedition = \"2024\"\npublish = false\n\n\
-             [dependencies]\nbuild-fmu = {{ {packager} }}\nmodel = {{ package = {}, path = {} }}\n\n[workspace]\n\n\
-             # As in Strut's own workspace, so that what it has compiled is used again.\n\
-             [profile.release]\ncodegen-units = 1\nlto = \"fat\"\nstrip = \"debuginfo\"\n",
+             [dependencies]\nbuild-fmu = {{ {packager} }}\nmodel = {{ package = {}, path = {} }}\n\n[workspace]\n",
             quoted(&self.described.name), quoted(folder), name = self.described.name,
         ))
     }

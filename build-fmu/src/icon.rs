@@ -75,26 +75,26 @@ impl Canvas {
     /// A zigzag between two heights.
     fn spring(&mut self, x: f32, top: f32, bottom: f32) {
         let mut points = vec![(x, top), (x, top + 4.0)];
-        let pitch = (bottom - top - 8.0) / 6.0;
-        for turn in 0..6_u8 {
+        let pitch = (bottom - top - 8.0) / 5.0;
+        for turn in 0..5_u8 {
             let side = if turn % 2 == 0 { 9.0 } else { -9.0 };
             points.push((x + side, top + 4.0 + pitch * (f32::from(turn) + 0.5)));
         }
         points.extend([(x, bottom - 4.0), (x, bottom)]);
-        self.line(4.0, &points);
+        self.line(3.5, &points);
     }
 
     /// Body on spring and damper, wheel on the ground.
     fn rig(&mut self) {
-        self.fill(&rounded(30.0, 22.0, 68.0, 24.0, 6.0), WHITE);
-        self.spring(47.0, 46.0, 76.0);
-        self.line(4.0, &[(81.0, 46.0), (81.0, 58.0)]);
-        self.line(4.0, &[(74.0, 58.0), (88.0, 58.0)]);
-        self.line(4.0, &[(71.0, 54.0), (71.0, 66.0), (91.0, 66.0), (91.0, 54.0)]);
-        self.line(4.0, &[(81.0, 66.0), (81.0, 76.0)]);
-        self.line(5.0, &[(42.0, 77.0), (86.0, 77.0)]);
-        self.circle(6.0, (64.0, 91.0), 13.0);
-        self.line(4.0, &[(24.0, 107.0), (104.0, 107.0)]);
+        self.fill(&rounded(30.0, 18.0, 68.0, 18.0, 5.0), WHITE);
+        self.spring(46.0, 36.0, 76.0);
+        self.line(3.5, &[(82.0, 36.0), (82.0, 57.0)]);
+        self.line(3.5, &[(75.0, 57.0), (89.0, 57.0)]);
+        self.line(3.5, &[(72.0, 49.0), (72.0, 65.0), (92.0, 65.0), (92.0, 49.0)]);
+        self.line(3.5, &[(82.0, 65.0), (82.0, 76.0)]);
+        self.line(5.0, &[(38.0, 76.0), (90.0, 76.0)]);
+        self.circle(5.0, (64.0, 92.0), 13.0);
+        self.line(4.0, &[(24.0, 108.0), (104.0, 108.0)]);
     }
 
     /// A cylinder with its rod and the force both ways.
@@ -121,16 +121,18 @@ impl Canvas {
         self.arrow(5.0, (42.0, 92.0), (42.0, 60.0));
     }
 
-    /// A profile above the ground.
+    /// A wheel on its way over a profile.
     fn road(&mut self) {
-        let height = |x: f32| 68.0 - 13.0 * ((x - 12.0) * 0.085).sin() - 5.0 * ((x - 12.0) * 0.21).sin();
-        let points: Vec<(f32, f32)> = (14..=114).map(|x| (f32::from(x as u8), height(f32::from(x as u8)))).collect();
-        self.line(6.0, &points);
-        for x in (22..=106_u8).step_by(14) {
-            let (x, y) = (f32::from(x), height(f32::from(x)) + 12.0);
-            self.line(4.0, &[(x, y), (x - 7.0, y + 12.0)]);
+        let height = |x: f32| 82.0 - 10.0 * ((x - 14.0) * std::f32::consts::TAU / 66.0).sin();
+        let profile: Vec<(f32, f32)> = (14..=114_u8).map(|x| (f32::from(x), height(f32::from(x)))).collect();
+        self.line(6.0, &profile);
+        for x in (24..=108_u8).step_by(14) {
+            let (x, y) = (f32::from(x), height(f32::from(x)) + 9.0);
+            self.line(3.5, &[(x, y), (x - 6.0, y + 9.0)]);
         }
-        self.circle(5.0, (89.0, 40.0), 14.0);
+        // The first crest is a quarter of a wave in.
+        self.circle(6.0, (30.5, height(30.5) - 21.0), 15.0);
+        self.arrow(5.0, (58.0, 46.0), (98.0, 46.0));
     }
 
     /// A dial.

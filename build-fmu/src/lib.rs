@@ -22,13 +22,13 @@
 //!
 //! # A model of one's own
 //!
-//! `build-fmu --manifest-path my-model/Cargo.toml` packs a model of a crate outside this workspace. The
-//! crate exports the functions of FMI and a constant with its declarations:
+//! `build-fmu --manifest-path my-model/Cargo.toml` packs a model of a crate outside this workspace. It is
+//! both a shared library and a Rust library (`crate-type = ["cdylib", "rlib"]`) and ends with
 //!
 //! ```ignore
 //! strut_fmi2::export_fmu!(MyModel);
-//! pub const ENTRY: strut_model::Entry = strut_model::Entry::of::<MyModel>();
 //! ```
+//! which exports the functions of FMI and, for us, the constant `ENTRY` with the declarations.
 //! A packager for it, a few lines long, is generated under the target folder and run: a program
 //! that links the crate knows its declarations, for whatever platform the library itself is built.
 

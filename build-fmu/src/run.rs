@@ -165,7 +165,7 @@ fn listing(plan: &Plan) -> Result<String> {
 
 /// A title that leaves the table readable; the documentation has all of it.
 fn shortened(title: &str) -> String {
-    const MOST: usize = 64;
+    const MOST: usize = 60;
     if title.chars().count() <= MOST {
         return title.to_owned();
     }

@@ -2,6 +2,8 @@
 
 mod check;
 mod ssp;
+#[cfg(test)]
+mod tests;
 mod xml;
 
 use indexmap::IndexMap;

@@ -161,8 +161,10 @@ fn value(value: &Value) -> String {
     }
 }
 
-/// A number as one reads it: no digits lost, powers of ten only where they are needed.
+/// A number as one reads it: at most eight digits (the description has them all), powers of ten only
+/// where they are needed.
 pub fn number(value: f64) -> String {
+    let value: f64 = format!("{value:.7e}").parse().unwrap_or(value);
     let magnitude = value.abs();
     let text = if value == 0.0 || (1e-4..1e7).contains(&magnitude) {
         format!("{value}")
@@ -211,11 +213,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_readable_and_whole() {
+    fn numbers_are_readable() {
         for (value, text) in [
             (0.0, "0"),
             (152_186.0, "152186"),
             (-0.47, "−0.47"),
+            (0.312_211_221_122, "0.31221122"),
             (4.444_95e13, "4.44495 · 10¹³"),
             (1e-7, "10⁻⁷"),
         ] {

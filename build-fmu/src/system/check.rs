@@ -87,8 +87,10 @@ struct Finder<'a, 's> {
 }
 
 impl<'a> Finder<'a, '_> {
-    fn failure(&self, message: String) -> Failure {
-        Failure::new(format!("{message} in the system {}", self.system.name))
+    fn failure(&self, mut message: String) -> Failure {
+        message.push_str(" in the system ");
+        message.push_str(&self.system.name);
+        Failure::new(message)
     }
 
     fn name(&self, end: End) -> String {

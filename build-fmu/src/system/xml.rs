@@ -19,6 +19,7 @@ impl Element {
 
     /// With an attribute.
     #[must_use]
+    #[expect(clippy::needless_pass_by_value, reason = "literals and numbers read better without a reference")]
     pub fn with(mut self, name: &'static str, value: impl ToString) -> Self {
         self.attributes.push((name, value.to_string()));
         self
