@@ -16,7 +16,7 @@ from connected_systems import Reference, System, compose
 # Between masters: rounding only, amplified by the system's dynamics.
 AGREEMENT = 1e-9
 # On the estimate of the coupling error, which is exact only in the limit of small steps.
-MARGIN = 1.25
+MARGIN = 1.1
 
 
 class ExchangedAfterwards(System):
@@ -36,8 +36,9 @@ def fmpy(path, step, count, signals):
     """FMPy 0.3.32.
 
     Its first exchange comes after the first step, which is taken with zero inputs: nothing else here,
-    where everything starts at rest. Parameter bindings are not applied. A row bears the time at which its
-    step began; the clock is added up, which may make for one step more than was asked for.
+    where everything starts at rest. Parameter bindings are not applied. Only what the system declares as
+    connectors is recorded. A row bears the time at which its step began; the clock is added up, which may make
+    for one step more than was asked for.
     """
     from fmpy.ssp.simulation import simulate_ssp
 
@@ -45,16 +46,24 @@ def fmpy(path, step, count, signals):
     result = simulate_ssp(str(path), stop_time=(count - 0.5) * step, step_size=step)
     assert len(result) == count, len(result)
     # Rows of the ends of the steps, after a row for the start that is never used.
-    columns = {name: np.concatenate([[np.nan], result[name]]) for name in signals}
+    declared = [name for name in signals if name in result.dtype.names]
+    columns = {name: np.concatenate([[np.nan], result[name]]) for name in declared}
     return {"time": np.concatenate([[0.0], result["time"] + step])} | columns
 
 
 def libcosimpy(path, step, count, signals):
-    """libcosim 0.6 by libcosimpy 0.0.6: exchanges at the end of a step, but values set are applied with the next."""
+    """libcosimpy 0.0.6.
+
+    It exchanges at the end of a step, but what is set takes effect with the next, so rows are read with the
+    old inputs. The step is the one that the system's annotation gives. It does not know enumerations: such
+    parameters keep their start values.
+    """
     from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
     from libcosimpy.CosimObserver import CosimObserver
 
-    execution = CosimExecution.from_ssp_file(str(path), step_size=round(step * 1e9))
+    log_output_level(CosimLogLevel.ERROR)
+    execution = CosimExecution.from_ssp_file(str(path))
     observer = CosimObserver.create_last_value()
     assert execution.add_observer(observer)
     slaves = {}
@@ -79,12 +88,16 @@ def libcosimpy(path, step, count, signals):
 
 
 def ecos(path, step, count, signals):
-    """ecos 0.7: after a step it exchanges, sets the inputs and reads again: outputs with feed-through show the new inputs."""
+    """ecospy 0.7.2.
+
+    After a step it exchanges, sets the inputs and reads once more: outputs with feed-through show the new inputs.
+    What it passes on is what it has read before. Its clock is added up. It applies parameter sets if told their name.
+    """
     from ecospy import EcosSimulation
 
     columns = {name: [] for name in ("time", *signals)}
     with EcosSimulation(step, ssp_path=str(path)) as simulation:
-        simulation.init()
+        simulation.init(parameter_set="defaults")
         for index in range(count + 1):
             if index:
                 simulation.step()
@@ -111,15 +124,16 @@ def main():
         return reference.at_rows(result, step)
 
     found = reference.at_rows(master(folder / f"{system}.ssp", reference.step, count, reference.signals), reference.step)
-    same, half, errors = own(reference.step), own(reference.step / 2), reference.errors(found)
+    same, half = own(reference.step), own(reference.step / 2)
     print(f"{name}, {system}, steps of {1e3 * reference.step:g} ms; relative to each signal's scale")
     print(f"{'signal':<28}{'error':>10}{'estimate':>10}{'from the same scheme':>22}")
     failures = []
-    for signal in reference.signals:
+    for signal in found:
+        error = reference.scaled(signal, found[signal] - reference.values[signal])
         estimate = 2 * reference.scaled(signal, same[signal] - half[signal])
         apart = reference.scaled(signal, found[signal] - same[signal])
-        print(f"{signal:<28}{errors[signal]:>10.1e}{estimate:>10.1e}{apart:>22.1e}")
-        if not (errors[signal] <= MARGIN * estimate + AGREEMENT and apart <= AGREEMENT):
+        print(f"{signal:<28}{error:>10.1e}{estimate:>10.1e}{apart:>22.1e}")
+        if not (error <= MARGIN * estimate + AGREEMENT and apart <= AGREEMENT):
             failures.append(signal)
     assert not failures, f"not within the coupling error or not this scheme: {failures}"
 

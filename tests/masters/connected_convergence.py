@@ -114,7 +114,7 @@ def report(system, table):
 
 
 def picture(tables, path):
-    from output import plt
+    from output import plt, save
 
     figure, axes = plt.subplots(1, len(tables), sharey=True, figsize=(9, 3.9), layout="constrained")
     steps = 1e3 * np.array(STEPS)
@@ -128,7 +128,7 @@ def picture(tables, path):
         # Where the two orders would lead from the first and the last curve's middle.
         for scheme, order in (("held", 1), ("controller first", 2)):
             panel.loglog(steps, 1.35 * table[scheme][2] * steps**order, color="0.5", linewidth=0.8, linestyle=":")
-            panel.text(0.26, 1.5 * table[scheme][2] * 0.26**order, f"order {order}", color="0.4", fontsize=9, va="bottom")
+            panel.text(0.25, 1.35 * table[scheme][2] * 0.4**order, f"order {order}", color="0.4", fontsize=9)
         panel.axvspan(1.0, 5.0, color="0.5", alpha=0.08, linewidth=0)
         panel.set_xlim(0.22, 4.6)
         panel.set_xticks(steps, [f"{step:g}" for step in steps])
@@ -137,7 +137,7 @@ def picture(tables, path):
         panel.set_title(titles[system])
     axes[0].set_ylabel("largest error of the rig's states,\nrelative to their range")
     axes[0].legend(loc="lower right")
-    figure.savefig(path, dpi=110)
+    save(figure, path)
 
 
 def main():

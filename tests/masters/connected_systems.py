@@ -22,10 +22,11 @@ class Reference:
     def __init__(self, name):
         self.case, rows = load(REFERENCE / "cases" / f"{name}.json")
         self.stop, self.step = self.case["stop"], self.case["step"]
-        # The first row is the initial state. Where the road's velocity jumps, the reference has what holds
-        # after the jump and a master what held in the step that arrives there: not a matter of accuracy.
-        jump = self.case["components"]["road"]["parameters"]["start"]
-        rows = rows[(rows[:, 0] > 0.0) & (np.abs(rows[:, 0] - jump) > 1e-9)]
+        # The first row is the initial state. Where the road's velocity or the controller's force jumps, the
+        # reference has what holds after the jump, and a master what held in the step that arrives there.
+        components = self.case["components"]
+        jumps = [components["road"]["parameters"]["start"], components["controller"].get("switch_on_time", 0.0)]
+        rows = rows[(np.abs(rows[:, :1] - [0.0, *jumps]) > 1e-9).all(axis=1)]
         self.times = rows[:, 0]
         self.signals = self.case["columns"][1:]
         self.values = {name: rows[:, index] for index, name in enumerate(self.signals, 1)}
@@ -33,9 +34,6 @@ class Reference:
     def scaled(self, name, difference):
         """The largest difference, relative to the signal's scale."""
         return float(np.abs(difference).max() / self.case["scale"][name])
-
-    def errors(self, at_rows):
-        return {name: self.scaled(name, at_rows[name] - self.values[name]) for name in self.signals}
 
     def at_rows(self, result, step):
         """A result with a row every step, at the reference's times.
@@ -46,7 +44,8 @@ class Reference:
         index = np.rint(self.times / step).astype(int)
         # `time` of a row is the master's own, added up by some.
         assert np.allclose(result["time"][index], self.times, rtol=0, atol=1e-9)
-        return {name: result[name][index + (name == "controller.force")] for name in self.signals}
+        signals = [name for name in self.signals if name in result]
+        return {name: result[name][index + (name == "controller.force")] for name in signals}
 
 
 def compose(name, folder, kind=System, parameters=None):

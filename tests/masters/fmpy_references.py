@@ -30,7 +30,7 @@ FMUS = {
 
 # The references' names of the roads' parameters and kinds, and the FMU's.
 ROAD_KINDS = {
-    "sine": "Sine", "square": "Square", "chirp": "Chirp", "frequency-ramp": "FrequencyRamp", "step": "Step",
+    "sine": "Sine", "square": "Square", "chirp": "Chirp", "frequency_ramp": "FrequencyRamp", "step": "Step",
     "bump": "Bump", "iso8608": "Iso8608",
 }  # fmt: skip
 
@@ -56,7 +56,8 @@ def single(folder, case, rows):
     references = fmu.reference(*columns)
     inputs = fmu.reference(*case["inputs"])
     step, recorded, count = case["step"], [], round(case["stop"] / case["step"])
-    with fmu.running() as instance:
+    start = {name: value for name, value in case["start"].items() if name in fmu.variables}
+    with fmu.running(start=start) as instance:
         # The parameters are the FMU's own: a reference that disagrees with them is an error here.
         for name, value in case["parameters"].items() if case["fmu"] == "QuarterCar" else ():
             held = instance.getReal(fmu.reference(name))[0]
@@ -104,11 +105,12 @@ def enumeration(fmu, name):
 
 def road_parameter(kind, name):
     """The FMU's name of a reference's road parameter."""
-    return {
-        "start": "start_time", "road_class": "iso_class", "f0": "chirp.start_frequency", "f1": "chirp.end_frequency",
-        "duration": "chirp.duration", "rate": "ramp.rate",
-        "height": f"{kind}.height", "length": "bump.length",
-    }.get(name, name)  # fmt: skip
+    own = {"start": "start_time", "road_class": "iso_class", "rate": "ramp.rate"}
+    if kind == "chirp" and name not in ("amplitude", "start"):
+        return f"chirp.{name}"
+    if (kind, name) in (("step", "amplitude"), ("bump", "height"), ("bump", "length")):
+        return f"{kind}.{name}".replace("amplitude", "height")
+    return own.get(name, name)
 
 
 def static(folder, case, rows):

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Model, FMU2Slave
+from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
 STEP = 1e-3
 
@@ -19,7 +19,13 @@ AMPLITUDE = {"m": 0.004, "m/s": 0.12, "N": 150.0, "V": 3.0, "m/s2": 2.0, "A": 3.
 class Messages(list):
     """What an FMU has logged."""
 
-    def callback(self, _environment, instance, status, category, message):
+    def callbacks(self):
+        """The callbacks of an instance that logs here; without memory functions, which are not needed."""
+        self.logger = fmi2CallbackLoggerTYPE(self.log)
+        self.structure = fmi2CallbackFunctions(logger=self.logger)
+        return self.structure
+
+    def log(self, _environment, instance, status, category, message):
         assert category, "a null log category crashes some masters"
         self.append((instance.decode(), status, category.decode(), message.decode()))
 
@@ -45,14 +51,18 @@ class Fmu:
     def reference(self, *names):
         return [self.variables[name].valueReference for name in names]
 
-    def instantiate(self, kind=FMU2Slave, name="instance", **options):
+    def unborn(self, kind=FMU2Slave, name="instance"):
+        """The loaded library, before there is an instance."""
         interface = self.description.coSimulation if kind is FMU2Slave else self.description.modelExchange
-        fmu = kind(
+        return kind(
             guid=self.description.guid,
             modelIdentifier=interface.modelIdentifier,
             unzipDirectory=self.folder,
             instanceName=name,
         )
+
+    def instantiate(self, kind=FMU2Slave, name="instance", **options):
+        fmu = self.unborn(kind, name)
         fmu.instantiate(**options)
         return fmu
 
