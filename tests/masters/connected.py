@@ -123,7 +123,8 @@ def main():
             result = composed.run(count * reference.step, step, reference.signals)
         return reference.at_rows(result, step)
 
-    found = reference.at_rows(master(folder / f"{system}.ssp", reference.step, count, reference.signals), reference.step)
+    result = master(folder / f"{system}.ssp", reference.step, count, reference.signals)
+    found = reference.at_rows(result, reference.step)
     same, half = own(reference.step), own(reference.step / 2)
     print(f"{name}, {system}, steps of {1e3 * reference.step:g} ms; relative to each signal's scale")
     print(f"{'signal':<28}{'error':>10}{'estimate':>10}{'from the same scheme':>22}")

@@ -81,9 +81,7 @@ def error(reference, folder, system, scheme, step):
     # Every row of the result is one of the reference but the first and those that the reference leaves out.
     rows = np.rint(reference.times / INTERVAL).astype(int)
     chosen = np.abs(reference.times / INTERVAL - rows) < 1e-6
-    return max(
-        reference.scaled(name, result[name][rows[chosen]] - reference.values[name][chosen]) for name in SIGNALS
-    )
+    return max(reference.scaled(name, result[name][rows[chosen]] - reference.values[name][chosen]) for name in SIGNALS)
 
 
 def orders(errors):
