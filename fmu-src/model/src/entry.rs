@@ -73,10 +73,6 @@ fn demonstrate<M: Model>(set: Option<&ParameterSet>, resources: Option<&Path>) -
         signals: shown.into_iter().map(|(variable, unit)| (variable.name.clone(), unit, Vec::new())).collect(),
     };
     simulation.set_up(0.0, None)?;
-    // The first tick, at initialisation, sees the inputs that the first sample shows.
-    for (reference, stimulus) in &stimuli {
-        simulation.set_real(&[*reference], &[stimulus.at(0.0)], Access::All)?;
-    }
     simulation.initialize()?;
     let steps = (experiment.stop / experiment.step).round() as usize;
     for index in 0..=steps {
