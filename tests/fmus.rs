@@ -4,7 +4,8 @@ fn check(name: &str) {
     let output = strut::python("tests/masters/fmpy_checks.py", [name.as_ref(), strut::fmus().as_os_str()]);
     print!("{output}");
     let fmus = strut::fmus().read_dir().expect("the folder exists");
-    let fmus = fmus.filter(|entry| entry.as_ref().is_ok_and(|entry| entry.path().extension() == Some("fmu".as_ref())));
+    let fmus = fmus
+        .filter(|entry| entry.as_ref().is_ok_and(|entry| entry.path().extension() == Some("fmu".as_ref())));
     assert_eq!(output.lines().count(), fmus.count(), "every FMU is to be checked");
 }
 

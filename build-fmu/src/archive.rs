@@ -34,7 +34,9 @@ impl Archive {
                 .last_modified_time(DateTime::default())
                 .unix_permissions(*mode);
             // Writing to memory fails for archives beyond 4 GiB only.
-            zip.start_file(name.as_str(), options).and_then(|()| Ok(zip.write_all(contents)?)).expect("a small archive");
+            zip.start_file(name.as_str(), options)
+                .and_then(|()| Ok(zip.write_all(contents)?))
+                .expect("a small archive");
         }
         zip.finish().expect("a small archive").into_inner()
     }
@@ -52,7 +54,8 @@ impl<'a> Folder<'a> {
     /// If it cannot be made or written.
     pub fn open(path: &'a Path) -> Result<Self> {
         std::fs::create_dir_all(path).map_err(|error| {
-            Failure::new(format!("cannot make the folder `{}`: {error}", path.display())).help("choose another with --out")
+            Failure::new(format!("cannot make the folder `{}`: {error}", path.display()))
+                .help("choose another with --out")
         })?;
         let folder = Self(path);
         folder.temporary()?;
@@ -66,8 +69,9 @@ impl<'a> Folder<'a> {
     /// If it cannot be written.
     pub fn write(&self, name: &str, contents: &[u8]) -> Result<()> {
         let path = self.0.join(name);
-        let failed =
-            |error: &dyn std::fmt::Display| Failure::new(format!("cannot write `{}`: {error}", path.display()));
+        let failed = |error: &dyn std::fmt::Display| {
+            Failure::new(format!("cannot write `{}`: {error}", path.display()))
+        };
         let mut file = self.temporary()?;
         file.write_all(contents).and_then(|()| file.as_file().sync_all()).map_err(|error| failed(&error))?;
         #[cfg(unix)]

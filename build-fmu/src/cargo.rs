@@ -47,7 +47,9 @@ pub fn metadata(manifest: Option<&Path>) -> Result<Metadata> {
 
 /// The manifest of the workspace: where `cargo run` found us, else above the working folder.
 pub fn workspace_manifest() -> Option<PathBuf> {
-    std::env::var_os("CARGO_MANIFEST_DIR").map(|folder| PathBuf::from(folder).join("Cargo.toml")).filter(|it| it.exists())
+    std::env::var_os("CARGO_MANIFEST_DIR")
+        .map(|folder| PathBuf::from(folder).join("Cargo.toml"))
+        .filter(|it| it.exists())
 }
 
 /// The libraries of packages, by package name.
@@ -61,8 +63,11 @@ pub fn build(metadata: &Metadata, packages: &[String], platform: Option<&Platfor
     for package in packages {
         if !metadata.packages.iter().any(|other| other.name.as_str() == package) {
             let names = metadata.packages.iter().map(|package| package.name.as_str());
-            let failure = Failure::new(format!("there is no package `{package}` in `{}`", metadata.workspace_root))
-                .help("every model is built by a package of its own, `fmu-` and the model's name in kebab-case");
+            let failure = Failure::new(format!(
+                "there is no package `{package}` in `{}`",
+                metadata.workspace_root
+            ))
+            .help("every model is built by a package of its own, `fmu-` and the model's name in kebab-case");
             return Err(match similar(package, names.filter(|name| name.starts_with("fmu-"))) {
                 Some(help) => failure.help(help),
                 None => failure,
@@ -89,9 +94,10 @@ pub fn build(metadata: &Metadata, packages: &[String], platform: Option<&Platfor
         if let Message::CompilerArtifact(artifact) = message.map_err(failed)?
             && artifact.target.crate_types.contains(&CrateType::CDyLib)
             && let Some(package) = metadata.packages.iter().find(|package| package.id == artifact.package_id)
-            && let Some(file) = artifact.filenames.iter().find(|file| {
-                matches!(file.extension(), Some("so" | "dll" | "dylib"))
-            })
+            && let Some(file) = artifact
+                .filenames
+                .iter()
+                .find(|file| matches!(file.extension(), Some("so" | "dll" | "dylib")))
         {
             libraries.insert(package.name.to_string(), file.clone().into());
         }
@@ -123,7 +129,12 @@ fn check_installed(platform: &Platform) -> Result<()> {
             return Err(help.into_iter().fold(failure, Failure::help));
         }
     }
-    if *glibc && !Command::new("cargo-zigbuild").arg("--version").output().is_ok_and(|output| output.status.success()) {
+    if *glibc
+        && !Command::new("cargo-zigbuild")
+            .arg("--version")
+            .output()
+            .is_ok_and(|output| output.status.success())
+    {
         return Err(Failure::new(format!("building for the glibc of `{given}` needs cargo-zigbuild"))
             .help("run `pip install ziglang cargo-zigbuild`, or build without the version"));
     }
@@ -134,7 +145,9 @@ fn rustc(arguments: &[&str]) -> Result<String> {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     match Command::new(rustc).args(arguments).output() {
         Ok(output) if output.status.success() => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
-        Ok(output) => Err(Failure::new(format!("rustc fails: {}", String::from_utf8_lossy(&output.stderr).trim()))),
+        Ok(output) => {
+            Err(Failure::new(format!("rustc fails: {}", String::from_utf8_lossy(&output.stderr).trim())))
+        }
         Err(error) => Err(Failure::new(format!("cannot run rustc: {error}"))),
     }
 }

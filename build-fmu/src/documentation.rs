@@ -98,7 +98,11 @@ fn notes(about: &About) -> Markup {
 fn experiment(page: &Page) -> Markup {
     let experiment = page.fmu.entry.about.experiment;
     let unit = |name: &str| {
-        page.trajectory.signals.iter().find(|(other, ..)| other == name).map_or_else(String::new, |(_, unit, _)| tables::printed(unit))
+        page.trajectory
+            .signals
+            .iter()
+            .find(|(other, ..)| other == name)
+            .map_or_else(String::new, |(_, unit, _)| tables::printed(unit))
     };
     html! {
         @if !page.trajectory.signals.is_empty() {
@@ -123,7 +127,9 @@ fn words(stimulus: Stimulus, unit: &str) -> String {
     let n = tables::number;
     match stimulus {
         Stimulus::Step { at, height } => format!("steps to {} {unit} at {} s", n(height), n(at)),
-        Stimulus::Sine { amplitude, frequency } => format!("is a sine of {} {unit} at {} Hz", n(amplitude), n(frequency)),
+        Stimulus::Sine { amplitude, frequency } => {
+            format!("is a sine of {} {unit} at {} Hz", n(amplitude), n(frequency))
+        }
         Stimulus::Cosine { amplitude, frequency } => {
             format!("is a cosine of {} {unit} at {} Hz", n(amplitude), n(frequency))
         }
@@ -144,7 +150,8 @@ mod tests {
         for void in ["<meta ", "<img "] {
             let parts: Vec<&str> = text.split(void).collect();
             let closed: Vec<String> = parts[1..].iter().map(|part| part.replacen('>', "/>", 1)).collect();
-            text = parts[0].to_owned() + &closed.iter().map(|part| format!("{void}{part}")).collect::<String>();
+            text =
+                parts[0].to_owned() + &closed.iter().map(|part| format!("{void}{part}")).collect::<String>();
         }
         text
     }
@@ -160,16 +167,26 @@ mod tests {
     #[test]
     fn every_page_is_well_formed_and_says_everything() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fmu-src/physics/parameters/resources");
-        let plain = strut_physics::CATALOGUE.iter().map(|entry| Fmu { name: entry.about.name.into(), entry: *entry, set: None });
+        let plain = strut_physics::CATALOGUE.iter().map(|entry| Fmu {
+            name: entry.about.name.into(),
+            entry: *entry,
+            set: None,
+        });
         let published = strut_physics::PARAMETER_SETS.iter().map(|(_, text)| {
             let parsed = ParameterSet::parse(text).unwrap();
-            let entry = *strut_physics::CATALOGUE.iter().find(|entry| entry.about.name == parsed.model).unwrap();
-            Fmu { name: parsed.fmu.clone(), entry, set: Some(Set { parsed, text: (*text).into(), folder: folder.clone() }) }
+            let entry =
+                *strut_physics::CATALOGUE.iter().find(|entry| entry.about.name == parsed.model).unwrap();
+            Fmu {
+                name: parsed.fmu.clone(),
+                entry,
+                set: Some(Set { parsed, text: (*text).into(), folder: folder.clone() }),
+            }
         });
         for fmu in plain.chain(published) {
             let html = page(&fmu);
             let xml = closed(&html);
-            let document = roxmltree::Document::parse(&xml).unwrap_or_else(|error| panic!("{}: {error}", fmu.name));
+            let document =
+                roxmltree::Document::parse(&xml).unwrap_or_else(|error| panic!("{}: {error}", fmu.name));
             assert!(!html.contains("NaN") && !html.contains(">inf"), "{}", fmu.name);
             let text: String = document.descendants().filter_map(|node| node.text()).collect();
             for variable in fmu.interface().unwrap().variables {

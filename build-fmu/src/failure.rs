@@ -59,8 +59,14 @@ mod tests {
     #[test]
     fn close_names_come_first() {
         let names = ["QuarterCar", "QuanserQuarterCar", "Road"];
-        assert_eq!(similar("QuaterCar", names).as_deref(), Some("did you mean `QuarterCar` or `QuanserQuarterCar`?"));
-        assert_eq!(similar("xyz", names).as_deref(), Some("there are `QuarterCar`, `QuanserQuarterCar`, `Road`"));
+        assert_eq!(
+            similar("QuaterCar", names).as_deref(),
+            Some("did you mean `QuarterCar` or `QuanserQuarterCar`?")
+        );
+        assert_eq!(
+            similar("xyz", names).as_deref(),
+            Some("there are `QuarterCar`, `QuanserQuarterCar`, `Road`")
+        );
         assert_eq!(similar("xyz", []), None);
     }
 

@@ -57,7 +57,8 @@ impl Fmu {
 
     /// Numbers of inputs and outputs.
     pub fn ports(interface: &Interface) -> (usize, usize) {
-        let count = |causality| interface.variables.iter().filter(|variable| variable.causality == causality).count();
+        let count =
+            |causality| interface.variables.iter().filter(|variable| variable.causality == causality).count();
         (count(Causality::Input), count(Causality::Output))
     }
 
@@ -83,7 +84,10 @@ impl Fmu {
         archive.add("modelDescription.xml", strut_model_description::write(&interface, &header));
         archive.add("model.png", icon::png(about.kind));
         for (platform, library) in libraries {
-            archive.add_library(format!("binaries/{}/{}{}", platform.folder, self.name, platform.ending), library.as_slice());
+            archive.add_library(
+                format!("binaries/{}/{}{}", platform.folder, self.name, platform.ending),
+                library.as_slice(),
+            );
         }
         let page = Page { fmu: self, interface: &interface, trajectory: &trajectory };
         archive.add("documentation/index.html", documentation::html(&page));
@@ -111,12 +115,16 @@ impl Fmu {
         // A name that climbs out of the archive's folder would be written over someone else's file.
         let escapes = file.split(['/', '\\']).any(|part| part.is_empty() || part == "..");
         if escapes || file == "parameters.toml" {
-            return Err(Failure::new(format!("the parameter set of {} cannot bring the file `{file}`", self.name))
-                .help("name files beside the parameter set, without `..`"));
+            return Err(Failure::new(format!(
+                "the parameter set of {} cannot bring the file `{file}`",
+                self.name
+            ))
+            .help("name files beside the parameter set, without `..`"));
         }
         let path = set.folder.join(file);
-        std::fs::read(&path)
-            .map_err(|error| Failure::new(format!("the parameter set of {} needs `{}`: {error}", self.name, path.display())))
+        std::fs::read(&path).map_err(|error| {
+            Failure::new(format!("the parameter set of {} needs `{}`: {error}", self.name, path.display()))
+        })
     }
 
     fn refused(&self, error: &Error) -> Failure {
@@ -152,28 +160,39 @@ mod tests {
     use super::*;
 
     fn recorded_road(files: &[&str]) -> Fmu {
-        let (_, text) = strut_physics::PARAMETER_SETS.iter().find(|(name, _)| *name == "RecordedRoad.toml").unwrap();
+        let (_, text) =
+            strut_physics::PARAMETER_SETS.iter().find(|(name, _)| *name == "RecordedRoad.toml").unwrap();
         let mut parsed = ParameterSet::parse(text).unwrap();
         parsed.files = files.iter().map(|file| (*file).to_owned()).collect();
-        let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../fmu-src/physics/parameters/resources");
+        let folder =
+            PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../fmu-src/physics/parameters/resources");
         let entry = *strut_physics::CATALOGUE.iter().find(|entry| entry.about.name == "Road").unwrap();
         Fmu { name: parsed.fmu.clone(), entry, set: Some(Set { parsed, text: (*text).into(), folder }) }
     }
 
     #[test]
     fn an_archive_has_everything_in_its_place() {
-        let platforms = ["x86_64-unknown-linux-gnu", "x86_64-pc-windows-gnu"].map(|triple| Platform::of(triple).unwrap());
+        let platforms =
+            ["x86_64-unknown-linux-gnu", "x86_64-pc-windows-gnu"].map(|triple| Platform::of(triple).unwrap());
         let libraries = platforms.map(|platform| (platform, b"library".to_vec()));
         let fmu = recorded_road(&["profile.csv"]);
         let packed = fmu.pack(&libraries, "MIT License\n\n...").unwrap();
         assert_eq!(packed.bytes, fmu.pack(&libraries, "MIT License\n\n...").unwrap().bytes);
         let mut zip = zip::ZipArchive::new(std::io::Cursor::new(packed.bytes)).unwrap();
         let names: Vec<String> = zip.file_names().map(|name| name.unwrap().into_owned()).collect();
-        assert_eq!(names, [
-            "modelDescription.xml", "model.png", "binaries/linux64/RecordedRoad.so", "binaries/win64/RecordedRoad.dll",
-            "documentation/index.html", "documentation/licenses/LICENSE.txt", "resources/parameters.toml",
-            "resources/profile.csv",
-        ]);
+        assert_eq!(
+            names,
+            [
+                "modelDescription.xml",
+                "model.png",
+                "binaries/linux64/RecordedRoad.so",
+                "binaries/win64/RecordedRoad.dll",
+                "documentation/index.html",
+                "documentation/licenses/LICENSE.txt",
+                "resources/parameters.toml",
+                "resources/profile.csv",
+            ]
+        );
         let mut xml = String::new();
         std::io::Read::read_to_string(&mut zip.by_name("modelDescription.xml").unwrap(), &mut xml).unwrap();
         assert!(xml.contains("modelIdentifier=\"RecordedRoad\"") && xml.contains("license=\"MIT License\""));

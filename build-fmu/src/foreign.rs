@@ -72,8 +72,11 @@ impl Package {
         let status = status.map_err(|error| Failure::new(format!("cannot run cargo: {error}")))?;
         match status.code() {
             Some(code @ 0..=2) => Ok(ExitCode::from(code as u8)),
-            _ => Err(Failure::new(format!("the packager of `{}` cannot be built; cargo says why above", self.described.name))
-                .help("its lib.rs must end with `strut_fmi2::export_fmu!(YourModel);`, outside of any module")),
+            _ => Err(Failure::new(format!(
+                "the packager of `{}` cannot be built; cargo says why above",
+                self.described.name
+            ))
+            .help("its lib.rs must end with `strut_fmi2::export_fmu!(YourModel);`, outside of any module")),
         }
     }
 
@@ -84,7 +87,10 @@ impl Package {
         self.described
             .targets
             .iter()
-            .find(|target| has(target, CrateType::CDyLib) && (has(target, CrateType::RLib) || has(target, CrateType::Lib)))
+            .find(|target| {
+                has(target, CrateType::CDyLib)
+                    && (has(target, CrateType::RLib) || has(target, CrateType::Lib))
+            })
             .ok_or_else(|| {
                 Failure::new(format!("`{name}` is not both a shared library and a Rust library"))
                     .help("write `crate-type = [\"cdylib\", \"rlib\"]` under `[lib]` in its Cargo.toml")
@@ -117,7 +123,9 @@ impl Package {
         Ok(format!(
             "# Written by build-fmu.\n[package]\nname = \"packager-of-{name}\"\nedition = \"2024\"\npublish = false\n\n\
              [dependencies]\nbuild-fmu = {{ {packager} }}\nmodel = {{ package = {}, path = {} }}\n\n[workspace]\n",
-            quoted(&self.described.name), quoted(folder), name = self.described.name,
+            quoted(&self.described.name),
+            quoted(folder),
+            name = self.described.name,
         ))
     }
 
@@ -129,7 +137,8 @@ impl Package {
              catalogue: &[model::ENTRY],\n        parameter_sets: &[],\n        systems: &[],\n        \
              source: build_fmu::Source::Package {{ manifest: {:?}, name: {:?} }},\n        license: {license:?},\n    \
              }})\n}}\n",
-            self.described.manifest_path.as_str(), self.described.name.as_str(),
+            self.described.manifest_path.as_str(),
+            self.described.name.as_str(),
         )
     }
 }

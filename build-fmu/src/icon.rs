@@ -53,7 +53,8 @@ impl Canvas {
     }
 
     fn stroke(&mut self, width: f32, path: PathBuilder) {
-        let stroke = Stroke { width, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
+        let stroke =
+            Stroke { width, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
         let path = path.finish().expect("a drawing has points");
         self.0.stroke_path(&path, &paint(WHITE), &stroke, scale(), None);
     }
@@ -69,7 +70,10 @@ impl Canvas {
         let length = dx.hypot(dy);
         let (ux, uy) = (dx / length * 10.0, dy / length * 10.0);
         self.line(width, &[from, to]);
-        self.line(width, &[(to.0 - ux - uy * 0.8, to.1 - uy + ux * 0.8), to, (to.0 - ux + uy * 0.8, to.1 - uy - ux * 0.8)]);
+        self.line(
+            width,
+            &[(to.0 - ux - uy * 0.8, to.1 - uy + ux * 0.8), to, (to.0 - ux + uy * 0.8, to.1 - uy - ux * 0.8)],
+        );
     }
 
     /// A zigzag between two heights.

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use strut_model::ParameterSet;
 
+use crate::Project;
 use crate::cli::Arguments;
 use crate::failure::{Failure, Result, similar};
 use crate::fmu::{Fmu, Set};
 use crate::system::System;
-use crate::Project;
 
 /// All FMUs and systems, and the wanted ones among them.
 #[derive(Debug)]
@@ -59,17 +59,23 @@ impl Plan {
         check_names(&fmus, &systems)?;
         // A file on the command line is a wish, like a name.
         let user_fmus = fmus.len() - arguments.parameters.len()..fmus.len();
-        let everything = arguments.names.is_empty() && arguments.parameters.is_empty() && arguments.systems.is_empty();
+        let everything =
+            arguments.names.is_empty() && arguments.parameters.is_empty() && arguments.systems.is_empty();
         for name in &arguments.names {
-            if !fmus.iter().any(|fmu| fmu.name == *name) && !systems.iter().any(|system| system.name == *name) {
-                let names = fmus.iter().map(|fmu| fmu.name.as_str()).chain(systems.iter().map(|system| system.name.as_str()));
+            if !fmus.iter().any(|fmu| fmu.name == *name) && !systems.iter().any(|system| system.name == *name)
+            {
+                let names = fmus
+                    .iter()
+                    .map(|fmu| fmu.name.as_str())
+                    .chain(systems.iter().map(|system| system.name.as_str()));
                 let failure = Failure::new(format!("there is no FMU or system `{name}`"));
                 let failure = similar(name, names).into_iter().fold(failure, Failure::help);
                 return Err(failure.help("run with --list to see what there is"));
             }
         }
         let named = |name: &String| everything || arguments.names.contains(name);
-        let wanted = (0..fmus.len()).filter(|index| named(&fmus[*index].name) || user_fmus.contains(index)).collect();
+        let wanted =
+            (0..fmus.len()).filter(|index| named(&fmus[*index].name) || user_fmus.contains(index)).collect();
         let mut index = 0;
         systems.retain(|system| {
             index += 1;
@@ -86,9 +92,12 @@ impl Plan {
         let position = |(component, fmu): (&String, &String)| {
             self.fmus.iter().position(|other| other.name == *fmu).ok_or_else(|| {
                 let failure = Failure::new(format!(
-                    "component `{component}` of the system {} is made of `{fmu}`, which is no FMU", system.name
+                    "component `{component}` of the system {} is made of `{fmu}`, which is no FMU",
+                    system.name
                 ));
-                similar(fmu, self.fmus.iter().map(|fmu| fmu.name.as_str())).into_iter().fold(failure, Failure::help)
+                similar(fmu, self.fmus.iter().map(|fmu| fmu.name.as_str()))
+                    .into_iter()
+                    .fold(failure, Failure::help)
             })
         };
         system.components.iter().map(position).collect()
@@ -96,15 +105,21 @@ impl Plan {
 }
 
 fn read(path: &Path) -> Result<String> {
-    std::fs::read_to_string(path).map_err(|error| Failure::new(format!("cannot read `{}`: {error}", path.display())))
+    std::fs::read_to_string(path)
+        .map_err(|error| Failure::new(format!("cannot read `{}`: {error}", path.display())))
 }
 
 fn with_set(project: &Project, file: &str, text: &str, folder: &Path) -> Result<Fmu> {
     let parsed = ParameterSet::parse(text)
         .map_err(|error| Failure::new(format!("the parameter set `{file}` is broken: {error}")))?;
     let entry = project.catalogue.iter().find(|entry| entry.about.name == parsed.model).ok_or_else(|| {
-        let failure = Failure::new(format!("the parameter set `{file}` is for the model `{}`, which there is none of", parsed.model));
-        similar(&parsed.model, project.catalogue.iter().map(|entry| entry.about.name)).into_iter().fold(failure, Failure::help)
+        let failure = Failure::new(format!(
+            "the parameter set `{file}` is for the model `{}`, which there is none of",
+            parsed.model
+        ));
+        similar(&parsed.model, project.catalogue.iter().map(|entry| entry.about.name))
+            .into_iter()
+            .fold(failure, Failure::help)
     })?;
     let name = parsed.fmu.clone();
     let identifier = name.starts_with(|c: char| c.is_ascii_alphabetic())

@@ -24,7 +24,9 @@ impl Platform {
     /// If the triple has no operating system that loads shared libraries.
     pub fn of(given: &str) -> Result<Self> {
         let triple = match given.split_once("-gnu.") {
-            Some((front, version)) if version.chars().all(|c| c.is_ascii_digit() || c == '.') => format!("{front}-gnu"),
+            Some((front, version)) if version.chars().all(|c| c.is_ascii_digit() || c == '.') => {
+                format!("{front}-gnu")
+            }
             _ => given.to_owned(),
         };
         let (arch, rest) = triple.split_once('-').unwrap_or((&triple, ""));
@@ -78,6 +80,8 @@ mod tests {
 
     #[test]
     fn other_targets_are_refused() {
-        assert!(Platform::of("wasm32-unknown-unknown").unwrap_err().to_string().contains("no target that FMUs"));
+        assert!(
+            Platform::of("wasm32-unknown-unknown").unwrap_err().to_string().contains("no target that FMUs")
+        );
     }
 }

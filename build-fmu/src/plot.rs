@@ -60,8 +60,10 @@ fn panels(trajectory: &Trajectory) -> Vec<Panel<'_>> {
 }
 
 fn draw(panel: &Panel, trajectory: &Trajectory, top: f64, time: &Axis, x: &impl Fn(f64) -> f64) -> Markup {
-    let finite = panel.signals.iter().flat_map(|(_, values)| values.iter().copied()).filter(|value| value.is_finite());
-    let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+    let finite =
+        panel.signals.iter().flat_map(|(_, values)| values.iter().copied()).filter(|value| value.is_finite());
+    let (low, high) =
+        finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
     let (low, high) = if low <= high { (low, high) } else { (0.0, 0.0) };
     // A constant gets room to lie in the middle of.
     let margin = if high > low { (high - low) * 0.06 } else { high.abs().max(1.0) * 0.5 };
@@ -139,11 +141,15 @@ impl Axis {
     fn over(low: f64, high: f64, about: usize) -> Self {
         let rough = ((high - low) / about as f64).max(f64::MIN_POSITIVE);
         let magnitude = 10_f64.powf(rough.log10().floor());
-        let step = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * magnitude).into_iter().find(|step| *step >= rough * 0.999);
+        let step = [1.0, 2.0, 5.0, 10.0]
+            .map(|factor| factor * magnitude)
+            .into_iter()
+            .find(|step| *step >= rough * 0.999);
         let step = step.unwrap_or(rough);
         let first = (low / step - 1e-9).ceil();
         let last = (high / step + 1e-9).floor();
-        let ticks = (0..=((last - first).max(0.0) as usize)).map(|index| (first + index as f64) * step).collect();
+        let ticks =
+            (0..=((last - first).max(0.0) as usize)).map(|index| (first + index as f64) * step).collect();
         Self { low, high, step, ticks }
     }
 

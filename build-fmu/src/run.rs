@@ -91,7 +91,14 @@ pub fn run(project: &Project, arguments: &Arguments) -> Result<ExitCode> {
         folder.write(&file, &bytes)?;
         let parts = format!("{} FMUs", components.len());
         let path = arguments.out.join(file).display().to_string();
-        rows.push(vec![system.name.clone(), "system".into(), parts, system.source.clone(), table::size(bytes.len()), path]);
+        rows.push(vec![
+            system.name.clone(),
+            "system".into(),
+            parts,
+            system.source.clone(),
+            table::size(bytes.len()),
+            path,
+        ]);
         progress.inc(1);
     }
     progress.finish_and_clear();
@@ -109,7 +116,8 @@ fn platforms(targets: &[String]) -> Result<Vec<(Platform, bool)>> {
         let platform = Platform::of(target)?;
         if let Some((other, _)) = platforms.iter().find(|(other, _)| other.folder == platform.folder) {
             return Err(Failure::new(format!(
-                "`{}` and `{}` are both `{}` in an FMU", other.given, platform.given, platform.folder
+                "`{}` and `{}` are both `{}` in an FMU",
+                other.given, platform.given, platform.folder
             ))
             .help("give one of them"));
         }
@@ -128,7 +136,11 @@ fn library(path: &Path) -> Result<Vec<u8>> {
 
 /// A bar on stderr; none if nobody looks.
 fn progress(steps: usize) -> ProgressBar {
-    let target = if std::io::stderr().is_terminal() { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+    let target = if std::io::stderr().is_terminal() {
+        ProgressDrawTarget::stderr()
+    } else {
+        ProgressDrawTarget::hidden()
+    };
     let style = ProgressStyle::with_template("{prefix:>12.cyan.bold} [{bar:27}] {pos}/{len}: {msg}")
         .expect("a valid template")
         .progress_chars("=> ");
@@ -143,7 +155,8 @@ fn row(fmu: &Fmu, packed: &Packed, path: &Path) -> Vec<String> {
 
 fn described(fmu: &Fmu, interface: &strut_model::Interface) -> Vec<String> {
     let (inputs, outputs) = Fmu::ports(interface);
-    let set = fmu.set.as_ref().map_or("–".into(), |set| format!("{} ({})", set.parsed.source, set.parsed.model));
+    let set =
+        fmu.set.as_ref().map_or("–".into(), |set| format!("{} ({})", set.parsed.source, set.parsed.model));
     vec![fmu.name.clone(), fmu.entry.about.kind.name().into(), format!("{inputs} → {outputs}"), set]
 }
 
@@ -157,7 +170,10 @@ fn listing(plan: &Plan) -> Result<String> {
     }
     for system in &plan.systems {
         rows.push(vec![
-            system.name.clone(), "system".into(), format!("{} FMUs", system.components.len()), shortened(&system.title),
+            system.name.clone(),
+            "system".into(),
+            format!("{} FMUs", system.components.len()),
+            shortened(&system.title),
         ]);
     }
     Ok(table::aligned(&["NAME", "KIND", "IN → OUT", "WHAT IT IS"], &[], &rows))

@@ -78,18 +78,23 @@ impl System {
     /// # Errors
     /// If the text is no TOML of this form.
     pub fn parse(file: &str, text: &str) -> Result<Self> {
-        let system: Self = toml::from_str(text)
-            .map_err(|error| Failure::new(format!("the system `{file}` is broken: {}", error.to_string().trim_end())))?;
+        let system: Self = toml::from_str(text).map_err(|error| {
+            Failure::new(format!("the system `{file}` is broken: {}", error.to_string().trim_end()))
+        })?;
         let plain = |name: &str| {
             !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_'))
         };
-        if let Some(name) = [&system.name].into_iter().chain(system.components.keys()).find(|name| !plain(name)) {
+        if let Some(name) =
+            [&system.name].into_iter().chain(system.components.keys()).find(|name| !plain(name))
+        {
             return Err(Failure::new(format!("the system `{file}` has the name `{name}` in it"))
                 .help("names of systems and components are letters, digits, `-` and `_`"));
         }
         let Experiment { stop, step } = system.experiment;
         if !(step > 0.0 && stop >= step && stop.is_finite()) {
-            return Err(Failure::new(format!("the experiment of the system `{file}` cannot stop at {stop} s in steps of {step} s")));
+            return Err(Failure::new(format!(
+                "the experiment of the system `{file}` cannot stop at {stop} s in steps of {step} s"
+            )));
         }
         Ok(system)
     }
@@ -105,8 +110,10 @@ impl System {
 
     /// The SSP. The components are in the order of the system's; it has been checked.
     pub fn pack(&self, components: &[(&Fmu, &Packed)]) -> Vec<u8> {
-        let interfaces: Vec<Interface> = components.iter().map(|(_, packed)| packed.interface.clone()).collect();
-        let checked = check::Checked::new(self, &interfaces).expect("a system is checked before it is packed");
+        let interfaces: Vec<Interface> =
+            components.iter().map(|(_, packed)| packed.interface.clone()).collect();
+        let checked =
+            check::Checked::new(self, &interfaces).expect("a system is checked before it is packed");
         ssp::archive(self, &checked, components)
     }
 
@@ -126,7 +133,9 @@ impl System {
         };
         let table = value.as_table().ok_or_else(wrong)?;
         let Some(value) = table.get("value") else {
-            return table.iter().try_for_each(|(key, value)| self.collect(&format!("{name}.{key}"), value, into));
+            return table
+                .iter()
+                .try_for_each(|(key, value)| self.collect(&format!("{name}.{key}"), value, into));
         };
         if table.keys().any(|key| !matches!(key.as_str(), "value" | "unit" | "source")) {
             return Err(wrong());
@@ -138,7 +147,8 @@ impl System {
             Toml::String(text) => Value::Text(text.clone()),
             _ => return Err(wrong()),
         };
-        let unit = table.get("unit").map(|unit| unit.as_str().map(str::to_owned).ok_or_else(wrong)).transpose()?;
+        let unit =
+            table.get("unit").map(|unit| unit.as_str().map(str::to_owned).ok_or_else(wrong)).transpose()?;
         into.push(Setting { port: self.port(name)?, value, unit });
         Ok(())
     }
@@ -149,8 +159,11 @@ impl System {
             Some((component, variable)) if !variable.is_empty() => {
                 Ok(Port { component: component.into(), variable: variable.into() })
             }
-            _ => Err(Failure::new(format!("`{text}` in the system {} names no variable of a component", self.name))
-                .help("write the component, a dot, and the variable: `rig.body.position`")),
+            _ => Err(Failure::new(format!(
+                "`{text}` in the system {} names no variable of a component",
+                self.name
+            ))
+            .help("write the component, a dot, and the variable: `rig.body.position`")),
         }
     }
 }

@@ -5,7 +5,9 @@ use unicode_width::UnicodeWidthStr;
 /// Aligned columns with a head; the columns named `right` are aligned to the right.
 pub fn aligned(head: &[&str], right: &[usize], rows: &[Vec<String>]) -> String {
     let widths: Vec<usize> = (0..head.len())
-        .map(|column| rows.iter().map(|row| row[column].width()).chain([head[column].width()]).max().unwrap_or(0))
+        .map(|column| {
+            rows.iter().map(|row| row[column].width()).chain([head[column].width()]).max().unwrap_or(0)
+        })
         .collect();
     let mut text = String::new();
     let head: Vec<String> = head.iter().map(|cell| (*cell).to_owned()).collect();
@@ -45,7 +47,10 @@ mod tests {
 
     #[test]
     fn columns_line_up() {
-        let rows = [vec!["Road".into(), "0 → 2".into(), "9 kB".into()], vec!["Ü".into(), "1 → 12".into(), "120 kB".into()]];
+        let rows = [
+            vec!["Road".into(), "0 → 2".into(), "9 kB".into()],
+            vec!["Ü".into(), "1 → 12".into(), "120 kB".into()],
+        ];
         let table = aligned(&["NAME", "PORTS", "SIZE"], &[2], &rows);
         assert_eq!(table, "NAME  PORTS     SIZE\nRoad  0 → 2     9 kB\nÜ     1 → 12  120 kB\n");
     }

@@ -96,7 +96,10 @@ fn broken_parameter_sets_are_named() {
         (String::from("fmu ="), "is broken"),
         (format!("{head}model = \"QuartrCar\""), "did you mean `QuarterCar`"),
         (format!("{}model = \"Road\"", head.replace("Mine", "my road")), "identifier of the language C"),
-        (format!("{}model = \"Road\"", head.replace("Mine", "Road")), "two FMUs or systems of the name `Road`"),
+        (
+            format!("{}model = \"Road\"", head.replace("Mine", "Road")),
+            "two FMUs or systems of the name `Road`",
+        ),
         (format!("{head}model = \"Road\"\n[values]\nheigt = {{ value = 1.0 }}"), "no parameter `heigt`"),
     ] {
         let path = file(&folder, "mine.toml", &text);

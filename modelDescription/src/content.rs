@@ -7,8 +7,8 @@ use strut_model::{
 use crate::{
     Header,
     schema::{
-        BaseUnit, Capabilities, Category, Choice, CoSimulation, Document, Experiment, Item, Kind, List, ModelExchange,
-        ModelStructure, Real, ScalarVariable, SimpleType, Start, Unit, Unknown,
+        BaseUnit, Capabilities, Category, Choice, CoSimulation, Document, Experiment, Item, Kind, List,
+        ModelExchange, ModelStructure, Real, ScalarVariable, SimpleType, Start, Unit, Unknown,
     },
 };
 
@@ -47,7 +47,10 @@ pub fn document(interface: &Interface, header: &Header<'_>) -> Document {
         },
         units: units(&interface.variables),
         types: types(&interface.variables),
-        log_categories: LOG_CATEGORIES.iter().map(|&(name, description)| Category { name, description }).collect(),
+        log_categories: LOG_CATEGORIES
+            .iter()
+            .map(|&(name, description)| Category { name, description })
+            .collect(),
         experiment: Experiment {
             start: number(0.0),
             stop: number(experiment.stop),
@@ -102,7 +105,10 @@ fn types(variables: &[Variable]) -> List<SimpleType> {
         .map(|Enumeration { name, doc, items }| SimpleType {
             name,
             description: doc,
-            items: (1..).zip(items).map(|(value, &(name, description))| Item { name, value, description }).collect(),
+            items: (1..)
+                .zip(items)
+                .map(|(value, &(name, description))| Item { name, value, description })
+                .collect(),
         })
         .collect()
 }

@@ -10,7 +10,10 @@ use model::{Delay, Wagon};
 
 fn described<M: Model>() -> (Interface, String) {
     let interface = Interface::of::<M>(None, None).unwrap();
-    let xml = write(&interface, &Header { name: M::ABOUT.name, license: "MIT", version: "1.2.3", ..Header::default() });
+    let xml = write(
+        &interface,
+        &Header { name: M::ABOUT.name, license: "MIT", version: "1.2.3", ..Header::default() },
+    );
     (interface, xml)
 }
 
@@ -59,7 +62,9 @@ fn every_declaration_survives_the_round_trip() {
                 assert_eq!(kind.attribute("derivative"), index.as_deref());
             }
             VariableKind::Integer { start } => assert_eq!(number(&kind, "start"), Some(f64::from(*start))),
-            VariableKind::Boolean { start } => assert_eq!(kind.attribute("start"), Some(start.to_string().as_str())),
+            VariableKind::Boolean { start } => {
+                assert_eq!(kind.attribute("start"), Some(start.to_string().as_str()))
+            }
             VariableKind::Text { start } => assert_eq!(kind.attribute("start"), Some(start.as_str())),
             VariableKind::Choice { enumeration, start } => {
                 assert_eq!(kind.attribute("declaredType"), Some(enumeration.name));
@@ -90,7 +95,8 @@ fn units_and_types_that_are_used_are_declared_once() {
     used.sort_unstable();
     used.dedup();
     assert_eq!(declared, used);
-    let types: Vec<_> = elements(child(root, "TypeDefinitions")).map(|ty| ty.attribute("name").unwrap()).collect();
+    let types: Vec<_> =
+        elements(child(root, "TypeDefinitions")).map(|ty| ty.attribute("name").unwrap()).collect();
     assert_eq!(types, ["Gauge", "SolverMethod"]);
 }
 
@@ -111,7 +117,8 @@ fn combinations_of_causality_variability_and_initial_are_legal() {
     };
     for (interface, xml) in [described::<Wagon>(), described::<Delay>()] {
         for variable in &interface.variables {
-            let (causality, variability, initial) = (variable.causality, variable.variability, variable.initial);
+            let (causality, variability, initial) =
+                (variable.causality, variable.variability, variable.initial);
             assert!(legal(causality, variability, initial), "{}", variable.name);
             let continuous = variability == Variability::Continuous;
             assert!(!continuous || matches!(variable.kind, VariableKind::Real { .. }), "{}", variable.name);
@@ -119,7 +126,8 @@ fn combinations_of_causality_variability_and_initial_are_legal() {
         let document = Document::parse(&xml).unwrap();
         for node in document.descendants().filter(|node| node.has_tag_name("ScalarVariable")) {
             let start = node.first_element_child().unwrap().attribute("start");
-            let needs = node.attribute("initial") == Some("exact") || node.attribute("causality") == Some("input");
+            let needs =
+                node.attribute("initial") == Some("exact") || node.attribute("causality") == Some("input");
             assert_eq!(start.is_some(), needs, "{:?}", node.attribute("name"));
         }
     }
@@ -163,7 +171,8 @@ fn the_model_structure_is_complete_and_ascending() {
             (
                 "InitialUnknowns",
                 indices_where(&|node| {
-                    let unknown = has(node, "causality", "output") || has(node, "causality", "calculatedParameter");
+                    let unknown =
+                        has(node, "causality", "output") || has(node, "causality", "calculatedParameter");
                     calculated(node) && (unknown || is_rate(node))
                 }),
             ),
@@ -182,7 +191,10 @@ fn the_model_structure_is_complete_and_ascending() {
                     .split_whitespace()
                     .map(|index| index.parse().unwrap())
                     .collect();
-                assert!(on.is_sorted_by(|a, b| a < b) && on.iter().all(|index| (1..=variables.len()).contains(index)));
+                assert!(
+                    on.is_sorted_by(|a, b| a < b)
+                        && on.iter().all(|index| (1..=variables.len()).contains(index))
+                );
             }
         }
     }

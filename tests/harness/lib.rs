@@ -90,9 +90,9 @@ fn environment() -> &'static Path {
             let base = if cfg!(windows) { "python" } else { "python3" };
             run(Command::new(base).args(["-m", "venv", "--clear"]).arg(&folder));
             let pip = folder.join(if cfg!(windows) { "Scripts/pip.exe" } else { "bin/pip" });
-            run(Command::new(pip).args(["install", "--quiet", "--disable-pip-version-check", "--requirement"]).arg(
-                root().join("tests/masters/requirements.txt"),
-            ));
+            run(Command::new(pip)
+                .args(["install", "--quiet", "--disable-pip-version-check", "--requirement"])
+                .arg(root().join("tests/masters/requirements.txt")));
             fs::write(&complete, REQUIREMENTS).expect("the environment's folder is writable");
         }
         folder

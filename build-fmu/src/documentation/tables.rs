@@ -59,7 +59,9 @@ pub fn variables(page: &Page) -> Markup {
     let all = &page.interface.variables;
     let is_rate =
         |variable: &Variable| matches!(variable.kind, VariableKind::Real { derivative_of: Some(_), .. });
-    let of = |causality: Causality| all.iter().filter(move |variable| variable.causality == causality).collect::<Vec<_>>();
+    let of = |causality: Causality| {
+        all.iter().filter(move |variable| variable.causality == causality).collect::<Vec<_>>()
+    };
     let states: Vec<_> =
         all.iter().filter(|variable| variable.causality == Causality::Local && !is_rate(variable)).collect();
     html! {
@@ -145,7 +147,9 @@ fn start(variable: &Variable) -> Option<String> {
 
 fn range(variable: &Variable) -> String {
     match variable.kind {
-        VariableKind::Real { min: Some(min), max: Some(max), .. } => format!("{} … {}", number(min), number(max)),
+        VariableKind::Real { min: Some(min), max: Some(max), .. } => {
+            format!("{} … {}", number(min), number(max))
+        }
         VariableKind::Real { min: Some(min), .. } => format!("≥ {}", number(min)),
         VariableKind::Real { max: Some(max), .. } => format!("≤ {}", number(max)),
         _ => String::new(),
@@ -187,7 +191,9 @@ pub fn printed(symbol: &str) -> String {
     for c in symbol.chars() {
         match c {
             '.' => text.push('·'),
-            digit if digit.is_ascii_digit() && after_letter => text.push_str(&superscript(&digit.to_string())),
+            digit if digit.is_ascii_digit() && after_letter => {
+                text.push_str(&superscript(&digit.to_string()))
+            }
             other => text.push(other),
         }
         after_letter = c.is_alphabetic();
@@ -228,7 +234,9 @@ mod tests {
 
     #[test]
     fn units_are_printed_as_in_a_book() {
-        for (symbol, text) in [("N.s/m", "N·s/m"), ("m/s2", "m/s²"), ("1/(V.s)", "1/(V·s)"), ("1", "–"), ("1/m2", "1/m²")] {
+        for (symbol, text) in
+            [("N.s/m", "N·s/m"), ("m/s2", "m/s²"), ("1/(V.s)", "1/(V·s)"), ("1", "–"), ("1/m2", "1/m²")]
+        {
             assert_eq!(printed(symbol), text);
         }
     }

@@ -38,7 +38,8 @@ impl<'a> Checked<'a> {
             let to = finder.find_as(&system.port(to)?, Causality::Input)?;
             let (given, wanted) = (symbol(from.variable), symbol(to.variable));
             if given != wanted {
-                return Err(finder.failure(format!("the connection `{text}` leads from {given:?} to {wanted:?}"))
+                return Err(finder
+                    .failure(format!("the connection `{text}` leads from {given:?} to {wanted:?}"))
                     .help("connect variables of the same unit"));
             }
             if connections.iter().any(|(_, other)| other.is(to)) {
@@ -55,7 +56,9 @@ impl<'a> Checked<'a> {
         for setting in system.settings()? {
             let end = finder.find(&setting.port)?;
             if connections.iter().any(|(_, to)| to.is(end)) {
-                return Err(finder.failure(format!("`{}` is connected and has a value as well", finder.name(end))));
+                return Err(
+                    finder.failure(format!("`{}` is connected and has a value as well", finder.name(end)))
+                );
             }
             if settings.iter().any(|(other, _)| other.is(end)) {
                 return Err(finder.failure(format!("`{}` has two values", finder.name(end))));
@@ -123,15 +126,20 @@ impl<'a> Finder<'a, '_> {
         let word = if causality == Causality::Input { "input" } else { "output" };
         let failure = self.failure(format!("`{}` is no {word}", self.name(end)));
         let all = self.interfaces[end.component].variables.iter();
-        let names = all.filter(|variable| variable.causality == causality).map(|variable| variable.name.as_str());
+        let names =
+            all.filter(|variable| variable.causality == causality).map(|variable| variable.name.as_str());
         Err(similar(&port.variable, names).into_iter().fold(failure, Failure::help))
     }
 
     fn every_input_is_driven(&self, connections: &[(End, End)], settings: &[(End, Value)]) -> Result<()> {
         for (component, interface) in self.interfaces.iter().enumerate() {
-            for variable in interface.variables.iter().filter(|variable| variable.causality == Causality::Input) {
+            for variable in
+                interface.variables.iter().filter(|variable| variable.causality == Causality::Input)
+            {
                 let end = End { component, variable };
-                if !connections.iter().any(|(_, to)| to.is(end)) && !settings.iter().any(|(set, _)| set.is(end)) {
+                if !connections.iter().any(|(_, to)| to.is(end))
+                    && !settings.iter().any(|(set, _)| set.is(end))
+                {
                     let name = self.name(end);
                     let unit = symbol(variable);
                     return Err(self.failure(format!("nothing drives the input `{name}`")).help(format!(
@@ -146,7 +154,8 @@ impl<'a> Finder<'a, '_> {
     /// The value in the type of its variable.
     fn value(&self, end: End, setting: &Setting) -> Result<Value> {
         let name = self.name(end);
-        let settable = end.variable.causality == Causality::Input || end.variable.initial == Some(Initial::Exact);
+        let settable =
+            end.variable.causality == Causality::Input || end.variable.initial == Some(Initial::Exact);
         if !settable {
             return Err(self.failure(format!("`{name}` is calculated and cannot be given a value")));
         }
@@ -165,15 +174,29 @@ impl<'a> Finder<'a, '_> {
                     Some(given) if given == unit.symbol => {}
                     None if matches!(unit.symbol, "" | "1") => {}
                     Some(given) => {
-                        return Err(self.failure(format!("`{name}` is given in {given:?} but declared in {:?}", unit.symbol))
+                        return Err(self
+                            .failure(format!(
+                                "`{name}` is given in {given:?} but declared in {:?}",
+                                unit.symbol
+                            ))
                             .help("convert the value"));
                     }
                     None => return Err(wrong(&format!("given with its unit, {:?}", unit.symbol))),
                 }
-                if !value.is_finite() || min.is_some_and(|min| value < min) || max.is_some_and(|max| value > max) {
-                    let bound = |bound: &Option<f64>, word| bound.map(|bound| format!(" {word} {bound}")).unwrap_or_default();
-                    return Err(self.failure(format!("`{name}` = {value} {} is out of bounds", unit.symbol))
-                        .help(format!("it must be finite{}{}", bound(min, "and at least"), bound(max, "and at most"))));
+                if !value.is_finite()
+                    || min.is_some_and(|min| value < min)
+                    || max.is_some_and(|max| value > max)
+                {
+                    let bound = |bound: &Option<f64>, word| {
+                        bound.map(|bound| format!(" {word} {bound}")).unwrap_or_default()
+                    };
+                    return Err(self
+                        .failure(format!("`{name}` = {value} {} is out of bounds", unit.symbol))
+                        .help(format!(
+                            "it must be finite{}{}",
+                            bound(min, "and at least"),
+                            bound(max, "and at most")
+                        )));
                 }
                 Ok(Value::Real(value))
             }

@@ -7,9 +7,9 @@
 
 use strut_model::{Value, unit::Unit};
 
+use super::System;
 use super::check::{Checked, End, symbol};
 use super::xml::Element;
-use super::System;
 use crate::archive::Archive;
 use crate::fmu::{Fmu, Packed};
 
@@ -55,7 +55,11 @@ fn structure(system: &System, checked: &Checked, components: &[(&Fmu, &Packed)])
             .with("source", format!("resources/{}.fmu", components[index].0.name))
             .with("implementation", "CoSimulation")
             .list("ssd:Connectors", connectors(checked, index))
-            .of([Element::new("ssd:ElementGeometry").with("x1", left).with("y1", 0).with("x2", left + 20).with("y2", 20)])
+            .of([Element::new("ssd:ElementGeometry")
+                .with("x1", left)
+                .with("y1", 0)
+                .with("x2", left + 20)
+                .with("y2", 20)])
             .list("ssd:ParameterBindings", bindings)
     });
     let name = |end: &End| system.components.get_index(end.component).map_or("", |(name, _)| name.as_str());
@@ -68,16 +72,18 @@ fn structure(system: &System, checked: &Checked, components: &[(&Fmu, &Packed)])
     });
     let step = system.experiment.step;
     // OMSimulator takes a system for co-simulation, and its step, from this annotation.
-    let master = Element::new("ssc:Annotation").with("type", "org.openmodelica").of([Element::new("oms:Annotations").of([
-        Element::new("oms:SimulationInformation").of([Element::new("oms:FixedStepMaster")
-            .with("description", "oms-ma")
-            .with("stepSize", number(step))
-            .with("absoluteTolerance", "1e-6")
-            .with("relativeTolerance", "1e-6")]),
-    ])]);
+    let master =
+        Element::new("ssc:Annotation").with("type", "org.openmodelica").of([Element::new("oms:Annotations")
+            .of([Element::new("oms:SimulationInformation").of([Element::new("oms:FixedStepMaster")
+                .with("description", "oms-ma")
+                .with("stepSize", number(step))
+                .with("absoluteTolerance", "1e-6")
+                .with("relativeTolerance", "1e-6")])])]);
     // And libcosim its step from this one.
-    let algorithm = Element::new("ssc:Annotation").with("type", "com.opensimulationplatform").of([Element::new("osp:Algorithm")
-        .of([Element::new("osp:FixedStepAlgorithm").with("baseStepSize", number(step))])]);
+    let algorithm = Element::new("ssc:Annotation")
+        .with("type", "com.opensimulationplatform")
+        .of([Element::new("osp:Algorithm")
+            .of([Element::new("osp:FixedStepAlgorithm").with("baseStepSize", number(step))])]);
     Element::new("ssd:SystemStructureDescription")
         .with("xmlns:ssc", "http://ssp-standard.org/SSP1/SystemStructureCommon")
         .with("xmlns:ssd", "http://ssp-standard.org/SSP1/SystemStructureDescription")
@@ -104,14 +110,20 @@ fn structure(system: &System, checked: &Checked, components: &[(&Fmu, &Packed)])
 /// The connectors of a component: those that are connected or looked at, each once.
 fn connectors(checked: &Checked, component: usize) -> Vec<Element> {
     let outputs = checked.connections.iter().map(|(from, _)| from).chain(&checked.outputs);
-    let ends = checked.connections.iter().map(|(_, to)| ("input", to)).chain(outputs.map(|end| ("output", end)));
+    let ends =
+        checked.connections.iter().map(|(_, to)| ("input", to)).chain(outputs.map(|end| ("output", end)));
     let mut seen: Vec<&str> = Vec::new();
     let mut connectors = Vec::new();
     for (kind, end) in ends.filter(|(_, end)| end.component == component) {
         let name = end.variable.name.as_str();
         if !seen.contains(&name) {
             seen.push(name);
-            connectors.push(Element::new("ssd:Connector").with("name", name).with("kind", kind).of([real("ssc:Real", end)]));
+            connectors.push(
+                Element::new("ssd:Connector")
+                    .with("name", name)
+                    .with("kind", kind)
+                    .of([real("ssc:Real", end)]),
+            );
         }
     }
     connectors
@@ -143,7 +155,10 @@ fn elements_of(mut units: Vec<Unit>) -> Vec<Element> {
     units
         .into_iter()
         .map(|unit| {
-            let base = unit.base.exponents().fold(Element::new("ssc:BaseUnit"), |base, (name, exponent)| base.with(name, exponent));
+            let base = unit
+                .base
+                .exponents()
+                .fold(Element::new("ssc:BaseUnit"), |base, (name, exponent)| base.with(name, exponent));
             Element::new("ssc:Unit").with("name", unit.symbol).of([base])
         })
         .collect()

@@ -24,10 +24,15 @@ step = 1e-3
 "#;
 
 fn fmu(name: &str) -> Fmu {
-    let sets = strut_physics::PARAMETER_SETS.iter().map(|(_, text)| (ParameterSet::parse(text).unwrap(), *text));
+    let sets =
+        strut_physics::PARAMETER_SETS.iter().map(|(_, text)| (ParameterSet::parse(text).unwrap(), *text));
     let (parsed, text) = sets.into_iter().find(|(set, _)| set.fmu == name).unwrap();
     let entry = *strut_physics::CATALOGUE.iter().find(|entry| entry.about.name == parsed.model).unwrap();
-    Fmu { name: name.into(), entry, set: Some(crate::fmu::Set { parsed, text: text.into(), folder: "".into() }) }
+    Fmu {
+        name: name.into(),
+        entry,
+        set: Some(crate::fmu::Set { parsed, text: text.into(), folder: "".into() }),
+    }
 }
 
 fn fmus() -> [Fmu; 2] {
@@ -57,7 +62,11 @@ fn mistakes_are_named() {
         ("step = 1e-3", "step = 0.0", "cannot stop at 10 s in steps of 0 s"),
         ("road.velocity -> rig", "road.velocity > rig", "has no arrow"),
         ("road.velocity ->", "velocity ->", "names no variable of a component"),
-        ("road.velocity ->", "raod.velocity ->", "no component `raod` in the system corner\nhelp: did you mean `road`?"),
+        (
+            "road.velocity ->",
+            "raod.velocity ->",
+            "no component `raod` in the system corner\nhelp: did you mean `road`?",
+        ),
         ("road.velocity ->", "road.velcity ->", "component `road` (QuanserRoad) has no variable `velcity`"),
         ("road.velocity ->", "rig.actuator.force ->", "`rig.actuator.force` is no output"),
         ("-> rig.road.velocity", "-> rig.body.position", "`rig.body.position` is no input"),
@@ -97,9 +106,15 @@ fn packed() -> (Vec<String>, String, String) {
 #[test]
 fn components_keep_the_order_of_the_file() {
     let (names, ssd, _) = packed();
-    assert_eq!(names, [
-        "SystemStructure.ssd", "resources/QuanserRoad.fmu", "resources/QuanserQuarterCar.fmu", "resources/rig.ssv",
-    ]);
+    assert_eq!(
+        names,
+        [
+            "SystemStructure.ssd",
+            "resources/QuanserRoad.fmu",
+            "resources/QuanserQuarterCar.fmu",
+            "resources/rig.ssv",
+        ]
+    );
     let document = roxmltree::Document::parse(&ssd).unwrap();
     let attributes = |tag: &str, attribute: &str| -> Vec<String> {
         let nodes = document.descendants().filter(|node| node.tag_name().name() == tag);
@@ -108,7 +123,10 @@ fn components_keep_the_order_of_the_file() {
     assert_eq!(attributes("Component", "name"), ["road", "rig"]);
     assert_eq!(attributes("Connection", "endConnector"), ["road.position", "road.velocity"]);
     // Each connector once, also if it is connected and looked at.
-    assert_eq!(attributes("Connector", "name"), ["position", "velocity", "road.position", "road.velocity", "body.position"]);
+    assert_eq!(
+        attributes("Connector", "name"),
+        ["position", "velocity", "road.position", "road.velocity", "body.position"]
+    );
     assert_eq!(attributes("Unit", "name"), ["m", "m/s"]);
     assert_eq!(attributes("System", "description"), ["A rig & its road"]);
     assert_eq!(attributes("FixedStepMaster", "stepSize"), ["0.001"]);
@@ -126,10 +144,13 @@ fn values_are_written_in_their_types() {
             (node.attribute("name").unwrap(), value.tag_name().name(), value.attribute("value").unwrap())
         })
         .collect();
-    assert_eq!(values, [
-        ("actuator.force", "Real", "0.0"),
-        ("tire.lift_off", "Boolean", "true"),
-        ("solver.method", "Integer", "2"),
-        ("sprung_mass", "Real", "2.5"),
-    ]);
+    assert_eq!(
+        values,
+        [
+            ("actuator.force", "Real", "0.0"),
+            ("tire.lift_off", "Boolean", "true"),
+            ("solver.method", "Integer", "2"),
+            ("sprung_mass", "Real", "2.5"),
+        ]
+    );
 }

@@ -44,7 +44,10 @@ impl Element {
         let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
         let declaration = Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None));
         // Memory is written without errors.
-        writer.write_event(declaration).and_then(|()| self.write(&mut writer)).expect("a vector takes everything");
+        writer
+            .write_event(declaration)
+            .and_then(|()| self.write(&mut writer))
+            .expect("a vector takes everything");
         let mut document = writer.into_inner();
         document.push(b'\n');
         document

@@ -4,9 +4,9 @@ use strut_model::{About, Model, NoSettings, Now, Real, Variables};
 /// Parameters
 #[derive(Variables, Clone, Copy)]
 pub struct Parameters<R> {
-    /// Time constant of the throttle
-    #[var(unit = S, start = 0.5, min = 1e-6)]
-    time_constant: R,
+    /// Rate at which the throttle lets the pressure even out
+    #[var(unit = PER_S, start = 2.0, min = 0.0)]
+    rate: R,
 }
 
 /// State, which is the output as well
@@ -17,7 +17,7 @@ pub struct State<R> {
     force: R,
 }
 
-/// The model: T dF/dt = −F
+/// The model: dF/dt = −r F
 pub struct AirSpring;
 
 impl Model for AirSpring {
@@ -30,7 +30,7 @@ impl Model for AirSpring {
     }
 
     fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, strut_model::Nothing) {
-        (State { force: -now.state.force / now.parameters.time_constant }, strut_model::Nothing)
+        (State { force: -now.parameters.rate * now.state.force }, strut_model::Nothing)
     }
 }
 

@@ -9,11 +9,7 @@ use strut_integrators::{Array, Integrator, Method, Settings, System};
 
 /// Calls per run, and runs; just enough to run through if this is not a benchmark but a test.
 fn effort() -> (u32, u32) {
-    if std::env::args().any(|argument| argument == "--bench") {
-        (200_000, 7)
-    } else {
-        (1000, 1)
-    }
+    if std::env::args().any(|argument| argument == "--bench") { (200_000, 7) } else { (1000, 1) }
 }
 
 const STEP: f64 = 1e-3;
@@ -55,12 +51,7 @@ impl System<[f64; 4]> for QuarterCar {
             + Self::FRICTION * (Self::SLOPE * speed).tanh();
         let mount = Self::FRICTION * (Self::SLOPE * body_speed).tanh();
         let tyre = Self::TYRE * (wheel - road);
-        [
-            wheel_speed,
-            body_speed,
-            (strut - tyre) / Self::WHEEL,
-            -(strut + mount) / Self::BODY,
-        ]
+        [wheel_speed, body_speed, (strut - tyre) / Self::WHEEL, -(strut + mount) / Self::BODY]
     }
 
     fn jacobian(&mut self, t: f64, x: &[f64; 4]) -> (<[f64; 4] as Array>::Square, [f64; 4]) {
@@ -84,21 +75,13 @@ impl System<[f64; 4]> for QuarterCar {
                 jacobian[(row, column)] = *value;
             }
         }
-        (
-            jacobian,
-            [0.0, 0.0, Self::TYRE / w * 0.1 * (10.0 * t).cos(), 0.0],
-        )
+        (jacobian, [0.0, 0.0, Self::TYRE / w * 0.1 * (10.0 * t).cos(), 0.0])
     }
 }
 
 /// The classical method, four evaluations a step.
 #[inline]
-fn runge_kutta_4<const N: usize>(
-    system: &mut impl System<[f64; N]>,
-    t: f64,
-    h: f64,
-    x: &mut [f64; N],
-) {
+fn runge_kutta_4<const N: usize>(system: &mut impl System<[f64; N]>, t: f64, h: f64, x: &mut [f64; N]) {
     let along = |x: &[f64; N], h: f64, k: &[f64; N]| std::array::from_fn(|i| x[i] + h * k[i]);
     let k1 = system.rates(t, x);
     let k2 = system.rates(t + 0.5 * h, &along(x, 0.5 * h, &k1));
@@ -139,9 +122,7 @@ where
             if t == 0.0 {
                 integrator.reset();
             }
-            integrator
-                .advance(&mut system, t, t + STEP, x)
-                .expect("a harmless system");
+            integrator.advance(&mut system, t, t + STEP, x).expect("a harmless system");
         });
         let work = integrator.work();
         let per_call = |count: u64| count as f64 / f64::from(effort().0);

@@ -96,10 +96,7 @@ mod tests {
     #[test]
     fn inverse_times_matrix_is_identity() {
         let mut m = <[f64; 3] as Array>::Square::zeros();
-        for (i, v) in [4.0, 1.0, 0.5, -2.0, 3.0, 0.1, 0.0, 1.0, 2.0]
-            .into_iter()
-            .enumerate()
-        {
+        for (i, v) in [4.0, 1.0, 0.5, -2.0, 3.0, 0.1, 0.0, 1.0, 2.0].into_iter().enumerate() {
             *m.at_mut(i / 3, i % 3) = v;
         }
         let x = [1.0, -2.0, 3.0];

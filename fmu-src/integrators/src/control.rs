@@ -106,30 +106,21 @@ impl<A: Array> Settings<A> {
         let (x, f) = (x.as_slice(), rates.as_slice());
         let norm = |value: &dyn Fn(usize) -> f64| {
             (0..A::LEN).fold(0.0_f64, |largest, i| {
-                let scale =
-                    self.absolute_tolerance.as_slice()[i] + self.relative_tolerance * x[i].abs();
+                let scale = self.absolute_tolerance.as_slice()[i] + self.relative_tolerance * x[i].abs();
                 largest.max((value(i) / scale).abs())
             })
         };
         let longest = span.min(self.max_step);
         let size = norm(&|i| x[i]);
         let slope = norm(&|i| f[i]);
-        let small = if size < 1e-5 || slope < 1e-5 {
-            1e-3 * span
-        } else {
-            0.01 * size / slope
-        };
+        let small = if size < 1e-5 || slope < 1e-5 { 1e-3 * span } else { 0.01 * size / slope };
         let small = small.min(longest);
         let euler = A::from_fn(|i| x[i] + small * f[i]);
         let g = system.rates(t + small, &euler);
         let g = g.as_slice();
         let curvature = norm(&|i| g[i] - f[i]) / small;
         let steepest = slope.max(curvature);
-        let step = if steepest <= 1e-15 {
-            small
-        } else {
-            pow(0.01 / steepest, 0.2).min(100.0 * small)
-        };
+        let step = if steepest <= 1e-15 { small } else { pow(0.01 / steepest, 0.2).min(100.0 * small) };
         // Not finite if the Euler step left the domain of the rates; `small` is what is left.
         if step > 0.0 { step.min(longest) } else { small }
     }
@@ -144,11 +135,7 @@ fn pow(base: f64, exponent: f64) -> f64 {
 pub(crate) fn accepted_factor<A: Array, M: Stepper<A>>(squared: f64, previous: f64) -> f64 {
     // An error of zero gives infinity, and the longest step.
     let plain = pow(squared, -0.5 * (0.2 - 0.75 * M::BETA));
-    let damped = if M::BETA == 0.0 {
-        plain
-    } else {
-        plain * pow(previous, M::BETA)
-    };
+    let damped = if M::BETA == 0.0 { plain } else { plain * pow(previous, M::BETA) };
     (SAFETY * damped).clamp(SHORTEN, LENGTHEN)
 }
 

@@ -20,28 +20,11 @@ const C5: f64 = 8.0 / 9.0;
 const A2: [f64; 1] = [1.0 / 5.0];
 const A3: [f64; 2] = [3.0 / 40.0, 9.0 / 40.0];
 const A4: [f64; 3] = [44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0];
-const A5: [f64; 4] = [
-    19_372.0 / 6561.0,
-    -25_360.0 / 2187.0,
-    64_448.0 / 6561.0,
-    -212.0 / 729.0,
-];
-const A6: [f64; 5] = [
-    9017.0 / 3168.0,
-    -355.0 / 33.0,
-    46_732.0 / 5247.0,
-    49.0 / 176.0,
-    -5103.0 / 18_656.0,
-];
+const A5: [f64; 4] = [19_372.0 / 6561.0, -25_360.0 / 2187.0, 64_448.0 / 6561.0, -212.0 / 729.0];
+const A6: [f64; 5] = [9017.0 / 3168.0, -355.0 / 33.0, 46_732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18_656.0];
 
 /// Weights of stages 1, 3, 4, 5, 6; the second stage has none.
-const B: [f64; 5] = [
-    35.0 / 384.0,
-    500.0 / 1113.0,
-    125.0 / 192.0,
-    -2187.0 / 6784.0,
-    11.0 / 84.0,
-];
+const B: [f64; 5] = [35.0 / 384.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0];
 
 /// Weights of stages 1, 3, 4, 5, 6, 7 in the difference to the embedded method of order 4.
 const E: [f64; 6] = [
@@ -148,11 +131,7 @@ impl<A: Array> Stepper<A> for DormandPrince {
         // Not `f64::max`, which would drop a NaN.
         let larger = |e: f64, g: f64| if e.abs() < g.abs() { g } else { e };
         let error = A::from_fn(|i| larger(error.as_slice()[i], guard.as_slice()[i]));
-        Some(Trial {
-            x: y,
-            rates: k7,
-            error,
-        })
+        Some(Trial { x: y, rates: k7, error })
     }
 }
 
@@ -163,11 +142,7 @@ mod tests {
     /// Sum of weight times c^power, over the stages that have weights.
     fn moment(weights: &[f64], power: i32) -> f64 {
         let times = [0.0_f64, C3, C4, C5, 1.0, 1.0];
-        weights
-            .iter()
-            .zip(times)
-            .map(|(weight, c)| weight * c.powi(power))
-            .sum()
+        weights.iter().zip(times).map(|(weight, c)| weight * c.powi(power)).sum()
     }
 
     #[test]
@@ -197,11 +172,7 @@ mod tests {
     fn no_kink_is_underestimated_by_more_than_eight() {
         let ramp = |weights: &[f64], kink: f64| -> f64 {
             let times = [0.0_f64, C3, C4, C5, 1.0, 1.0];
-            weights
-                .iter()
-                .zip(times)
-                .map(|(weight, c)| weight * (c - kink).max(0.0))
-                .sum()
+            weights.iter().zip(times).map(|(weight, c)| weight * (c - kink).max(0.0)).sum()
         };
         for i in 1..200 {
             let kink = f64::from(i) / 200.0;

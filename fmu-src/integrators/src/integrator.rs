@@ -67,12 +67,7 @@ impl<A: Array> Integrator<A> {
     /// The first setting that cannot be used.
     pub fn new(method: Method, settings: Settings<A>) -> Result<Self, InvalidSettings> {
         settings.check()?;
-        Ok(Integrator {
-            method,
-            settings,
-            memory: Memory::new(),
-            work: Work::default(),
-        })
+        Ok(Integrator { method, settings, memory: Memory::new(), work: Work::default() })
     }
 
     /// How steps are made.
@@ -183,10 +178,7 @@ impl<A: Array> Integrator<A> {
         }
         if let Err(row) = method.begin(system, t0, x) {
             self.memory.valid = false;
-            return Err(IntegrationError::NotFinite {
-                t: t0,
-                component: row,
-            });
+            return Err(IntegrationError::NotFinite { t: t0, component: row });
         }
         self.work.jacobians += M::JACOBIANS;
 
@@ -281,19 +273,11 @@ impl<A: Array> Integrator<A> {
             {
                 self.work.accepted += 1;
                 let factor = accepted_factor::<A, M>(*squared, self.memory.error);
-                let suggested = h * if just_rejected {
-                    factor.min(1.0)
-                } else {
-                    factor
-                };
+                let suggested = h * if just_rejected { factor.min(1.0) } else { factor };
                 // A step cut short by the end or by the caller's limit says nothing against the
                 // longer one that was planned, unless its own error is near the tolerance.
                 let cut = h < self.memory.step && factor >= 1.0;
-                self.memory.step = if cut {
-                    suggested.max(self.memory.step)
-                } else {
-                    suggested
-                };
+                self.memory.step = if cut { suggested.max(self.memory.step) } else { suggested };
                 self.memory.error = squared.sqrt().max(1e-4);
                 self.memory.rates = trial.rates;
                 self.memory.time = end;

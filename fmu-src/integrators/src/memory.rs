@@ -19,24 +19,13 @@ pub(crate) struct Memory<A> {
 
 impl<A: Array> Memory<A> {
     pub fn new() -> Self {
-        Memory {
-            step: 0.0,
-            error: 1e-4,
-            time: 0.0,
-            rates: A::zeros(),
-            valid: false,
-        }
+        Memory { step: 0.0, error: 1e-4, time: 0.0, rates: A::zeros(), valid: false }
     }
 
     pub fn save(&self) -> impl Iterator<Item = u64> + '_ {
-        [
-            u64::from(self.valid),
-            self.step.to_bits(),
-            self.error.to_bits(),
-            self.time.to_bits(),
-        ]
-        .into_iter()
-        .chain(self.rates.as_slice().iter().map(|rate| rate.to_bits()))
+        [u64::from(self.valid), self.step.to_bits(), self.error.to_bits(), self.time.to_bits()]
+            .into_iter()
+            .chain(self.rates.as_slice().iter().map(|rate| rate.to_bits()))
     }
 
     /// None if words are missing, or are not what `save` gives.
@@ -54,12 +43,6 @@ impl<A: Array> Memory<A> {
         for rate in rates.as_mut_slice() {
             *rate = number()?;
         }
-        Some(Memory {
-            step,
-            error,
-            time,
-            rates,
-            valid,
-        })
+        Some(Memory { step, error, time, rates, valid })
     }
 }

@@ -45,24 +45,8 @@ const BY_TIME: [f64; STAGES] = [
 const A: [[f64; STAGES - 1]; STAGES] = [
     [0.0; 7],
     [3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-    [
-        2.849_394_379_747_939,
-        0.458_422_422_044_639_23,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-    ],
-    [
-        -6.954_028_509_809_101,
-        2.489_845_061_869_568,
-        -10.358_996_098_473_584,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-    ],
+    [2.849_394_379_747_939, 0.458_422_422_044_639_23, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [-6.954_028_509_809_101, 2.489_845_061_869_568, -10.358_996_098_473_584, 0.0, 0.0, 0.0, 0.0],
     [
         2.802_998_627_562_896_4,
         0.507_246_473_622_820_6,
@@ -87,24 +71,8 @@ const A65: f64 = 0.030_198_172_008_377_946;
 const C: [[f64; STAGES - 1]; STAGES] = [
     [0.0; 7],
     [-14.155_112_264_123_755, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-    [
-        -17.972_960_358_859_52,
-        -2.859_693_295_451_294,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-    ],
-    [
-        147.121_502_757_117_16,
-        -1.412_214_027_182_13,
-        71.689_402_513_023_58,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-    ],
+    [-17.972_960_358_859_52, -2.859_693_295_451_294, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [147.121_502_757_117_16, -1.412_214_027_182_13, 71.689_402_513_023_58, 0.0, 0.0, 0.0, 0.0],
     [
         165.435_170_248_716_76,
         -0.459_282_345_649_112_6,
@@ -151,10 +119,7 @@ pub(crate) struct Rodas5P<X: Array> {
 
 impl<X: Array> Rodas5P<X> {
     pub fn new() -> Self {
-        Rodas5P {
-            jacobian: X::Square::zeros(),
-            by_time: X::zeros(),
-        }
+        Rodas5P { jacobian: X::Square::zeros(), by_time: X::zeros() }
     }
 }
 
@@ -213,11 +178,7 @@ impl<X: Array> Stepper<X> for Rodas5P<X> {
                     }
                     x[n] + change
                 });
-                let time = if TIMES[i] == 1.0 {
-                    end
-                } else {
-                    t + TIMES[i] * h
-                };
+                let time = if TIMES[i] == 1.0 { end } else { t + TIMES[i] * h };
                 f = system.rates(time, &state);
             }
             let right = X::from_fn(|n| {
@@ -252,9 +213,7 @@ mod tests {
     /// coefficients then are those of an explicit Runge-Kutta method, which must fit together.
     fn increments() -> Weights {
         let gamma = Weights::from_diagonal_element(1.0 / GAMMA);
-        (gamma - matrix(&C))
-            .try_inverse()
-            .expect("a triangular matrix")
+        (gamma - matrix(&C)).try_inverse().expect("a triangular matrix")
     }
 
     #[test]

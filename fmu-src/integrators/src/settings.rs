@@ -37,9 +37,7 @@ impl<A: Array> Settings<A> {
         let nominal = nominal.as_slice();
         Settings {
             relative_tolerance,
-            absolute_tolerance: A::from_fn(|i| {
-                ABSOLUTE_FRACTION * relative_tolerance * nominal[i].abs()
-            }),
+            absolute_tolerance: A::from_fn(|i| ABSOLUTE_FRACTION * relative_tolerance * nominal[i].abs()),
             max_step: f64::INFINITY,
             max_steps: 100_000,
         }

@@ -11,14 +11,9 @@ fn reference<const N: usize>(name: &str) -> (f64, [f64; N]) {
         .lines()
         .find_map(|line| line.strip_prefix(name)?.strip_prefix(','))
         .expect("a reference of that name");
-    let mut numbers = line
-        .split(',')
-        .map(|number| number.parse().expect("a number"));
+    let mut numbers = line.split(',').map(|number| number.parse().expect("a number"));
     let end = numbers.next().expect("an end time");
-    (
-        end,
-        std::array::from_fn(|_| numbers.next().expect("N states")),
-    )
+    (end, std::array::from_fn(|_| numbers.next().expect("N states")))
 }
 
 /// The error after steps of a given, fixed length: the tolerance is beyond reach.
@@ -35,15 +30,11 @@ fn fixed_step_error<const N: usize>(
     let mut integrator = Integrator::new(method, settings).expect("usable settings");
     let mut x = start;
     // One unmeasured call lets the step grow to its limit.
-    integrator
-        .advance(system, 0.0, end, &mut x)
-        .expect("a harmless system");
+    integrator.advance(system, 0.0, end, &mut x).expect("a harmless system");
     x = start;
     integrator.invalidate();
     let before = integrator.work().accepted;
-    integrator
-        .advance(system, 0.0, end, &mut x)
-        .expect("a harmless system");
+    integrator.advance(system, 0.0, end, &mut x).expect("a harmless system");
     assert_eq!(integrator.work().accepted - before, u64::from(steps));
     difference(&x, &exact, 1.0)
 }
@@ -95,13 +86,9 @@ fn rosenbrock_is_l_stable() {
     settings.max_step = 1.0;
     let mut x = [1.0];
     let mut integrator = Integrator::new(Method::Rosenbrock, settings).expect("usable settings");
-    integrator
-        .advance(&mut Linear([[-1e-9]]), 0.0, 1.0, &mut x)
-        .expect("hardly moves");
+    integrator.advance(&mut Linear([[-1e-9]]), 0.0, 1.0, &mut x).expect("hardly moves");
     integrator.invalidate();
-    integrator
-        .advance(&mut Linear([[-1e9]]), 1.0, 2.0, &mut x)
-        .expect("one step");
+    integrator.advance(&mut Linear([[-1e9]]), 1.0, 2.0, &mut x).expect("one step");
     assert!(x[0].abs() < 1e-7, "{x:?}");
 }
 
@@ -111,22 +98,13 @@ fn an_oscillator_keeps_its_energy_to_the_tolerance() {
         for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
             for calls in [1, 100_000] {
                 let mut x = [1.0, 0.0];
-                run(
-                    &mut integrator(method, tolerance, 1.0),
-                    &mut oscillator(),
-                    100.0,
-                    calls,
-                    &mut x,
-                );
+                run(&mut integrator(method, tolerance, 1.0), &mut oscillator(), 100.0, calls, &mut x);
                 let omega = std::f64::consts::TAU;
                 let energy = x[0] * x[0] + (x[1] / omega).powi(2);
                 let lost = (energy - 1.0).abs();
                 println!("{method:?} {tolerance} {calls}: {lost:.2e}, {x:?}");
                 // A few thousand steps.
-                assert!(
-                    lost < 300.0 * tolerance,
-                    "{method:?} {tolerance} {calls}: {lost}"
-                );
+                assert!(lost < 300.0 * tolerance, "{method:?} {tolerance} {calls}: {lost}");
                 assert!((x[0] - 1.0).abs() < 300.0 * tolerance && x[1].abs() < 3000.0 * tolerance);
             }
         }
@@ -144,23 +122,13 @@ fn check_reference<const N: usize>(
     let (end, exact) = reference::<N>(name);
     for &method in methods {
         for tolerance in [1e-5, 1e-8, 1e-10] {
-            let settings = Settings {
-                max_steps: 1_000_000,
-                ..Settings::new(tolerance, &nominal)
-            };
+            let settings = Settings { max_steps: 1_000_000, ..Settings::new(tolerance, &nominal) };
             let mut integrator = Integrator::new(method, settings).expect("usable settings");
             let mut x = start;
             run(&mut integrator, system, end, 1, &mut x);
             let error = difference(&x, &exact, 0.0);
-            println!(
-                "{name} {method:?} {tolerance}: {:.1} {:?}",
-                error / tolerance,
-                integrator.work()
-            );
-            assert!(
-                error < allowed * tolerance,
-                "{name} {method:?} {tolerance}: {error}"
-            );
+            println!("{name} {method:?} {tolerance}: {:.1} {:?}", error / tolerance, integrator.work());
+            assert!(error < allowed * tolerance, "{name} {method:?} {tolerance}: {error}");
         }
     }
 }
@@ -168,37 +136,16 @@ fn check_reference<const N: usize>(
 #[test]
 fn van_der_pol_mild_and_stiff() {
     let (mild, stiff) = ("van der pol mu 1", "van der pol mu 1000");
-    check_reference(
-        &Method::ALL,
-        mild,
-        &mut VanDerPol(1.0),
-        [2.0, 0.0],
-        [1.0; 2],
-        200.0,
-    );
+    check_reference(&Method::ALL, mild, &mut VanDerPol(1.0), [2.0, 0.0], [1.0; 2], 200.0);
     let method = [Method::Rosenbrock];
-    check_reference(
-        &method,
-        stiff,
-        &mut VanDerPol(1e3),
-        [2.0, 0.0],
-        [1.0; 2],
-        2000.0,
-    );
+    check_reference(&method, stiff, &mut VanDerPol(1e3), [2.0, 0.0], [1.0; 2], 2000.0);
 }
 
 #[test]
 fn robertson() {
     let nominal = [1.0, 1e-5, 1.0];
     let method = [Method::Rosenbrock];
-    check_reference(
-        &method,
-        "robertson",
-        &mut Robertson,
-        [1.0, 0.0, 0.0],
-        nominal,
-        200.0,
-    );
+    check_reference(&method, "robertson", &mut Robertson, [1.0, 0.0, 0.0], nominal, 200.0);
 }
 
 #[test]
@@ -210,14 +157,7 @@ fn hires() {
 
 #[test]
 fn dry_friction() {
-    check_reference(
-        &Method::ALL,
-        "friction",
-        &mut Friction,
-        [0.0; 2],
-        [0.1; 2],
-        200.0,
-    );
+    check_reference(&Method::ALL, "friction", &mut Friction, [0.0; 2], [0.1; 2], 200.0);
 }
 
 #[test]
@@ -225,13 +165,7 @@ fn a_stiff_forced_solution_is_followed() {
     for stiffness in [1.0, 1e3, 1e6] {
         let mut x = [1.0];
         let mut system = Forced { stiffness };
-        run(
-            &mut integrator(Method::Rosenbrock, 1e-8, 1.0),
-            &mut system,
-            10.0,
-            1,
-            &mut x,
-        );
+        run(&mut integrator(Method::Rosenbrock, 1e-8, 1.0), &mut system, 10.0, 1, &mut x);
         assert!((x[0] - 10.0_f64.cos()).abs() < 1e-6, "{stiffness}: {x:?}");
     }
 }
@@ -241,10 +175,7 @@ fn a_stiff_forced_solution_is_followed() {
 #[test]
 fn lift_off_and_touch_down() {
     for damping in [0.0, 4.0] {
-        let bounce = |phase: u32| Bounce {
-            omega: 40.0 + 0.37 * f64::from(phase),
-            damping,
-        };
+        let bounce = |phase: u32| Bounce { omega: 40.0 + 0.37 * f64::from(phase), damping };
         for method in Method::ALL {
             for tolerance in [1e-5, 1e-7, 1e-9] {
                 for calls in [1, 2000] {
@@ -260,14 +191,8 @@ fn lift_off_and_touch_down() {
                         worst = worst.max(difference(&x, &exact, 0.1) / f64::from(changes));
                         work += integrator.work().rates;
                     }
-                    println!(
-                        "{damping} {method:?} {tolerance} {calls}: {:.1} {work}",
-                        worst / tolerance
-                    );
-                    assert!(
-                        worst < 100.0 * tolerance,
-                        "{damping} {method:?} {tolerance} {worst}"
-                    );
+                    println!("{damping} {method:?} {tolerance} {calls}: {:.1} {work}", worst / tolerance);
+                    assert!(worst < 100.0 * tolerance, "{damping} {method:?} {tolerance} {worst}");
                 }
             }
         }

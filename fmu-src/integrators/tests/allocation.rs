@@ -20,10 +20,6 @@ fn advance_allocates_nothing() {
             assert!(matches!(failed, Err(IntegrationError::NotFinite { .. })));
         });
         assert!(friction.work().accepted > 1000 && hires.work().accepted > 30);
-        assert_eq!(
-            (counted.count_total, counted.bytes_total),
-            (0, 0),
-            "{method:?}"
-        );
+        assert_eq!((counted.count_total, counted.bytes_total), (0, 0), "{method:?}");
     }
 }

@@ -23,16 +23,11 @@ fn the_last_evaluation_is_at_the_end() {
             let mut x = [0.0; 2];
             for i in 0..calls {
                 let time = |i: u32| f64::from(i) / f64::from(calls);
-                integrator
-                    .advance(&mut system, time(i), time(i + 1), &mut x)
-                    .expect("harmless");
+                integrator.advance(&mut system, time(i), time(i + 1), &mut x).expect("harmless");
                 assert_eq!(system.last, Some((time(i + 1), x)));
             }
             let work = integrator.work();
-            assert_eq!(
-                (work.rates, work.jacobians),
-                (system.rates, system.jacobians)
-            );
+            assert_eq!((work.rates, work.jacobians), (system.rates, system.jacobians));
             assert!(calls == 1000 || work.rejected > 0);
         }
     }
@@ -44,13 +39,8 @@ fn a_call_of_no_length_evaluates_once() {
         let mut system = Watched::new(Friction);
         let mut integrator = integrator(method, 1e-6, 1.0);
         let mut x = [0.1, 0.2];
-        integrator
-            .advance(&mut system, 3.0, 3.0, &mut x)
-            .expect("nothing to do");
-        assert_eq!(
-            (x, system.last, system.rates),
-            ([0.1, 0.2], Some((3.0, x)), 1)
-        );
+        integrator.advance(&mut system, 3.0, 3.0, &mut x).expect("nothing to do");
+        assert_eq!((x, system.last, system.rates), ([0.1, 0.2], Some((3.0, x)), 1));
     }
 }
 
@@ -63,18 +53,13 @@ fn the_last_derivative_opens_the_next_call() {
         run(&mut integrator, &mut system, 0.1, 100, &mut x);
         let mut cost = |integrator: &mut Integrator<[f64; 2]>, t0: f64| {
             let before = system.rates;
-            integrator
-                .advance(&mut system, t0, t0 + 1e-3, &mut x)
-                .expect("harmless");
+            integrator.advance(&mut system, t0, t0 + 1e-3, &mut x).expect("harmless");
             system.rates - before
         };
         let step = rates_per_step(method);
         assert_eq!(cost(&mut integrator, 0.1), step);
         // A caller who adds up in another way.
-        assert_eq!(
-            cost(&mut integrator, (0.1 + 1e-3) * (1.0 + f64::EPSILON)),
-            step
-        );
+        assert_eq!(cost(&mut integrator, (0.1 + 1e-3) * (1.0 + f64::EPSILON)), step);
         integrator.invalidate();
         assert_eq!(cost(&mut integrator, 0.102), step + 1);
         // A caller who jumps in time.
@@ -98,9 +83,7 @@ fn the_end_of_a_call_leaves_the_step_size_alone() {
         let mut x = [1.0];
         let mut steps = |length: f64| {
             let before = integrator.work().accepted;
-            integrator
-                .advance(&mut system, t, t + length, &mut x)
-                .expect("harmless");
+            integrator.advance(&mut system, t, t + length, &mut x).expect("harmless");
             t += length;
             integrator.work().accepted - before
         };
@@ -142,13 +125,8 @@ fn a_jump_after_idle_calls_is_caught() {
             let mut integrator = integrator(method, 1e-6, 1.0);
             let mut x = [0.0];
             run(&mut integrator, &mut system, 1.0, 1000, &mut x);
-            integrator
-                .advance(&mut system, 1.0, 1.01, &mut x)
-                .expect("a jump is no obstacle");
-            assert!(
-                (x[0] - (1.01 - jump)).abs() < 1e-6,
-                "{method:?} {place}: {x:?}"
-            );
+            integrator.advance(&mut system, 1.0, 1.01, &mut x).expect("a jump is no obstacle");
+            assert!((x[0] - (1.01 - jump)).abs() < 1e-6, "{method:?} {place}: {x:?}");
         }
     }
 }
@@ -158,54 +136,22 @@ fn a_jump_after_idle_calls_is_caught() {
 fn work_is_as_expected() {
     let short_calls = |method| {
         let mut integrator = integrator(method, 1e-6, 1.0);
-        run(
-            &mut integrator,
-            &mut oscillator(),
-            1.0,
-            1000,
-            &mut [1.0, 0.0],
-        );
+        run(&mut integrator, &mut oscillator(), 1.0, 1000, &mut [1.0, 0.0]);
         integrator.work()
     };
     let one_call = |method| {
         let mut integrator = integrator(method, 1e-6, 1.0);
-        run(
-            &mut integrator,
-            &mut VanDerPol(1.0),
-            20.0,
-            1,
-            &mut [2.0, 0.0],
-        );
+        run(&mut integrator, &mut VanDerPol(1.0), 20.0, 1, &mut [2.0, 0.0]);
         integrator.work()
     };
     // One step more than calls: the very first is cautious. Two rates more: it needs them.
-    let explicit = Work {
-        rates: 6 * 1001 + 2,
-        accepted: 1001,
-        ..Work::default()
-    };
+    let explicit = Work { rates: 6 * 1001 + 2, accepted: 1001, ..Work::default() };
     assert_eq!(short_calls(Method::Explicit), explicit);
-    let rosenbrock = Work {
-        rates: 8 * 1001 + 2,
-        accepted: 1001,
-        jacobians: 1001,
-        inversions: 1001,
-        ..Work::default()
-    };
+    let rosenbrock =
+        Work { rates: 8 * 1001 + 2, accepted: 1001, jacobians: 1001, inversions: 1001, ..Work::default() };
     assert_eq!(short_calls(Method::Rosenbrock), rosenbrock);
-    let explicit = Work {
-        rates: 2018,
-        accepted: 310,
-        rejected: 26,
-        ..Work::default()
-    };
+    let explicit = Work { rates: 2018, accepted: 310, rejected: 26, ..Work::default() };
     assert_eq!(one_call(Method::Explicit), explicit);
-    let rosenbrock = Work {
-        rates: 2738,
-        jacobians: 284,
-        accepted: 284,
-        rejected: 58,
-        inversions: 342,
-    };
+    let rosenbrock = Work { rates: 2738, jacobians: 284, accepted: 284, rejected: 58, inversions: 342 };
     assert_eq!(one_call(Method::Rosenbrock), rosenbrock);
 }

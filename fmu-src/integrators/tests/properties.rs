@@ -33,9 +33,8 @@ fn exponential(rows: &[[f64; 3]; 3], t: f64, x: [f64; 3]) -> [f64; 3] {
         let mut sum = x;
         let mut term = x;
         for k in 1..16 {
-            term = std::array::from_fn(|i| {
-                (0..3).map(|j| rows[i][j] * term[j]).sum::<f64>() * h / f64::from(k)
-            });
+            term =
+                std::array::from_fn(|i| (0..3).map(|j| rows[i][j] * term[j]).sum::<f64>() * h / f64::from(k));
             sum = std::array::from_fn(|i| sum[i] + term[i]);
         }
         sum

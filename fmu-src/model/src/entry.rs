@@ -32,7 +32,11 @@ impl Entry {
     ///
     /// # Errors
     /// If the parameter set does not fit the declarations or the model refuses it.
-    pub fn interface(&self, set: Option<&ParameterSet>, resources: Option<&Path>) -> Result<Interface, Error> {
+    pub fn interface(
+        &self,
+        set: Option<&ParameterSet>,
+        resources: Option<&Path>,
+    ) -> Result<Interface, Error> {
         (self.interface)(set, resources)
     }
 
@@ -40,7 +44,11 @@ impl Entry {
     ///
     /// # Errors
     /// If the model refuses the parameter set or the integration fails.
-    pub fn demonstrate(&self, set: Option<&ParameterSet>, resources: Option<&Path>) -> Result<Trajectory, Error> {
+    pub fn demonstrate(
+        &self,
+        set: Option<&ParameterSet>,
+        resources: Option<&Path>,
+    ) -> Result<Trajectory, Error> {
         (self.demonstrate)(set, resources)
     }
 }
@@ -50,8 +58,11 @@ fn demonstrate<M: Model>(set: Option<&ParameterSet>, resources: Option<&Path>) -
     let mut simulation = Simulation::<M>::new(set, resources)?;
     let experiment = M::ABOUT.experiment;
     let reference = |name: &str| interface.variable(name).map(|variable| variable.reference);
-    let stimuli: Vec<_> =
-        experiment.stimuli.iter().filter_map(|(name, stimulus)| Some((reference(name)?, *stimulus))).collect();
+    let stimuli: Vec<_> = experiment
+        .stimuli
+        .iter()
+        .filter_map(|(name, stimulus)| Some((reference(name)?, *stimulus)))
+        .collect();
     let (inputs, outputs): (Vec<_>, Vec<_>) = interface
         .variables
         .iter()
@@ -70,7 +81,10 @@ fn demonstrate<M: Model>(set: Option<&ParameterSet>, resources: Option<&Path>) -
     let mut values = vec![0.0; references.len()];
     let mut trajectory = Trajectory {
         time: Vec::new(),
-        signals: shown.into_iter().map(|(variable, unit)| (variable.name.clone(), unit, Vec::new())).collect(),
+        signals: shown
+            .into_iter()
+            .map(|(variable, unit)| (variable.name.clone(), unit, Vec::new()))
+            .collect(),
     };
     simulation.set_up(0.0, None)?;
     simulation.initialize()?;

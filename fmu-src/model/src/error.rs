@@ -6,7 +6,9 @@ use strut_integrators::IntegrationError;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
     /// A value reference that no variable of the type has.
-    #[error("value reference {reference} is no {kind} variable of {model}; see modelDescription.xml for the references")]
+    #[error(
+        "value reference {reference} is no {kind} variable of {model}; see modelDescription.xml for the references"
+    )]
     UnknownReference {
         /// Type asked for.
         kind: &'static str,

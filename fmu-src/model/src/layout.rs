@@ -5,7 +5,8 @@ use std::marker::PhantomData;
 use strut_integrators::Method;
 
 use crate::{
-    Bundle, Choice, Declaration, Declarations, Error, Model, SettingDeclaration, SettingKind, Settings, Value, Variables,
+    Bundle, Choice, Declaration, Declarations, Error, Model, SettingDeclaration, SettingKind, Settings,
+    Value, Variables,
 };
 
 /// How the integration is controlled; the user sees it as parameters.

@@ -30,7 +30,9 @@ pub use bundle::{Bundle, Declaration, Declarations, Nothing};
 pub use dependencies::Dependencies;
 pub use entry::{Entry, Trajectory};
 pub use error::Error;
-pub use interface::{Causality, Dependency, Initial, Interface, Structure, Variability, Variable, VariableKind};
+pub use interface::{
+    Causality, Dependency, Initial, Interface, Structure, Variability, Variable, VariableKind,
+};
 pub use lanes::Lanes;
 pub use log::LOG_CATEGORIES;
 pub use model::{About, Equation, Experiment, Kind, Method, Model, Now, Stimulus};

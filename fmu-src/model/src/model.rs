@@ -239,7 +239,13 @@ impl Stimulus {
     pub fn at(self, t: f64) -> f64 {
         use std::f64::consts::TAU;
         match self {
-            Self::Step { at, height } => if t >= at { height } else { 0.0 },
+            Self::Step { at, height } => {
+                if t >= at {
+                    height
+                } else {
+                    0.0
+                }
+            }
             Self::Sine { amplitude, frequency } => amplitude * (TAU * frequency * t).sin(),
             Self::Cosine { amplitude, frequency } => amplitude * (TAU * frequency * t).cos(),
         }

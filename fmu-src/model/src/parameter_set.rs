@@ -4,7 +4,10 @@ use std::collections::BTreeMap;
 
 use toml::{Table, Value as Toml};
 
-use crate::{Declaration, Error, Model, SettingKind, Value, layout::{Layout, Section, display, expected}};
+use crate::{
+    Declaration, Error, Model, SettingKind, Value,
+    layout::{Layout, Section, display, expected},
+};
 
 /// Start values for a model, from a TOML file.
 ///
@@ -90,7 +93,11 @@ fn collect(table: &Table, prefix: &str, into: &mut BTreeMap<String, Given>) -> R
                 into.insert(name.clone(), given(entry, &name)?);
             }
             Toml::Table(group) => collect(group, &name, into)?,
-            _ => return Err(format!("`{name}` is not of the form {{ value = ..., unit = \"...\", source = \"...\" }}")),
+            _ => {
+                return Err(format!(
+                    "`{name}` is not of the form {{ value = ..., unit = \"...\", source = \"...\" }}"
+                ));
+            }
         }
     }
     Ok(())
@@ -102,14 +109,20 @@ fn given(entry: &Table, name: &str) -> Result<Given, String> {
         match (key.as_str(), item) {
             ("value", Toml::Float(number)) => given.value = Value::Real(*number),
             ("value", Toml::Integer(number)) => {
-                given.value = Value::Integer(i32::try_from(*number).map_err(|_| format!("`{name}`: {number} is too large"))?);
+                given.value = Value::Integer(
+                    i32::try_from(*number).map_err(|_| format!("`{name}`: {number} is too large"))?,
+                );
             }
             ("value", Toml::Boolean(flag)) => given.value = Value::Boolean(*flag),
             ("value", Toml::String(text)) => given.value = Value::Text(text.clone()),
             ("unit", Toml::String(text)) => given.unit = Some(text.clone()),
             ("source", Toml::String(text)) => given.source.clone_from(text),
             ("assumed", Toml::Boolean(flag)) => given.assumed = *flag,
-            _ => return Err(format!("`{name}`: `{key}` is unknown or of a wrong type; a value has value, unit, source, assumed")),
+            _ => {
+                return Err(format!(
+                    "`{name}`: `{key}` is unknown or of a wrong type; a value has value, unit, source, assumed"
+                ));
+            }
         }
     }
     Ok(given)
@@ -136,13 +149,16 @@ impl Starts {
             declared.iter().map(|(reference, declaration)| (*reference, declaration.start)).collect();
         let setting_declarations = Layout::<M>::settings();
         for (name, given) in set.iter().flat_map(|set| &set.values) {
-            if let Some((reference, declaration)) = declared.iter().find(|(_, declaration)| declaration.name == *name) {
+            if let Some((reference, declaration)) =
+                declared.iter().find(|(_, declaration)| declaration.name == *name)
+            {
                 reals.insert(*reference, real(declaration, given)?);
             } else if let Some(index) = setting_declarations.iter().position(|setting| setting.name == name) {
                 settings[index] = setting(&setting_declarations[index], given)?;
             } else {
                 let names = declared.iter().map(|(_, declaration)| declaration.name.as_str());
-                let similar = similar(name, names.chain(setting_declarations.iter().map(|setting| setting.name)));
+                let similar =
+                    similar(name, names.chain(setting_declarations.iter().map(|setting| setting.name)));
                 return Err(Error::UnknownName { name: name.clone(), model: M::ABOUT.name, similar });
             }
         }
@@ -160,7 +176,11 @@ fn real(declaration: &Declaration, given: &Given) -> Result<f64, Error> {
     if let Some(unit) = &given.unit
         && unit != declaration.unit.symbol
     {
-        return Err(Error::WrongUnit { name: name(), given: unit.clone(), declared: declaration.unit.symbol });
+        return Err(Error::WrongUnit {
+            name: name(),
+            given: unit.clone(),
+            declared: declaration.unit.symbol,
+        });
     }
     crate::layout::check_bounds(declaration, value)?;
     Ok(value)
@@ -205,11 +225,16 @@ mod tests {
 
     #[test]
     fn values_may_be_nested_or_dotted() {
-        let text = format!("{HEAD}[values]\nstrut.stiffness = {{ value = 8400, unit = 'N/m', source = 'Table 10' }}\n\
-                            [values.tire]\nlift_off = {{ value = true, assumed = true }}\n");
+        let text = format!(
+            "{HEAD}[values]\nstrut.stiffness = {{ value = 8400, unit = 'N/m', source = 'Table 10' }}\n\
+                            [values.tire]\nlift_off = {{ value = true, assumed = true }}\n"
+        );
         let set = ParameterSet::parse(&text).unwrap();
         assert_eq!(set.values["strut.stiffness"].value, Value::Integer(8400));
-        assert_eq!(set.values["tire.lift_off"], Given { value: Value::Boolean(true), unit: None, source: String::new(), assumed: true });
+        assert_eq!(
+            set.values["tire.lift_off"],
+            Given { value: Value::Boolean(true), unit: None, source: String::new(), assumed: true }
+        );
     }
 
     #[test]

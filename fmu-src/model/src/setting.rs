@@ -148,6 +148,9 @@ mod tests {
         assert_eq!(sheet.get(2), None);
         let declared = Sheet::declare();
         assert_eq!((declared[1].name, declared[1].tunable), ("profile.file", true));
-        assert!(matches!(declared[0].kind, SettingKind::Choice(Enumeration { items: [_, ("Square", "Square")], .. })));
+        assert!(matches!(
+            declared[0].kind,
+            SettingKind::Choice(Enumeration { items: [_, ("Square", "Square")], .. })
+        ));
     }
 }

@@ -12,11 +12,12 @@ pub(crate) fn tanh(x: f64) -> f64 {
     if a < 0.625 {
         let z = x * x;
         let p = (-9.643_991_794_250_523e-1 * z - 9.928_772_310_019_185e1) * z - 1.614_687_684_417_084_5e3;
-        let q = ((z + 1.128_116_784_916_329_3e2) * z + 2.235_488_390_601_004_5e3) * z + 4.844_063_053_251_255e3;
+        let q =
+            ((z + 1.128_116_784_916_329_3e2) * z + 2.235_488_390_601_004_5e3) * z + 4.844_063_053_251_255e3;
         return (x + x * z * p / q).copysign(x);
     }
-    // Beyond, 1 − tanh is below half a unit of rounding. NaN ends up here and stays NaN.
-    if !(a < 20.0) {
+    // Beyond, 1 − tanh is below half a unit of rounding; NaN stays NaN.
+    if a >= 20.0 || a.is_nan() {
         return if a.is_nan() { x } else { 1_f64.copysign(x) };
     }
     // Adding this makes the sum's last bit worth one, and its low bits the rounded integer.
@@ -29,8 +30,9 @@ pub(crate) fn tanh(x: f64) -> f64 {
     let r = (2.0 * a - k * LN_2_HIGH) - k * LN_2_LOW;
     let z = r * r;
     let odd = r * ((1.261_771_930_748_105_9e-4 * z + 3.029_944_077_074_419_6e-2) * z + 1.0);
-    let even =
-        ((3.001_985_051_386_644_5e-6 * z + 2.524_483_403_496_841e-3) * z + 2.272_655_482_081_550_3e-1) * z + 2.0;
+    let even = ((3.001_985_051_386_644_5e-6 * z + 2.524_483_403_496_841e-3) * z + 2.272_655_482_081_550_3e-1)
+        * z
+        + 2.0;
     // 2ᵏ by its exponent; 0 ≤ k ≤ 58.
     let power = f64::from_bits(1_f64.to_bits().wrapping_add(shifted.to_bits() << 52));
     (1.0 - 2.0 * (even - odd) / (power * (even + odd) + (even - odd))).copysign(x)

@@ -20,11 +20,7 @@ pub fn jacobian<const N: usize>(
 }
 
 /// An integrator whose states all have the same magnitude.
-pub fn integrator<const N: usize>(
-    method: Method,
-    tolerance: f64,
-    nominal: f64,
-) -> Integrator<[f64; N]> {
+pub fn integrator<const N: usize>(method: Method, tolerance: f64, nominal: f64) -> Integrator<[f64; N]> {
     Integrator::new(method, Settings::new(tolerance, &[nominal; N])).expect("usable settings")
 }
 
@@ -38,18 +34,13 @@ pub fn run<const N: usize>(
 ) {
     let time = |i: u32| end * f64::from(i) / f64::from(calls);
     for i in 0..calls {
-        integrator
-            .advance(system, time(i), time(i + 1), x)
-            .expect("a harmless system");
+        integrator.advance(system, time(i), time(i + 1), x).expect("a harmless system");
     }
 }
 
 /// The largest difference, relative to a value's magnitude or `floor`.
 pub fn difference<const N: usize>(x: &[f64; N], exact: &[f64; N], floor: f64) -> f64 {
-    x.iter()
-        .zip(exact)
-        .map(|(a, b)| (a - b).abs() / b.abs().max(floor))
-        .fold(0.0, f64::max)
+    x.iter().zip(exact).map(|(a, b)| (a - b).abs() / b.abs().max(floor)).fold(0.0, f64::max)
 }
 
 /// x' = A x.
@@ -78,10 +69,7 @@ impl System<[f64; 3]> for Curved {
         [x[0] * x[1], -x[2], x[1]]
     }
     fn jacobian(&mut self, _t: f64, x: &[f64; 3]) -> (<[f64; 3] as Array>::Square, [f64; 3]) {
-        jacobian(
-            [[x[1], x[0], 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
-            [0.0; 3],
-        )
+        jacobian([[x[1], x[0], 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]], [0.0; 3])
     }
 }
 
@@ -124,10 +112,7 @@ impl System<[f64; 2]> for VanDerPol {
         [x[1], self.0 * (1.0 - x[0] * x[0]) * x[1] - x[0]]
     }
     fn jacobian(&mut self, _t: f64, x: &[f64; 2]) -> (<[f64; 2] as Array>::Square, [f64; 2]) {
-        let row = [
-            -2.0 * self.0 * x[0] * x[1] - 1.0,
-            self.0 * (1.0 - x[0] * x[0]),
-        ];
+        let row = [-2.0 * self.0 * x[0] * x[1] - 1.0, self.0 * (1.0 - x[0] * x[0])];
         jacobian([[0.0, 1.0], row], [0.0; 2])
     }
 }
@@ -141,14 +126,7 @@ impl System<[f64; 3]> for Robertson {
     }
     fn jacobian(&mut self, _t: f64, x: &[f64; 3]) -> (<[f64; 3] as Array>::Square, [f64; 3]) {
         let (by_1, by_2, square) = (1e4 * x[2], 1e4 * x[1], 6e7 * x[1]);
-        jacobian(
-            [
-                [-0.04, by_1, by_2],
-                [0.04, -by_1 - square, -by_2],
-                [0.0, square, 0.0],
-            ],
-            [0.0; 3],
-        )
+        jacobian([[-0.04, by_1, by_2], [0.04, -by_1 - square, -by_2], [0.0, square, 0.0]], [0.0; 3])
     }
 }
 
@@ -189,10 +167,7 @@ pub struct Friction;
 
 impl System<[f64; 2]> for Friction {
     fn rates(&mut self, t: f64, x: &[f64; 2]) -> [f64; 2] {
-        [
-            x[1],
-            20.0 * (5.0 * t).sin() - 100.0 * x[0] - 5.0 * (125.0 * x[1]).tanh(),
-        ]
+        [x[1], 20.0 * (5.0 * t).sin() - 100.0 * x[0] - 5.0 * (125.0 * x[1]).tanh()]
     }
     fn jacobian(&mut self, t: f64, x: &[f64; 2]) -> (<[f64; 2] as Array>::Square, [f64; 2]) {
         let tanh = (125.0 * x[1]).tanh();
@@ -215,21 +190,11 @@ const GRAVITY: f64 = 9.81;
 impl System<[f64; 2]> for Bounce {
     fn rates(&mut self, _t: f64, x: &[f64; 2]) -> [f64; 2] {
         let contact = -self.omega * self.omega * x[0] - self.damping * x[1];
-        [
-            x[1],
-            if x[0] < 0.0 {
-                contact - GRAVITY
-            } else {
-                -GRAVITY
-            },
-        ]
+        [x[1], if x[0] < 0.0 { contact - GRAVITY } else { -GRAVITY }]
     }
     fn jacobian(&mut self, _t: f64, x: &[f64; 2]) -> (<[f64; 2] as Array>::Square, [f64; 2]) {
         let row = [-self.omega * self.omega, -self.damping];
-        jacobian(
-            [[0.0, 1.0], if x[0] < 0.0 { row } else { [0.0; 2] }],
-            [0.0; 2],
-        )
+        jacobian([[0.0, 1.0], if x[0] < 0.0 { row } else { [0.0; 2] }], [0.0; 2])
     }
 }
 
@@ -243,10 +208,7 @@ impl Bounce {
             let flight = 2.0 * speed / GRAVITY;
             if t + flight >= end {
                 let s = end - t;
-                return (
-                    [speed * s - 0.5 * GRAVITY * s * s, speed - GRAVITY * s],
-                    changes,
-                );
+                return ([speed * s - 0.5 * GRAVITY * s * s, speed - GRAVITY * s], changes);
             }
             t += flight;
             // Undamped, gravity apart, lift-off is after half a period.
@@ -296,12 +258,7 @@ pub struct Watched<S, A> {
 
 impl<S, A> Watched<S, A> {
     pub fn new(inner: S) -> Self {
-        Watched {
-            inner,
-            rates: 0,
-            jacobians: 0,
-            last: None,
-        }
+        Watched { inner, rates: 0, jacobians: 0, last: None }
     }
 }
 
@@ -326,9 +283,6 @@ impl<F: FnMut(f64, f64) -> f64> System<[f64; 1]> for Scalar<F> {
     }
     fn jacobian(&mut self, t: f64, x: &[f64; 1]) -> (<[f64; 1] as Array>::Square, [f64; 1]) {
         let d = 1e-6 * x[0].abs().max(1.0);
-        jacobian(
-            [[((self.0)(t, x[0] + d) - (self.0)(t, x[0] - d)) / (2.0 * d)]],
-            [0.0],
-        )
+        jacobian([[((self.0)(t, x[0] + d) - (self.0)(t, x[0] - d)) / (2.0 * d)]], [0.0])
     }
 }

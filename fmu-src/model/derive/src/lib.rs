@@ -17,7 +17,7 @@ use syn::{Attribute, DeriveInput, Expr, ExprLit, Lit, Meta, parse_macro_input};
 /// `field.variable`.
 #[proc_macro_derive(Variables, attributes(var))]
 pub fn derive_variables(input: TokenStream) -> TokenStream {
-    expand(parse_macro_input!(input as DeriveInput), variables::expand)
+    expand(&parse_macro_input!(input as DeriveInput), variables::expand)
 }
 
 /// Makes a struct a set of declared settings: parameters that are not real numbers.
@@ -25,20 +25,20 @@ pub fn derive_variables(input: TokenStream) -> TokenStream {
 /// Every field carries `#[set(start = ...)]` and, optional, `name = "dotted.name"` and `tunable`.
 #[proc_macro_derive(Settings, attributes(set))]
 pub fn derive_settings(input: TokenStream) -> TokenStream {
-    expand(parse_macro_input!(input as DeriveInput), settings::expand)
+    expand(&parse_macro_input!(input as DeriveInput), settings::expand)
 }
 
 /// Makes an enum of documented unit variants a setting: an FMI enumeration type.
 #[proc_macro_derive(Choice)]
 pub fn derive_choice(input: TokenStream) -> TokenStream {
-    expand(parse_macro_input!(input as DeriveInput), choice::expand)
+    expand(&parse_macro_input!(input as DeriveInput), choice::expand)
 }
 
 fn expand(
-    input: DeriveInput,
+    input: &DeriveInput,
     with: fn(&DeriveInput) -> syn::Result<proc_macro2::TokenStream>,
 ) -> TokenStream {
-    with(&input).unwrap_or_else(|error| error.to_compile_error()).into()
+    with(input).unwrap_or_else(|error| error.to_compile_error()).into()
 }
 
 /// The doc comment as one line, without a final stop. A variable without one would stand in the model
@@ -54,7 +54,10 @@ fn doc(attributes: &[Attribute], of: &syn::Ident) -> syn::Result<String> {
     }
     let text = lines.join(" ").trim().trim_end_matches('.').to_owned();
     if text.is_empty() {
-        return Err(syn::Error::new(of.span(), format!("`{of}` needs a doc comment: it becomes the description in the FMU")));
+        return Err(syn::Error::new(
+            of.span(),
+            format!("`{of}` needs a doc comment: it becomes the description in the FMU"),
+        ));
     }
     Ok(text)
 }
@@ -63,6 +66,8 @@ fn doc(attributes: &[Attribute], of: &syn::Ident) -> syn::Result<String> {
 fn fields(input: &DeriveInput) -> syn::Result<&syn::FieldsNamed> {
     match &input.data {
         syn::Data::Struct(syn::DataStruct { fields: syn::Fields::Named(named), .. }) => Ok(named),
-        _ => Err(syn::Error::new_spanned(&input.ident, "variables are declared as a struct with named fields")),
+        _ => {
+            Err(syn::Error::new_spanned(&input.ident, "variables are declared as a struct with named fields"))
+        }
     }
 }

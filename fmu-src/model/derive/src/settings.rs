@@ -20,7 +20,11 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
                     "start" => start = Some(meta.value()?.parse()?),
                     "name" => text = meta.value()?.parse::<LitStr>()?.value(),
                     "tunable" => tunable = true,
-                    other => return Err(meta.error(format!("unknown `{other}`; a setting has start, name, tunable"))),
+                    other => {
+                        return Err(
+                            meta.error(format!("unknown `{other}`; a setting has start, name, tunable"))
+                        );
+                    }
                 }
                 Ok(())
             })?;

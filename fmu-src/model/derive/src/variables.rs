@@ -110,7 +110,9 @@ fn parse(field: &Field, ident: &Ident) -> syn::Result<Var> {
     })?;
     var.unit = match unit {
         // A bare name is one of the units that strut_model declares.
-        Some(Expr::Path(path)) if path.path.get_ident().is_some() => syn::parse_quote!(::strut_model::unit::#path),
+        Some(Expr::Path(path)) if path.path.get_ident().is_some() => {
+            syn::parse_quote!(::strut_model::unit::#path)
+        }
         Some(other) => other,
         None => return Err(syn::Error::new_spanned(attribute, format!("`{ident}` needs its `unit`"))),
     };

@@ -9,7 +9,8 @@ use std::path::Path;
 use uuid::Uuid;
 
 use crate::{
-    About, Declaration, Enumeration, Error, Model, ParameterSet, SettingDeclaration, SettingKind, Settings, Value,
+    About, Declaration, Enumeration, Error, Model, ParameterSet, SettingDeclaration, SettingKind, Settings,
+    Value,
     layout::{Layout, Section, SolverMethod, rate_name},
     parameter_set::Starts,
     setting::Setting,
@@ -146,7 +147,14 @@ impl Interface {
             let first = Layout::<M>::first(section);
             variables.extend(list.into_iter().enumerate().map(|(index, declaration)| {
                 let reference = (first + index) as u32;
-                real(section, reference, declaration, starts.reals.get(&reference).copied(), &dependency, index)
+                real(
+                    section,
+                    reference,
+                    declaration,
+                    starts.reals.get(&reference).copied(),
+                    &dependency,
+                    index,
+                )
             }));
         }
         for index in 0..Layout::<M>::STATES {
@@ -156,7 +164,9 @@ impl Interface {
                 *derivative_of = Some(state);
             }
         }
-        for (reference, (declaration, value)) in Layout::<M>::settings().iter().zip(starts.settings).enumerate() {
+        for (reference, (declaration, value)) in
+            Layout::<M>::settings().iter().zip(starts.settings).enumerate()
+        {
             variables.push(setting(reference as u32, declaration, value));
         }
         let structure = Structure::new::<M>(&dependency, &variables);
@@ -211,7 +221,12 @@ fn real(
     if section == Section::Rate {
         let doc = format!("{doc}: rate of change");
         let kind = VariableKind::Real {
-            unit: per_second(unit), start: None, min: None, max: None, nominal: None, derivative_of: None,
+            unit: per_second(unit),
+            start: None,
+            min: None,
+            max: None,
+            nominal: None,
+            derivative_of: None,
         };
         return Variable { name: rate_name(&name), reference, doc, causality, variability, initial, kind };
     }
@@ -233,7 +248,9 @@ fn per_second(unit: Unit) -> Unit {
 
 fn setting(reference: u32, declaration: &SettingDeclaration, value: Value) -> Variable {
     let kind = match (declaration.kind, value) {
-        (SettingKind::Choice(enumeration), Value::Integer(start)) => VariableKind::Choice { enumeration, start },
+        (SettingKind::Choice(enumeration), Value::Integer(start)) => {
+            VariableKind::Choice { enumeration, start }
+        }
         (_, Value::Integer(start)) => VariableKind::Integer { start },
         (_, Value::Boolean(start)) => VariableKind::Boolean { start },
         (_, Value::Text(start)) => VariableKind::Text { start },

@@ -50,8 +50,11 @@ impl Dependency {
     /// # Errors
     /// If the model refuses the given settings.
     pub fn of<M: Model>(settings: &M::Settings, resources: Option<&Path>) -> Result<Self, Error> {
-        let knowns =
-            Knowns { inputs: Layout::<M>::INPUTS, states: Layout::<M>::STATES, parameters: Layout::<M>::PARAMETERS };
+        let knowns = Knowns {
+            inputs: Layout::<M>::INPUTS,
+            states: Layout::<M>::STATES,
+            parameters: Layout::<M>::PARAMETERS,
+        };
         let mut dependency = Self {
             outputs: vec![Dependencies::default(); Layout::<M>::OUTPUTS],
             rates: vec![Dependencies::default(); Layout::<M>::STATES],
@@ -82,8 +85,13 @@ impl Dependency {
         let (input, state) = (Bundle::from_fn(set), Bundle::from_fn(|i| set(knowns.state(i))));
         let held = Bundle::from_fn(|_| Dependencies::default());
         let now = Now::<M, Dependencies> {
-            time: set(knowns.time()), state: &state, input: &input, parameters: &parameters, derived: &derived,
-            memory: &held, tick: 0,
+            time: set(knowns.time()),
+            state: &state,
+            input: &input,
+            parameters: &parameters,
+            derived: &derived,
+            memory: &held,
+            tick: 0,
         };
         let (rates, outputs) = model.equations(now);
         rates.for_each(|i, found| self.rates[i] = self.rates[i] | found);
@@ -117,8 +125,8 @@ pub struct Structure {
     pub outputs: Vec<(usize, Vec<usize>)>,
     /// State derivatives, likewise.
     pub derivatives: Vec<(usize, Vec<usize>)>,
-    /// What is calculated at initialisation, with the inputs, start values and parameters that it
-    /// depends on.
+    /// What is calculated at initialisation, with the inputs, start values, parameters and settings that
+    /// it depends on.
     pub initial_unknowns: Vec<(usize, Vec<usize>)>,
 }
 
@@ -145,12 +153,18 @@ impl Structure {
             sets.iter().enumerate().map(|(index, set)| (first(section) + index, list(*set, end))).collect()
         };
         let mut outputs = at(Section::Output, &dependency.outputs, continuous);
-        outputs.extend((0..knowns.states).map(|index| first(Section::State) + index).filter_map(|state| {
-            (variables[state].causality == Causality::Output).then(|| (state, vec![state]))
-        }));
+        let states = (0..knowns.states).map(|index| first(Section::State) + index);
+        let exposed = states.filter(|state| variables[*state].causality == Causality::Output);
+        outputs.extend(exposed.map(|state| (state, vec![state])));
         let mut initial_unknowns = at(Section::Output, &dependency.initial_outputs, all);
         initial_unknowns.extend(at(Section::Rate, &dependency.rates, all));
         initial_unknowns.extend(at(Section::Derived, &dependency.derived, all));
+        // What a setting does to the structure cannot be traced: everything may depend on each of the model's own.
+        let own = M::Settings::declare().len();
+        let settings = variables.len() - Layout::<M>::settings().len();
+        for (_, dependencies) in &mut initial_unknowns {
+            dependencies.extend(settings..settings + own);
+        }
         Self { outputs, derivatives: at(Section::Rate, &dependency.rates, continuous), initial_unknowns }
     }
 }

@@ -41,11 +41,7 @@ impl<M: Model> System<StateArray<M>> for Flow<'_, M> {
         *self.rates
     }
 
-    fn jacobian(
-        &mut self,
-        t: f64,
-        x: &StateArray<M>,
-    ) -> (<StateArray<M> as Array>::Square, StateArray<M>) {
+    fn jacobian(&mut self, t: f64, x: &StateArray<M>) -> (<StateArray<M> as Array>::Square, StateArray<M>) {
         let (value, slope) = (self.input.at(t), self.input.rates(t));
         let (value, slope) = (value.as_slice(), slope.as_slice());
         let parameters = lift(self.parameters);

@@ -75,7 +75,8 @@ impl<A: Array> InputPath<A> {
     /// All numbers, for a snapshot.
     pub fn words(&self) -> impl Iterator<Item = u64> {
         let arrays = [&self.value, &self.derivatives[0], &self.derivatives[1]];
-        let numbers = arrays.into_iter().flat_map(|array| array.as_slice().iter().map(|number| number.to_bits()));
+        let numbers =
+            arrays.into_iter().flat_map(|array| array.as_slice().iter().map(|number| number.to_bits()));
         numbers.chain([self.origin.to_bits(), u64::from(self.moving)])
     }
 

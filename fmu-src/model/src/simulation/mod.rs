@@ -54,7 +54,7 @@ pub struct Simulation<M: Model> {
     underived: bool,
     /// Rates and outputs do not belong to the present time, states, inputs and parameters.
     stale: bool,
-    /// Until initialisation ends the first tick is only tried out.
+    /// Until initialisation ends, parameters need not fit together yet.
     initializing: bool,
 }
 
@@ -70,7 +70,11 @@ impl<M: Model> Simulation<M> {
         let mut solver_settings = SolverSettings::starts();
         let own = M::Settings::declare().len();
         for (index, value) in starts.settings.into_iter().enumerate() {
-            let _checked = if index < own { settings.set(index, value) } else { solver_settings.set(index - own, value) };
+            let _checked = if index < own {
+                settings.set(index, value)
+            } else {
+                solver_settings.set(index - own, value)
+            };
         }
         let value = |section: Section, index: usize| {
             starts.reals.get(&((Layout::<M>::first(section) + index) as u32)).copied().unwrap_or(0.0)
@@ -115,7 +119,9 @@ impl<M: Model> Simulation<M> {
     /// If the time is not finite or the tolerance out of its bounds.
     pub fn set_up(&mut self, start: f64, tolerance: Option<f64>) -> Result<(), Error> {
         if !start.is_finite() {
-            return Err(Error::Time(format!("the start time cannot be {start}: give a finite number of seconds")));
+            return Err(Error::Time(format!(
+                "the start time cannot be {start}: give a finite number of seconds"
+            )));
         }
         if let Some(tolerance) = tolerance
             && Layout::<M>::SOLVER > 0
@@ -166,7 +172,9 @@ impl<M: Model> Simulation<M> {
     pub fn step(&mut self, from: f64, size: f64) -> Result<(), Error> {
         let end = from + size;
         // Relative to the step: masters accumulate their clock in different ways.
-        if !((from - self.time).abs() <= 1e-6 * size + 4.0 * f64::EPSILON * from.abs() && size > 0.0 && end.is_finite())
+        if !((from - self.time).abs() <= 1e-6 * size + 4.0 * f64::EPSILON * from.abs()
+            && size > 0.0
+            && end.is_finite())
             || end <= self.time
         {
             return Err(self.wrong_step(from, size));
@@ -233,7 +241,8 @@ impl<M: Model> Simulation<M> {
     /// Integrates from tick to tick; all or nothing.
     fn flow_and_tick_to(&mut self, end: f64, period: f64) -> Result<(), Error> {
         // A step of astronomic length would tick for ever, as would a period of zero.
-        if !(end - self.tick_time(period) <= MAX_TICKS * period) {
+        let due = end - self.tick_time(period);
+        if due.is_nan() || due > MAX_TICKS * period {
             return Err(Error::Time(format!(
                 "a step from {} s to {end} s has more than {MAX_TICKS} ticks of {period} s: make shorter steps",
                 self.time
@@ -264,9 +273,16 @@ impl<M: Model> Simulation<M> {
         self.start + self.ticks as f64 * period
     }
 
+    /// Whether the first tick is still to come: it is tried out then, so that the outputs at the start are
+    /// those of the inputs at the start.
+    fn before_first_tick(&self) -> bool {
+        self.ticks == 0 && self.period.is_some()
+    }
+
     /// The memory that a tick at the present time would leave.
     fn ticked(&self) -> M::Memory<f64> {
-        let (state, input) = (from_slice(self.state.as_slice()), from_slice(self.input.at(self.time).as_slice()));
+        let (state, input) =
+            (from_slice(self.state.as_slice()), from_slice(self.input.at(self.time).as_slice()));
         self.model.tick(Now {
             time: self.time,
             state: &state,
@@ -323,7 +339,7 @@ impl<M: Model> Simulation<M> {
             self.refresh()?;
         }
         if self.stale {
-            let memory = if self.initializing && self.period.is_some() { self.ticked() } else { self.memory };
+            let memory = if self.before_first_tick() { self.ticked() } else { self.memory };
             // Through the integrator's way in: one place that calls the equations is one that the compiler
             // puts them into.
             let mut flow = Flow {
@@ -380,7 +396,6 @@ fn accuracy<M: Model>(solver: &Solver<f64>) -> strut_integrators::Settings<State
     settings
 }
 
-#[expect(clippy::needless_pass_by_value, reason = "an argument of map_err")]
 fn refused(error: InvalidSettings) -> Error {
     Error::Refused(error.to_string())
 }

@@ -69,14 +69,24 @@ impl<M: Model> Simulation<M> {
     ///
     /// # Errors
     /// If an order is not one or a variable is no output.
-    pub fn output_derivatives(&mut self, references: &[u32], orders: &[i32], values: &mut [f64]) -> Result<(), Error> {
+    pub fn output_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &mut [f64],
+    ) -> Result<(), Error> {
         self.evaluate()?;
-        let seeds = Seeds::<M> { input: self.input.rates(self.time), state: self.rates, parameter: Array::zeros() };
+        let seeds =
+            Seeds::<M> { input: self.input.rates(self.time), state: self.rates, parameter: Array::zeros() };
         let (_, output, _) = self.varied(&seeds, 1.0);
         for ((reference, order), value) in references.iter().zip(orders).zip(values) {
             let name = || Layout::<M>::name(*reference);
             if *order != 1 {
-                return Err(Error::Order { name: name(), order: *order, supported: "outputs have the first derivative" });
+                return Err(Error::Order {
+                    name: name(),
+                    order: *order,
+                    supported: "outputs have the first derivative",
+                });
             }
             *value = match Layout::<M>::locate(*reference)? {
                 (Section::Output, index) => output.as_slice()[index],
@@ -111,7 +121,7 @@ impl<M: Model> Simulation<M> {
             memory: &lift(&self.memory),
             tick: self.ticks,
         };
-        if self.initializing && self.period.is_some() {
+        if self.before_first_tick() {
             memory = self.model.tick(now);
         }
         let (rates, output) = self.model.equations(Now { memory: &memory, ..now });

@@ -22,8 +22,10 @@ pub struct Snapshot<M: Model> {
 impl<M: Model> Simulation<M> {
     /// The state as it is now.
     pub fn save(&self) -> Snapshot<M> {
-        let mut words = vec![self.time.to_bits(), self.start.to_bits(), self.ticks, u64::from(self.initializing)];
-        let numbers = |words: &mut Vec<u64>, slice: &[f64]| words.extend(slice.iter().map(|number| number.to_bits()));
+        let mut words =
+            vec![self.time.to_bits(), self.start.to_bits(), self.ticks, u64::from(self.initializing)];
+        let numbers =
+            |words: &mut Vec<u64>, slice: &[f64]| words.extend(slice.iter().map(|number| number.to_bits()));
         numbers(&mut words, self.state.as_slice());
         numbers(&mut words, to_array(&self.memory).as_slice());
         numbers(&mut words, to_array(&self.parameters).as_slice());

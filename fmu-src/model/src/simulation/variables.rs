@@ -87,13 +87,17 @@ impl<M: Model> Simulation<M> {
                 return refused("a state's start value may be set until initialisation ends only");
             }
             Section::Parameter if access == Access::Inputs => {
-                return refused("parameters may be set before initialisation, at events and between steps only");
+                return refused(
+                    "parameters may be set before initialisation, at events and between steps only",
+                );
             }
             Section::Parameter if declaration.fixed && access < Access::All => {
                 return refused("it is a fixed parameter: set it before initialisation ends");
             }
             Section::Solver if access == Access::Inputs => {
-                return refused("parameters may be set before initialisation, at events and between steps only");
+                return refused(
+                    "parameters may be set before initialisation, at events and between steps only",
+                );
             }
             Section::State | Section::Parameter | Section::Solver => check_bounds(declaration, value)?,
         }
@@ -119,14 +123,27 @@ impl<M: Model> Simulation<M> {
     ///
     /// # Errors
     /// For a variable that is no input, an unsupported order or a value that is not finite.
-    pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Result<(), Error> {
+    pub fn set_input_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &[f64],
+    ) -> Result<(), Error> {
         for ((reference, order), value) in references.iter().zip(orders).zip(values) {
             let name = || Layout::<M>::name(*reference);
             let (Section::Input, index) = Layout::<M>::locate(*reference)? else {
-                return Err(Error::NotSettable { name: name(), reason: "only inputs have derivatives to be set" });
+                return Err(Error::NotSettable {
+                    name: name(),
+                    reason: "only inputs have derivatives to be set",
+                });
             };
-            let Some(order) = usize::try_from(*order).ok().filter(|order| (1..=MAX_ORDER).contains(order)) else {
-                return Err(Error::Order { name: name(), order: *order, supported: "inputs have orders 1 and 2" });
+            let Some(order) = usize::try_from(*order).ok().filter(|order| (1..=MAX_ORDER).contains(order))
+            else {
+                return Err(Error::Order {
+                    name: name(),
+                    order: *order,
+                    supported: "inputs have orders 1 and 2",
+                });
             };
             if !value.is_finite() {
                 return Err(Error::NotFinite { name: name(), value: *value });
@@ -149,9 +166,11 @@ impl<M: Model> Simulation<M> {
             Some(rest) if Layout::<M>::STATES > 0 => self.solver_settings.get(rest),
             Some(_) => None,
         };
-        value
-            .filter(|value| kind_of(value) == kind)
-            .ok_or(Error::UnknownReference { kind, reference, model: M::ABOUT.name })
+        value.filter(|value| kind_of(value) == kind).ok_or(Error::UnknownReference {
+            kind,
+            reference,
+            model: M::ABOUT.name,
+        })
     }
 
     /// Sets a setting.
