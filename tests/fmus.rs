@@ -27,3 +27,8 @@ checks! {
 fn references() {
     print!("{}", strut::python("tests/masters/fmpy_references.py", [strut::fmus()]));
 }
+
+#[test]
+fn published_numbers() {
+    print!("{}", strut::python("tests/masters/fmpy_numbers.py", [strut::fmus()]));
+}

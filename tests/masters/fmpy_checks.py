@@ -177,6 +177,7 @@ def directional(fmu):
     if not knowns:
         return
     with fmu.running(FMU2Model) as instance:
+        events(instance)
         instance.enterContinuousTimeMode()
         instance.setTime(0.0123)
         values = np.array(fmu.excitation(0.0123) + [0.003 * (1 + i) for i in range(len(fmu.states))])

@@ -1,0 +1,36 @@
+//! The systems in masters that others have written, against the monolithic references.
+
+use std::path::Path;
+
+fn connected(master: &str, system: &str) {
+    let arguments = [Path::new(master), Path::new(system), strut::fmus()];
+    print!("{}", strut::python("tests/masters/connected.py", arguments));
+}
+
+macro_rules! connected {
+    ($($name:ident: $master:literal $system:literal;)*) => {$(
+        #[test]
+        fn $name() {
+            connected($master, $system);
+        }
+    )*};
+}
+
+connected! {
+    quanser_lqr_in_fmpy: "fmpy" "quanser-lqr";
+    quanser_lqr_in_libcosimpy: "libcosimpy" "quanser-lqr";
+    quanser_lqr_in_ecos: "ecos" "quanser-lqr";
+    tum_active_in_fmpy: "fmpy" "tum-active";
+    tum_active_in_libcosimpy: "libcosimpy" "tum-active";
+    tum_active_in_ecos: "ecos" "tum-active";
+}
+
+#[test]
+fn parameter_sets_of_a_system_take_effect() {
+    print!("{}", strut::python("tests/masters/connected_parameters.py", [strut::fmus()]));
+}
+
+#[test]
+fn the_coupling_error_falls_with_the_step() {
+    print!("{}", strut::python("tests/masters/connected_convergence.py", [strut::fmus()]));
+}
