@@ -120,26 +120,23 @@ impl<A: Array> Settings<A> {
         let g = g.as_slice();
         let curvature = norm(&|i| g[i] - f[i]) / small;
         let steepest = slope.max(curvature);
-        let step = if steepest <= 1e-15 { small } else { pow(0.01 / steepest, 0.2).min(100.0 * small) };
+        let step = if steepest <= 1e-15 { small } else { libm::pow(0.01 / steepest, 0.2).min(100.0 * small) };
         // Not finite if the Euler step left the domain of the rates; `small` is what is left.
         if step > 0.0 { step.min(longest) } else { small }
     }
 }
 
-/// A power that need not be exact, in a quarter of the time of one that is.
-fn pow(base: f64, exponent: f64) -> f64 {
-    libm::exp(exponent * libm::log(base))
-}
-
 /// By what factor to change a step that was accepted; `previous` is the error of the one before.
 pub(crate) fn accepted_factor<A: Array, M: Stepper<A>>(squared: f64, previous: f64) -> f64 {
-    // An error of zero gives infinity, and the longest step.
-    let plain = pow(squared, -0.5 * (0.2 - 0.75 * M::BETA));
-    let damped = if M::BETA == 0.0 { plain } else { plain * pow(previous, M::BETA) };
-    (SAFETY * damped).clamp(SHORTEN, LENGTHEN)
+    // A product of powers by one exponential. An error of zero gives infinity, and the longest step.
+    let mut exponent = -0.5 * (0.2 - 0.75 * M::BETA) * libm::log(squared);
+    if M::BETA != 0.0 {
+        exponent += M::BETA * libm::log(previous);
+    }
+    (SAFETY * libm::exp(exponent)).clamp(SHORTEN, LENGTHEN)
 }
 
 /// By what factor to shorten a step that was rejected.
 pub(crate) fn rejected_factor(squared: f64) -> f64 {
-    (SAFETY * pow(squared, -0.1)).clamp(SHORTEN, SAFETY)
+    (SAFETY * libm::exp(-0.1 * libm::log(squared))).clamp(SHORTEN, SAFETY)
 }

@@ -36,9 +36,10 @@ impl<M: Model> System<StateArray<M>> for Flow<'_, M> {
             memory: self.memory,
             tick: self.tick,
         });
-        *self.rates = to_array(&rates);
+        let rates = to_array(&rates);
+        *self.rates = rates;
         *self.output = to_array(&output);
-        *self.rates
+        rates
     }
 
     fn jacobian(&mut self, t: f64, x: &StateArray<M>) -> (<StateArray<M> as Array>::Square, StateArray<M>) {
