@@ -22,7 +22,8 @@ impl<R: Real> Coulomb<R> {
         if self.force.vanishes() {
             return R::from(0.0);
         }
-        self.force * (velocity / self.velocity).tanh()
+        // The reciprocal is ready before the velocity is known: the sum waits for a product, not for a quotient.
+        self.force * (velocity * (R::from(1.0) / self.velocity)).tanh()
     }
 }
 

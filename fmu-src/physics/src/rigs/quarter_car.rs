@@ -301,8 +301,10 @@ impl Model for QuarterCar {
         let guide = p.guide.coulomb.resistance(body.velocity);
         let tire = self.tire_force(road.position - wheel.position, road.velocity - wheel.velocity, now);
 
-        let body_acceleration = (actuator - strut - guide) / p.sprung_mass;
-        let wheel_acceleration = (strut - actuator + tire) / p.unsprung_mass;
+        // Reciprocals, which do not wait for the forces as quotients would.
+        let (per_sprung, per_unsprung) = (R::from(1.0) / p.sprung_mass, R::from(1.0) / p.unsprung_mass);
+        let body_acceleration = (actuator - strut - guide) * per_sprung;
+        let wheel_acceleration = (strut - actuator + tire) * per_unsprung;
 
         let rates = State {
             body: Motion { position: body.velocity, velocity: body_acceleration },
