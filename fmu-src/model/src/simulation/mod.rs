@@ -209,8 +209,8 @@ impl<M: Model> Simulation<M> {
         })
     }
 
-    /// Integrates to `end` with the memory held.
-    #[inline]
+    /// Integrates to `end` with the memory held. In line, for it is nearly all of a step.
+    #[inline(always)]
     fn flow_to(&mut self, end: f64) -> Result<(), Error> {
         if Layout::<M>::STATES == 0 {
             self.stale = true;
@@ -239,6 +239,7 @@ impl<M: Model> Simulation<M> {
     }
 
     /// Integrates from tick to tick; all or nothing.
+    #[inline(never)]
     fn flow_and_tick_to(&mut self, end: f64, period: f64) -> Result<(), Error> {
         // A step of astronomic length would tick for ever, as would a period of zero.
         let due = end - self.tick_time(period);
