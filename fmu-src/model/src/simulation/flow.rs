@@ -24,7 +24,7 @@ pub(super) struct Flow<'a, M: Model> {
 }
 
 impl<M: Model> System<StateArray<M>> for Flow<'_, M> {
-    #[inline]
+    #[inline(always)]
     fn rates(&mut self, t: f64, x: &StateArray<M>) -> StateArray<M> {
         let (state, input) = (from_slice(x.as_slice()), from_slice(self.input.at(t).as_slice()));
         let (rates, output) = self.model.equations(Now {

@@ -16,12 +16,17 @@ pub struct Coulomb<R> {
 }
 
 impl<R: Real> Coulomb<R> {
+    /// Another force and the friction that resists `velocity`.
+    ///
+    /// Not the friction alone: a zero to be added would be waited for.
+    #[inline]
+    pub fn added_to(&self, other: R, velocity: R) -> R {
+        if self.force.vanishes() { other } else { other + self.resistance(velocity) }
+    }
+
     /// The force that resists `velocity`.
     #[inline]
     pub fn resistance(&self, velocity: R) -> R {
-        if self.force.vanishes() {
-            return R::from(0.0);
-        }
         // The reciprocal is ready before the velocity is known: the sum waits for a product, not for a quotient.
         self.force * (velocity * (R::from(1.0) / self.velocity)).tanh()
     }
@@ -51,7 +56,7 @@ mod tests {
 
         #[test]
         fn without_force_it_is_absent(v in -5.0..5.0_f64) {
-            prop_assert_eq!(Coulomb { force: 0.0, velocity: 0.008 }.resistance(v), 0.0);
+            prop_assert_eq!(Coulomb { force: 0.0, velocity: 0.008 }.added_to(v, v), v);
         }
     }
 }

@@ -20,6 +20,9 @@ impl<R: Real> Quadratic<R> {
     /// The force at a compression, less that at static equilibrium.
     #[inline]
     pub fn force(&self, compression: R) -> R {
+        if self.quadratic.vanishes() {
+            return compression * self.stiffness;
+        }
         compression * (self.stiffness + self.quadratic * compression)
     }
 

@@ -24,9 +24,8 @@ impl<R: Real> Strut<R> {
     /// The force that pulls body and wheel together.
     #[inline]
     pub fn force(&self, deflection: R, velocity: R) -> R {
-        self.stiffness * deflection
-            + self.damping * self.asymmetry.effective(velocity)
-            + self.coulomb.resistance(velocity)
+        let passive = self.stiffness * deflection + self.damping * self.asymmetry.effective(velocity);
+        self.coulomb.added_to(passive, velocity)
     }
 }
 

@@ -291,19 +291,19 @@ impl Model for QuarterCar {
         ))
     }
 
-    #[inline]
+    #[inline(always)]
     fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
         let (State { body, wheel }, p) = (*now.state, now.parameters);
         let (road, actuator) = (now.input.road, now.input.actuator.force);
 
         let (deflection, velocity) = (body.position - wheel.position, body.velocity - wheel.velocity);
         let strut = p.strut.force(deflection, velocity);
-        let guide = p.guide.coulomb.resistance(body.velocity);
+        let on_body = p.guide.coulomb.added_to(strut, body.velocity);
         let tire = self.tire_force(road.position - wheel.position, road.velocity - wheel.velocity, now);
 
         // Reciprocals, which do not wait for the forces as quotients would.
         let (per_sprung, per_unsprung) = (R::from(1.0) / p.sprung_mass, R::from(1.0) / p.unsprung_mass);
-        let body_acceleration = (actuator - strut - guide) * per_sprung;
+        let body_acceleration = (actuator - on_body) * per_sprung;
         let wheel_acceleration = (strut - actuator + tire) * per_unsprung;
 
         let rates = State {
