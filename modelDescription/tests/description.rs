@@ -63,7 +63,7 @@ fn every_declaration_survives_the_round_trip() {
             }
             VariableKind::Integer { start } => assert_eq!(number(&kind, "start"), Some(f64::from(*start))),
             VariableKind::Boolean { start } => {
-                assert_eq!(kind.attribute("start"), Some(start.to_string().as_str()))
+                assert_eq!(kind.attribute("start"), Some(start.to_string().as_str()));
             }
             VariableKind::Text { start } => assert_eq!(kind.attribute("start"), Some(start.as_str())),
             VariableKind::Choice { enumeration, start } => {

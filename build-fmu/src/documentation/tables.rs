@@ -192,7 +192,7 @@ pub fn printed(symbol: &str) -> String {
         match c {
             '.' => text.push('·'),
             digit if digit.is_ascii_digit() && after_letter => {
-                text.push_str(&superscript(&digit.to_string()))
+                text.push_str(&superscript(&digit.to_string()));
             }
             other => text.push(other),
         }
