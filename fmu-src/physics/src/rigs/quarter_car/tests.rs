@@ -1,5 +1,6 @@
+use num_dual::Dual64;
 use proptest::prelude::*;
-use strut_model::{Bundle, Error, Simulation};
+use strut_model::{Bundle, Error, Lanes, Simulation};
 
 use super::*;
 
@@ -33,9 +34,9 @@ fn table_10() -> Parameters<f64> {
 
 const CAR: QuarterCar = QuarterCar { lift_off: true };
 
-fn evaluate(car: QuarterCar, p: &Parameters<f64>, x: [f64; 4], u: [f64; 3]) -> (State<f64>, Output<f64>) {
+fn evaluate<R: Real>(car: QuarterCar, p: &Parameters<R>, x: [R; 4], u: [R; 3]) -> (State<R>, Output<R>) {
     car.equations(Now {
-        time: 0.0,
+        time: R::from(0.0),
         state: &Bundle::from_fn(|i| x[i]),
         input: &Bundle::from_fn(|i| u[i]),
         parameters: p,
@@ -168,4 +169,50 @@ fn a_mass_of_nothing_is_refused() {
     let reference = interface.variable("sprung_mass").unwrap().reference;
     let error = simulation.set_real(&[reference], &[0.0], strut_model::Access::All).unwrap_err();
     assert!(matches!(error, Error::OutOfBounds { .. }), "{error}");
+}
+
+/// The numbers of a bundle.
+fn list<R: Copy, B: Bundle<R>>(bundle: &B) -> Vec<R> {
+    let mut list = Vec::new();
+    bundle.for_each(|_, number| list.push(number));
+    list
+}
+
+proptest! {
+    /// Four parameter sets at once, and the derivative by a parameter, from the equations that `f64` runs.
+    #[test]
+    fn the_equations_say_the_same_in_every_scalar(
+        x in prop::array::uniform4(-0.03..0.03_f64),
+        u in prop::array::uniform3(-0.01..0.01_f64),
+        factors in prop::array::uniform4(0.9..1.1_f64),
+    ) {
+        let nominal = list(&table_10());
+        let scaled = |factor: f64| -> Parameters<f64> { Bundle::from_fn(|i| nominal[i] * factor) };
+        let expected = factors.map(|factor| evaluate(CAR, &scaled(factor), x, u));
+
+        let lanes: Parameters<Lanes> = Bundle::from_fn(|i| Lanes::new(factors.map(|factor| nominal[i] * factor)));
+        let (rates, output) = evaluate(CAR, &lanes, x.map(Lanes::from), u.map(Lanes::from));
+        let together: Vec<Lanes> = list(&rates).into_iter().chain(list(&output)).collect();
+        for (lane, (rates, output)) in expected.iter().enumerate() {
+            let alone: Vec<f64> = list(rates).into_iter().chain(list(output)).collect();
+            for (a, b) in together.iter().map(|number| number.to_array()[lane]).zip(alone) {
+                prop_assert!((a - b).abs() <= 1e-9 * (1.0 + b.abs()), "{a} {b}");
+            }
+        }
+
+        // Along the scaling of all parameters at once. Not across lift-off, where there is no derivative.
+        let (h, factor) = (1e-6, factors[0]);
+        let dual: Parameters<Dual64> = Bundle::from_fn(|i| Dual64::new(nominal[i] * factor, nominal[i]));
+        let (rates, output) = evaluate(CAR, &dual, x.map(Dual64::from), u.map(Dual64::from));
+        let differences = [factor - h, factor + h].map(|factor| {
+            let (rates, output) = evaluate(CAR, &scaled(factor), x, u);
+            list(&rates).into_iter().chain(list(&output)).collect::<Vec<f64>>()
+        });
+        prop_assume!((x[2] - u[0] - CAR.derive(&scaled(factor)).tire.lift_off_deflection).abs() > 1e-4);
+        prop_assume!((output.wheel.force.re + CAR.derive(&scaled(factor)).tire.static_load).abs() > 1.0);
+        for (i, exact) in list(&rates).into_iter().chain(list(&output)).enumerate() {
+            let slope = (differences[1][i] - differences[0][i]) / (2.0 * h);
+            prop_assert!((exact.eps - slope).abs() < 1e-4 * (1.0 + slope.abs()), "{i}: {exact} {slope}");
+        }
+    }
 }
