@@ -13,6 +13,7 @@ pub mod effects;
 pub mod elements;
 pub mod rigs;
 pub mod roads;
+pub mod signals;
 
 use strut_model::Entry;
 

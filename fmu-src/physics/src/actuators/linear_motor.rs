@@ -6,6 +6,8 @@ use strut_model::{
     About, Equation, Experiment, Kind, Model, NoSettings, Now, Real, Stimulus, Variables, bundles,
 };
 
+use crate::signals::Travel;
+
 /// The suspension actuator of TUM 3.2.2 and 4.2: a voltage commands a current, the current makes the force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearMotor;
@@ -61,18 +63,7 @@ pub struct Input<R> {
     #[var(unit = N)]
     pub force_reference: R,
     /// Suspension
-    pub suspension: Suspension<R>,
-}
-
-/// The motion of the rod.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Suspension<R> {
-    /// Deflection, for the stroke that is left
-    #[var(unit = M)]
-    pub deflection: R,
-    /// Rate of change of the deflection, for the speed that is left
-    #[var(unit = M_PER_S)]
-    pub velocity: R,
+    pub suspension: Travel<R>,
 }
 
 /// What goes on inside.

@@ -6,6 +6,8 @@ use strut_model::{
     About, Equation, Experiment, Kind, Model, Nothing, Now, Real, Settings, Stimulus, Variables, bundles,
 };
 
+use crate::signals::{Command, Deflection, Velocity};
+
 use super::riccati::Problem;
 
 /// State feedback, Quanser 2.2.3: `F_c = −K x`, with K given or computed from plant and weights.
@@ -136,30 +138,6 @@ pub struct Input<R> {
     pub tire: Deflection<R>,
     /// Wheel
     pub wheel: Velocity<R>,
-}
-
-/// Of an element.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Deflection<R> {
-    /// Deflection: upper minus lower end
-    #[var(unit = M)]
-    pub deflection: R,
-}
-
-/// Of a mass.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Velocity<R> {
-    /// Velocity, positive upwards
-    #[var(unit = M_PER_S)]
-    pub velocity: R,
-}
-
-/// The command, also what is held between samples.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Command<R> {
-    /// Force that pushes body and wheel apart (F_c)
-    #[var(unit = N)]
-    pub force: R,
 }
 
 /// Largest relative residual of the Riccati equation with which a gain is believed. Rounding leaves some 1e-10.

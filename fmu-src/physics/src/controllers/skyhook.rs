@@ -6,6 +6,8 @@ use strut_model::{
     About, Equation, Experiment, Kind, Model, NoSettings, Nothing, Now, Real, Stimulus, Variables, bundles,
 };
 
+use crate::signals::{Command, Velocity};
+
 /// Skyhook control, Ajala eq. 28: `F_a,ref = −ż_a C_SH`, sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Skyhook;
@@ -25,23 +27,7 @@ pub struct Parameters<R> {
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Input<R> {
     /// Body
-    pub body: Body<R>,
-}
-
-/// Of the body.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Body<R> {
-    /// Velocity, positive upwards (ż_a)
-    #[var(unit = M_PER_S)]
-    pub velocity: R,
-}
-
-/// The command, also what is held between samples.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Command<R> {
-    /// Force that is wanted of the actuator (F_a,ref)
-    #[var(unit = N)]
-    pub force: R,
+    pub body: Velocity<R>,
 }
 
 impl Model for Skyhook {
@@ -91,7 +77,7 @@ mod tests {
         let now = Now {
             time: 0.0,
             state: &Nothing,
-            input: &Input { body: Body { velocity } },
+            input: &Input { body: Velocity { velocity } },
             parameters: &Parameters { damping, period: 1e-3 },
             derived: &Nothing,
             memory: &Command { force: 0.0 },

@@ -14,6 +14,7 @@ use strut_model::{
 use crate::GRAVITY;
 use crate::effects::Coulomb;
 use crate::elements::{Strut, Tire};
+use crate::signals::{Deflection, RoadMotion, Travel};
 
 /// A quarter of a car, or a test rig of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,20 +59,9 @@ pub struct Guide<R> {
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Input<R> {
     /// Road under the tyre
-    pub road: Road<R>,
+    pub road: RoadMotion<R>,
     /// Actuator between body and wheel
     pub actuator: Actuator<R>,
-}
-
-/// The road.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Road<R> {
-    /// Height (x_g, z_r, w, y_s)
-    #[var(unit = M)]
-    pub position: R,
-    /// Rate of change of the height
-    #[var(unit = M_PER_S)]
-    pub velocity: R,
 }
 
 /// The actuator.
@@ -110,9 +100,9 @@ pub struct Output<R> {
     /// Wheel
     pub wheel: WheelOutput<R>,
     /// Suspension
-    pub suspension: Suspension<R>,
+    pub suspension: Travel<R>,
     /// Tyre
-    pub tire: TireOutput<R>,
+    pub tire: Deflection<R>,
 }
 
 /// Of the body.
@@ -132,25 +122,6 @@ pub struct WheelOutput<R> {
     /// Dynamic wheel load, positive if it presses on the road (F_dyn)
     #[var(unit = N)]
     pub force: R,
-}
-
-/// Between body and wheel.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Suspension<R> {
-    /// Body above wheel, positive in rebound (x_c − x_w)
-    #[var(unit = M)]
-    pub deflection: R,
-    /// Rate of change of the deflection
-    #[var(unit = M_PER_S)]
-    pub velocity: R,
-}
-
-/// Between wheel and road.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct TireOutput<R> {
-    /// Wheel above road, negative where the tyre is compressed (x_w − x_g)
-    #[var(unit = M)]
-    pub deflection: R,
 }
 
 /// What follows from the parameters.
@@ -313,8 +284,8 @@ impl Model for QuarterCar {
         let output = Output {
             body: Acceleration { acceleration: body_acceleration },
             wheel: WheelOutput { acceleration: wheel_acceleration, force: tire },
-            suspension: Suspension { deflection, velocity },
-            tire: TireOutput { deflection: wheel.position - road.position },
+            suspension: Travel { deflection, velocity },
+            tire: Deflection { deflection: wheel.position - road.position },
         };
         (rates, output)
     }

@@ -4,6 +4,8 @@ use std::path::Path;
 
 use strut_model::{About, Experiment, Kind, Model, Now, Real, Settings, Variables, bundles};
 
+use crate::signals::RoadMotion;
+
 use super::{
     IsoClass, Profile, RoadKind, Shape,
     road::{EQUATIONS, NOTES},
@@ -51,24 +53,13 @@ pub struct Parameters<R> {
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Output<R> {
     /// Front left
-    pub front_left: Motion<R>,
+    pub front_left: RoadMotion<R>,
     /// Front right
-    pub front_right: Motion<R>,
+    pub front_right: RoadMotion<R>,
     /// Rear left
-    pub rear_left: Motion<R>,
+    pub rear_left: RoadMotion<R>,
     /// Rear right
-    pub rear_right: Motion<R>,
-}
-
-/// The motion of the road under one wheel.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Motion<R> {
-    /// Height
-    #[var(unit = M)]
-    pub position: R,
-    /// Rate of change of the height, exact
-    #[var(unit = M_PER_S)]
-    pub velocity: R,
+    pub rear_right: RoadMotion<R>,
 }
 
 impl Model for FourWheelRoad {
@@ -101,7 +92,7 @@ impl Model for FourWheelRoad {
         let rear = front - *wheelbase / shape.speed;
         let under = |track: &Profile, tau: R| {
             let [position, velocity] = track.at(tau, shape);
-            Motion { position, velocity }
+            RoadMotion { position, velocity }
         };
         let output = Output {
             front_left: under(&self.left, front),

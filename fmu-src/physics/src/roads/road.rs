@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use strut_model::{About, Equation, Experiment, Kind, Model, Now, Real, Settings, Variables, bundles};
+use strut_model::{About, Equation, Experiment, Kind, Model, Now, Real, Settings, bundles};
+
+use crate::signals::RoadMotion;
 
 use super::{IsoClass, Profile, RoadKind, Shape};
 
@@ -28,17 +30,6 @@ pub struct Options {
     /// `time [s], position [m]`
     #[set(start = "profile.csv")]
     file: String,
-}
-
-/// The motion of the road under the wheel.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Output<R> {
-    /// Height
-    #[var(unit = M)]
-    pub position: R,
-    /// Rate of change of the height, exact
-    #[var(unit = M_PER_S)]
-    pub velocity: R,
 }
 
 /// What must be known about any road.
@@ -85,16 +76,16 @@ impl Model for Road {
         ..About::DEFAULT
     };
 
-    bundles! { settings: Options, parameters: Shape, output: Output }
+    bundles! { settings: Options, parameters: Shape, output: RoadMotion }
 
     fn prepare(options: &Options, resources: Option<&Path>) -> Result<Self, String> {
         let Options { kind, iso_class, seed, file } = options;
         Ok(Self { profile: Profile::new(*kind, *iso_class, *seed, 0, file, resources)? })
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (strut_model::Nothing, Output<R>) {
+    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (strut_model::Nothing, RoadMotion<R>) {
         let shape = now.parameters;
         let [position, velocity] = self.profile.at(now.time - shape.start_time, shape);
-        (strut_model::Nothing, Output { position, velocity })
+        (strut_model::Nothing, RoadMotion { position, velocity })
     }
 }
