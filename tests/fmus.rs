@@ -32,3 +32,9 @@ fn references() {
 fn published_numbers() {
     print!("{}", strut::python("tests/masters/fmpy_numbers.py", [strut::fmus()]));
 }
+
+/// The references that the FMUs are measured against are what their script makes.
+#[test]
+fn references_can_be_made_again() {
+    print!("{}", strut::python("tests/reference/make_references.py", ["--check"]));
+}

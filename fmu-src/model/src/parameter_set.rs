@@ -140,6 +140,14 @@ impl Starts {
     /// # Errors
     /// If the set names a variable that does not exist or gives a value of a wrong type or unit, or out of bounds.
     pub fn of<M: Model>(declared_settings: Vec<Value>, set: Option<&ParameterSet>) -> Result<Self, Error> {
+        if let Some(ParameterSet { fmu, model, .. }) = set
+            && model != M::ABOUT.name
+        {
+            let name = M::ABOUT.name;
+            return Err(Error::Refused(format!(
+                "the parameter set of {fmu} is one for the model {model}, not for {name}"
+            )));
+        }
         let mut settings = declared_settings;
         let mut declared: Vec<(u32, Declaration)> = Vec::new();
         for section in [Section::Input, Section::State, Section::Parameter, Section::Solver] {

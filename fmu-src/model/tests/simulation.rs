@@ -366,6 +366,16 @@ fn parameter_sets_that_do_not_fit_are_refused_by_name() {
 }
 
 #[test]
+fn a_parameter_set_of_another_model_is_refused() {
+    let set = ParameterSet::parse("fmu = 'Mine'\nmodel = 'Counter'\ntitle = 't'\nsource = 's'").unwrap();
+    let error = Interface::of::<Oscillator>(Some(&set), None).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "the parameter set of Mine is one for the model Counter, not for Oscillator"
+    );
+}
+
+#[test]
 fn what_may_not_be_set_is_refused_by_name() {
     let mut simulation = started::<Oscillator>();
     for (name, value, part) in [

@@ -61,6 +61,7 @@ fn time<M: Model>(set: &str) -> (f64, f64) {
         PARAMETER_SETS.iter().find(|(name, _)| *name == format!("{set}.toml")).expect("a published set");
     let mut set = ParameterSet::parse(text).expect("it is well-formed");
     if M::ABOUT.name == "Linear" {
+        set.model = M::ABOUT.name.into();
         set.values.retain(|name, _| name != "tire.lift_off");
     }
     let mut simulation = Simulation::<M>::new(Some(&set), None).expect("the set fits");
