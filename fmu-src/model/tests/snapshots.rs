@@ -1,0 +1,69 @@
+//! A saved state continues bit for bit, also elsewhere; a damaged one is refused or harmless.
+
+mod models;
+
+use models::{Counter, Oscillator, read, started};
+use proptest::prelude::*;
+use strut_model::{Access, Simulation, Snapshot, Value};
+
+proptest! {
+    #[test]
+    fn a_snapshot_continues_bit_for_bit(
+        before in prop::collection::vec(1e-4..0.1_f64, 1..8),
+        after in prop::collection::vec(1e-4..0.1_f64, 1..8),
+        force in -3.0..3.0_f64,
+        slope in -3.0..3.0_f64,
+    ) {
+        let run = |simulation: &mut Simulation<Oscillator>, steps: &[f64]| {
+            for size in steps {
+                let from = simulation.time();
+                simulation.set_input_derivatives(&[0], &[1], &[slope]).unwrap();
+                simulation.step(from, *size).unwrap();
+            }
+            (simulation.states().iter().map(|x| x.to_bits()).collect::<Vec<_>>(), simulation.time().to_bits())
+        };
+        let mut simulation = started::<Oscillator>();
+        simulation.set_real(&[0], &[force], Access::Inputs).unwrap();
+        run(&mut simulation, &before);
+        let snapshot = simulation.save();
+        let expected = run(&mut simulation, &after);
+        simulation.restore(&snapshot).unwrap();
+        prop_assert_eq!(&run(&mut simulation, &after), &expected);
+        let mut other = Simulation::<Oscillator>::new(None, None).unwrap();
+        other.restore(&Snapshot::from_bytes(&snapshot.to_bytes()).unwrap()).unwrap();
+        prop_assert_eq!(&run(&mut other, &after), &expected);
+    }
+
+    #[test]
+    fn sampled_memory_and_noise_are_part_of_a_snapshot(ticks in 0_u32..40) {
+        let mut simulation = Simulation::<Counter>::new(None, None).unwrap();
+        simulation.set_setting(1, Value::Integer(2), Access::All).unwrap();
+        simulation.initialize().unwrap();
+        for tick in 0..ticks {
+            simulation.step(f64::from(tick) * 0.01, 0.01).unwrap();
+        }
+        let bytes = simulation.save().to_bytes();
+        let from = simulation.time();
+        simulation.step(from, 0.5).unwrap();
+        let mut other = started::<Counter>();
+        other.restore(&Snapshot::from_bytes(&bytes).unwrap()).unwrap();
+        other.step(from, 0.5).unwrap();
+        prop_assert_eq!(read(&mut other, "sum").to_bits(), read(&mut simulation, "sum").to_bits());
+    }
+
+    #[test]
+    fn damaged_bytes_are_refused_or_harmless(
+        place in 0_usize..400, value: u8, len in 0_usize..400, random in prop::collection::vec(any::<u8>(), 0..200),
+    ) {
+        let bytes = started::<Counter>().save().to_bytes();
+        let mut damaged = bytes.clone();
+        let end = damaged.len();
+        damaged[place % end] ^= value;
+        for blob in [damaged, bytes[..len.min(end)].to_vec(), random] {
+            if let Ok(snapshot) = Snapshot::<Counter>::from_bytes(&blob) {
+                let mut simulation = started::<Counter>();
+                let _ = simulation.restore(&snapshot);
+            }
+        }
+    }
+}
