@@ -2,9 +2,9 @@
 
     python benchmark.py OURS.fmu [--peer THEIRS.fmu ...] [--runs 7]
 
-Each FMU is driven by the same small C host (host.c, error control at 1e-6)
-in turn, A B A B ..., so that a machine whose speed
-drifts does not decide. Printed are the median time of a step and its ratio to each peer's, run by run.
+Each FMU is driven by the same small C host (host.c, error control at 1e-6) in turn, A B A B ..., so that a
+machine whose speed drifts does not decide. Printed are the median time of a step and its ratio to each peer's,
+run by run. An FMU that decays should not be followed until its numbers are denormal: those are slow (--steps).
 Inputs whose unit is known move as on a rough road, the first output is read, the step is that of the FMU's
 default experiment unless given.
 Needs Python 3 and a C compiler, nothing else. Linux and macOS.
