@@ -24,7 +24,7 @@ impl<R: Real> Strut<R> {
     /// The force that pulls body and wheel together.
     #[inline]
     pub fn force(&self, deflection: R, velocity: R) -> R {
-        let passive = self.stiffness * deflection + self.damping * self.asymmetry.effective(velocity);
+        let passive = || self.stiffness * deflection + self.damping * self.asymmetry.effective(velocity);
         self.coulomb.added_to(passive, velocity)
     }
 }

@@ -25,7 +25,7 @@ impl<R: Real> Tire<R> {
     /// The force that presses on the road, less the static load, while the tyre cannot leave it.
     #[inline]
     pub fn force(&self, compression: R, velocity: R) -> R {
-        let passive = self.spring().force(compression) + self.damping * velocity;
+        let passive = || self.spring().force(compression) + self.damping * velocity;
         self.coulomb.added_to(passive, velocity)
     }
 

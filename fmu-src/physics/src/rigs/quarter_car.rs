@@ -269,7 +269,7 @@ impl Model for QuarterCar {
 
         let (deflection, velocity) = (body.position - wheel.position, body.velocity - wheel.velocity);
         let strut = p.strut.force(deflection, velocity);
-        let on_body = p.guide.coulomb.added_to(strut, body.velocity);
+        let on_body = p.guide.coulomb.added_to(|| strut, body.velocity);
         let tire = self.tire_force(road.position - wheel.position, road.velocity - wheel.velocity, now);
 
         // Reciprocals, which do not wait for the forces as quotients would.
