@@ -24,6 +24,10 @@ impl<R: Real> Strut<R> {
     /// The force that pulls body and wheel together.
     #[inline]
     pub fn force(&self, deflection: R, velocity: R) -> R {
+        if self.asymmetry.ratio.vanishes() & self.coulomb.force.vanishes() {
+            // One question for both effects: one each would be felt in a step of the linear rig.
+            return self.stiffness * deflection + self.damping * velocity;
+        }
         let passive = || self.stiffness * deflection + self.damping * self.asymmetry.effective(velocity);
         self.coulomb.added_to(passive, velocity)
     }

@@ -25,6 +25,10 @@ impl<R: Real> Tire<R> {
     /// The force that presses on the road, less the static load, while the tyre cannot leave it.
     #[inline]
     pub fn force(&self, compression: R, velocity: R) -> R {
+        if self.quadratic.vanishes() & self.coulomb.force.vanishes() {
+            // One question for both effects: one each would be felt in a step of the linear rig.
+            return self.stiffness * compression + self.damping * velocity;
+        }
         let passive = || self.spring().force(compression) + self.damping * velocity;
         self.coulomb.added_to(passive, velocity)
     }
