@@ -18,6 +18,7 @@ pub fn png(kind: Kind) -> Vec<u8> {
         Kind::Actuator => canvas.actuator(),
         Kind::Controller => canvas.controller(),
         Kind::Road => canvas.road(),
+        Kind::Source => canvas.source(),
         Kind::Sensor => canvas.sensor(),
         Kind::Other => canvas.other(),
     }
@@ -31,6 +32,7 @@ pub fn background(kind: Kind) -> [u8; 3] {
         Kind::Actuator => [0xa3, 0x3b, 0x20],
         Kind::Controller => [0x2d, 0x6a, 0x4f],
         Kind::Road => [0x4a, 0x4e, 0x69],
+        Kind::Source => [0x7a, 0x5c, 0x14],
         Kind::Sensor => [0x7b, 0x4b, 0x94],
         Kind::Other => [0x37, 0x47, 0x4f],
     }
@@ -139,6 +141,15 @@ impl Canvas {
         self.arrow(5.0, (58.0, 46.0), (98.0, 46.0));
     }
 
+    /// One wave of a signal on its way out.
+    fn source(&mut self) {
+        let wave = |x: f32| 64.0 - 22.0 * ((x - 26.0) * std::f32::consts::TAU / 46.0).sin();
+        self.circle(6.0, (49.0, 64.0), 34.0);
+        let points: Vec<(f32, f32)> = (26..=72_u8).map(|x| (f32::from(x), wave(f32::from(x)))).collect();
+        self.line(5.0, &points);
+        self.arrow(5.0, (86.0, 64.0), (114.0, 64.0));
+    }
+
     /// A dial.
     fn sensor(&mut self) {
         let mut arc = PathBuilder::new();
@@ -208,7 +219,15 @@ mod tests {
 
     #[test]
     fn every_kind_has_its_own_drawing() {
-        let kinds = [Kind::Rig, Kind::Actuator, Kind::Controller, Kind::Road, Kind::Sensor, Kind::Other];
+        let kinds = [
+            Kind::Rig,
+            Kind::Actuator,
+            Kind::Controller,
+            Kind::Road,
+            Kind::Source,
+            Kind::Sensor,
+            Kind::Other,
+        ];
         let icons: Vec<Vec<u8>> = kinds.into_iter().map(png).collect();
         for (index, icon) in icons.iter().enumerate() {
             assert!(icon.starts_with(b"\x89PNG") && icon.len() < 10_000, "{} bytes", icon.len());

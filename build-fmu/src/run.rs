@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use unicode_width::UnicodeWidthStr;
 
 use crate::archive::Folder;
 use crate::cargo::{self, Libraries};
@@ -165,7 +166,7 @@ fn listing(plan: &Plan) -> Result<String> {
     let mut rows = Vec::new();
     for fmu in plan.wanted.iter().map(|index| &plan.fmus[*index]) {
         let mut row = described(fmu, &fmu.interface()?);
-        row[3] = shortened(fmu.title());
+        row[3] = fmu.title().to_owned();
         rows.push(row);
     }
     for system in &plan.systems {
@@ -173,19 +174,22 @@ fn listing(plan: &Plan) -> Result<String> {
             system.name.clone(),
             "system".into(),
             format!("{} FMUs", system.components.len()),
-            shortened(&system.title),
+            system.title.clone(),
         ]);
     }
+    // What the names leave of a line of 120 columns.
+    let name = rows.iter().map(|row| row[0].width()).max().unwrap_or(0);
+    rows.iter_mut().for_each(|row| row[3] = shortened(&row[3], 93 - name));
     Ok(table::aligned(&["NAME", "KIND", "IN → OUT", "WHAT IT IS"], &[], &rows))
 }
 
 /// A title that leaves the table readable; the documentation has all of it.
-fn shortened(title: &str) -> String {
-    const MOST: usize = 60;
-    if title.chars().count() <= MOST {
+fn shortened(title: &str, most: usize) -> String {
+    if title.chars().count() <= most {
         return title.to_owned();
     }
-    let kept: String = title.chars().take(MOST).collect();
+    // The dots and their space need two.
+    let kept: String = title.chars().take(most - 2).collect();
     let words = kept.rsplit_once(' ').map_or(kept.as_str(), |(words, _)| words);
     format!("{} …", words.trim_end_matches([',', ';', ':']))
 }

@@ -9,7 +9,7 @@ use std::{
 use strut_model::{Access, Model, Simulation, Snapshot};
 
 use crate::{
-    log::{Failure, Log},
+    log::{Debugging, Failure, Log},
     resources::Origin,
     state_table::{FREE_INSTANCE, Function, Phase, State},
     types::{Component, Status},
@@ -33,8 +33,8 @@ pub struct Instance<M: Model> {
     pub origin: Origin,
     /// The way to the host's logger.
     pub log: Log,
-    /// Whether debug logging was on at first.
-    pub debug_at_first: bool,
+    /// What debug logging was on at first.
+    pub debug_at_first: Debugging,
     /// The states that the host has saved and not freed. A host's pointer is looked up here and never
     /// followed, so that a wrong one does no harm.
     pub saved: Vec<Box<Saved<M>>>,

@@ -10,7 +10,7 @@ use strut_model::{Error, LOG_CATEGORIES, Model, Simulation};
 
 use crate::{
     instance::{Instance, call, fatal},
-    log::{Failure, Log},
+    log::{Debugging, Failure, Log},
     pointer,
     resources::Origin,
     state_table::{self as table, Kind, Phase, State},
@@ -51,7 +51,7 @@ pub unsafe fn instantiate<M: Model>(
         let log = Log::new(
             callbacks,
             name.as_ref().map_or_else(|_| CString::default(), |name| (*name).into()),
-            logging_on != FALSE,
+            Debugging::all(logging_on != FALSE),
         );
         let instance = name.and_then(|name| {
             if name.is_empty() {
@@ -76,7 +76,8 @@ pub unsafe fn instantiate<M: Model>(
         }
     });
     catch_unwind(make).unwrap_or_else(|panic| {
-        Log::new(callbacks, CString::default(), true).tell("fmi2Instantiate", &fatal(panic.as_ref()));
+        Log::new(callbacks, CString::default(), Debugging::all(true))
+            .tell("fmi2Instantiate", &fatal(panic.as_ref()));
         ptr::null_mut()
     })
 }
@@ -90,8 +91,8 @@ pub unsafe fn free_instance<M: Model>(component: Component) {
     unsafe { Instance::<M>::free(component) }
 }
 
-/// `fmi2SetDebugLogging`. Of the categories only discarded steps are debug messages; the others are
-/// always told.
+/// `fmi2SetDebugLogging`. Of the categories only discarded steps and the integration's cost are debug
+/// messages; the others are always told.
 ///
 /// # Safety
 /// The component is as for [`free_instance`]; there are `n` categories that end with a zero.
@@ -102,7 +103,7 @@ pub unsafe fn set_debug_logging<M: Model>(
     categories: *const Text,
 ) -> Status {
     let body = |instance: &mut Instance<M>| {
-        let mut concerned = n == 0;
+        let mut concerned = Debugging::all(n == 0);
         // SAFETY: by the caller.
         for category in unsafe { pointer::slice(categories, n, "categories") }? {
             // SAFETY: by the caller.
@@ -114,10 +115,15 @@ pub unsafe fn set_debug_logging<M: Model>(
                     names.join(", ")
                 )));
             }
-            concerned |= category == c"logAll" || category == c"logStatusDiscard";
+            concerned.discards |= category == c"logAll" || category == c"logStatusDiscard";
+            concerned.solver |= category == c"logAll" || category == c"logSolver";
         }
-        if concerned {
-            instance.log.debug = logging_on != FALSE;
+        let debug = &mut instance.log.debug;
+        if concerned.discards {
+            debug.discards = logging_on != FALSE;
+        }
+        if concerned.solver {
+            debug.solver = logging_on != FALSE;
         }
         Ok(())
     };
@@ -190,12 +196,15 @@ pub unsafe fn exit_initialization_mode<M: Model>(component: Component) -> Status
     unsafe { call(component, &table::EXIT_INITIALIZATION_MODE, body) }
 }
 
-/// `fmi2Terminate`.
+/// `fmi2Terminate`. Tells what the integration has cost, if debug logging of it is on.
 ///
 /// # Safety
 /// The component is as for [`free_instance`].
 pub unsafe fn terminate<M: Model>(component: Component) -> Status {
     let body = |instance: &mut Instance<M>| {
+        if instance.state.kind() == Kind::CoSimulation && !instance.simulation.states().is_empty() {
+            instance.log.tell_cost("fmi2Terminate", instance.simulation.work());
+        }
         instance.enter(Phase::Terminated);
         Ok(())
     };

@@ -222,7 +222,9 @@ proptest! {
             };
             prop_assert_ne!(status, Status::Fatal);
             prop_assert_ne!(status, Status::Pending);
-            prop_assert_eq!(status == Status::Ok, host.messages().is_empty());
+            // A call that succeeds may still tell what the integration has cost.
+            let complaints = host.messages().iter().filter(|told| told.status != Status::Ok).count();
+            prop_assert_eq!(status == Status::Ok, complaints == 0);
         }
         prop_assert_eq!(host.reset(), Status::Ok);
         host.initialize();

@@ -126,6 +126,29 @@ fn discarded_steps_are_told_if_debug_logging_is_on() {
 }
 
 #[test]
+fn what_the_integration_has_cost_is_told_at_the_end_if_debug_logging_is_on() {
+    let costs = |on: Boolean, categories: &[&std::ffi::CStr]| {
+        let host = Host::<Decay>::initialized(CS);
+        let pointers: Vec<Text> = categories.iter().map(|category| category.as_ptr()).collect();
+        assert_eq!(host.set_debug_logging(on, pointers.len(), pointers.as_ptr()), Status::Ok);
+        assert_eq!(host.do_step(0.0, 0.001, TRUE), Status::Ok);
+        assert_eq!(host.do_step(0.001, 0.001, TRUE), Status::Ok);
+        assert_eq!(host.terminate(), Status::Ok);
+        host.messages()
+    };
+    let told = costs(TRUE, &[c"logSolver"]);
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert_eq!((told[0].category.as_str(), told[0].status), ("logSolver", Status::Ok));
+    // Two to begin with, six a step.
+    let expected = "fmi2Terminate: the integration took 2 steps and tried 0 that were too long, with 14 evaluations \
+         of the rates and 0 Jacobians";
+    assert_eq!(told[0].format, expected);
+    assert_eq!(costs(TRUE, &[c"logAll"]), told);
+    assert_eq!(costs(FALSE, &[c"logSolver"]), []);
+    assert_eq!(costs(FALSE, &[c"logStatusDiscard"]), told, "it was on at fmi2Instantiate");
+}
+
+#[test]
 fn unknown_categories_are_refused_and_the_known_ones_named() {
     let host = Host::<Decay>::new(CS);
     assert_eq!(host.set_debug_logging(TRUE, 1, &c"logEverything".as_ptr()), Status::Error);

@@ -156,24 +156,28 @@ mod tests {
         /// A custom unit
         #[var(unit = Unit::coherent("N2", unit::Base { kg: 2, ..unit::Base::NONE }))]
         odd: R,
+        /// Table
+        #[var(unit = N, start = [1.0, 2.0])]
+        table: [R; 2],
     }
 
     #[test]
     fn a_group_prefixes_names_and_docs() {
         let list = Declarations::of::<Element<f64>>();
         let names: Vec<_> = list.iter().map(|declaration| declaration.name.as_str()).collect();
-        assert_eq!(names, ["stiffness", "coulomb.force", "coulomb.velocity", "odd"]);
+        assert_eq!(names, ["stiffness", "coulomb.force", "coulomb.velocity", "odd", "table[1]", "table[2]"]);
         assert_eq!(list[1].doc, "Friction: Force");
         assert_eq!((list[1].min, list[1].max, list[1].fixed), (Some(0.0), Some(400.0), false));
         assert!(list[2].fixed);
         assert_eq!(list[3].unit.symbol, "N2");
-        assert_eq!(Element::<f64>::COUNT, 4);
+        assert_eq!((list[5].start, list[5].doc.as_str()), (2.0, "Table, 2"));
+        assert_eq!(Element::<f64>::COUNT, 6);
     }
 
     #[test]
     fn arrays_and_structs_hold_the_same_numbers() {
-        let element: Element<f64> = from_slice(&[1.0, 2.0, 3.0, 4.0]);
-        assert_eq!(element.coulomb.velocity, 3.0);
-        assert_eq!(to_array(&element), [1.0, 2.0, 3.0, 4.0]);
+        let element: Element<f64> = from_slice(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        assert_eq!((element.coulomb.velocity, element.table), (3.0, [5.0, 6.0]));
+        assert_eq!(to_array(&element), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
     }
 }

@@ -2,15 +2,58 @@
 
 use std::path::Path;
 
-use crate::{About, Access, Causality, Error, Interface, Model, ParameterSet, Simulation, VariableKind};
+use crate::{
+    About, Access, Causality, Error, Experiment, Interface, Model, ParameterSet, Simulation, Value,
+    VariableKind,
+};
 
 /// A model in a catalogue: what a packager needs to know of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
     /// The model's own words.
     pub about: About,
-    interface: fn(Option<&ParameterSet>, Option<&Path>) -> Result<Interface, Error>,
-    demonstrate: fn(Option<&ParameterSet>, Option<&Path>) -> Result<Trajectory, Error>,
+    interface: Make<Interface>,
+    instance: Make<Box<dyn Instance>>,
+}
+
+/// Makes something of a model with a parameter set and a folder of resources.
+type Make<T> = fn(Option<&ParameterSet>, Option<&Path>) -> Result<T, Error>;
+
+/// A model that runs, without its type: see [`Simulation`], whose functions these are.
+#[allow(missing_docs, reason = "they are documented there")]
+#[allow(clippy::missing_errors_doc, reason = "they are documented there")]
+pub trait Instance {
+    fn set_up(&mut self, start: f64, tolerance: Option<f64>) -> Result<(), Error>;
+    fn initialize(&mut self) -> Result<(), Error>;
+    fn time(&self) -> f64;
+    fn set_real(&mut self, references: &[u32], values: &[f64], access: Access) -> Result<(), Error>;
+    fn set_setting(&mut self, reference: u32, value: Value, access: Access) -> Result<(), Error>;
+    fn real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Error>;
+    fn step(&mut self, from: f64, size: f64) -> Result<(), Error>;
+}
+
+impl<M: Model> Instance for Simulation<M> {
+    fn set_up(&mut self, start: f64, tolerance: Option<f64>) -> Result<(), Error> {
+        self.set_up(start, tolerance)
+    }
+    fn initialize(&mut self) -> Result<(), Error> {
+        self.initialize()
+    }
+    fn time(&self) -> f64 {
+        self.time()
+    }
+    fn set_real(&mut self, references: &[u32], values: &[f64], access: Access) -> Result<(), Error> {
+        self.set_real(references, values, access)
+    }
+    fn set_setting(&mut self, reference: u32, value: Value, access: Access) -> Result<(), Error> {
+        self.set_setting(reference, value, access)
+    }
+    fn real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Error> {
+        self.real(references, values)
+    }
+    fn step(&mut self, from: f64, size: f64) -> Result<(), Error> {
+        self.step(from, size)
+    }
 }
 
 /// The signals of an experiment.
@@ -25,7 +68,11 @@ pub struct Trajectory {
 impl Entry {
     /// The entry of a model.
     pub const fn of<M: Model>() -> Self {
-        Self { about: M::ABOUT, interface: Interface::of::<M>, demonstrate: demonstrate::<M> }
+        Self {
+            about: M::ABOUT,
+            interface: Interface::of::<M>,
+            instance: |set, resources| Ok(Box::new(Simulation::<M>::new(set, resources)?)),
+        }
     }
 
     /// The interface with a parameter set.
@@ -40,6 +87,18 @@ impl Entry {
         (self.interface)(set, resources)
     }
 
+    /// An instance, not yet initialised.
+    ///
+    /// # Errors
+    /// If the parameter set does not fit the declarations or the model refuses it.
+    pub fn instance(
+        &self,
+        set: Option<&ParameterSet>,
+        resources: Option<&Path>,
+    ) -> Result<Box<dyn Instance>, Error> {
+        (self.instance)(set, resources)
+    }
+
     /// Runs the default experiment.
     ///
     /// # Errors
@@ -49,19 +108,25 @@ impl Entry {
         set: Option<&ParameterSet>,
         resources: Option<&Path>,
     ) -> Result<Trajectory, Error> {
-        (self.demonstrate)(set, resources)
+        let interface = self.interface(set, resources)?;
+        demonstrate(&self.about.experiment, &interface, &mut *self.instance(set, resources)?)
     }
 }
 
-fn demonstrate<M: Model>(set: Option<&ParameterSet>, resources: Option<&Path>) -> Result<Trajectory, Error> {
-    let interface = Interface::of::<M>(set, resources)?;
-    let mut simulation = Simulation::<M>::new(set, resources)?;
-    let experiment = M::ABOUT.experiment;
-    let reference = |name: &str| interface.variable(name).map(|variable| variable.reference);
+fn demonstrate(
+    experiment: &Experiment,
+    interface: &Interface,
+    simulation: &mut dyn Instance,
+) -> Result<Trajectory, Error> {
+    // A stimulus moves its input about where it starts.
     let stimuli: Vec<_> = experiment
         .stimuli
         .iter()
-        .filter_map(|(name, stimulus)| Some((reference(name)?, *stimulus)))
+        .filter_map(|(name, stimulus)| {
+            let variable = interface.variable(name)?;
+            let VariableKind::Real { start, .. } = variable.kind else { return None };
+            Some((variable.reference, start.unwrap_or(0.0), *stimulus))
+        })
         .collect();
     let (inputs, outputs): (Vec<_>, Vec<_>) = interface
         .variables
@@ -91,8 +156,8 @@ fn demonstrate<M: Model>(set: Option<&ParameterSet>, resources: Option<&Path>) -
     let steps = (experiment.stop / experiment.step).round() as usize;
     for index in 0..=steps {
         let time = index as f64 * experiment.step;
-        for (reference, stimulus) in &stimuli {
-            simulation.set_real(&[*reference], &[stimulus.at(time)], Access::Inputs)?;
+        for (reference, start, stimulus) in &stimuli {
+            simulation.set_real(&[*reference], &[start + stimulus.at(time)], Access::Inputs)?;
         }
         simulation.real(&references, &mut values)?;
         trajectory.time.push(time);

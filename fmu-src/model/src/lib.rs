@@ -28,7 +28,7 @@ pub mod unit;
 
 pub use bundle::{Bundle, Declaration, Declarations, Nothing};
 pub use dependencies::Dependencies;
-pub use entry::{Entry, Trajectory};
+pub use entry::{Entry, Instance, Trajectory};
 pub use error::Error;
 pub use interface::{
     Causality, Dependency, Initial, Interface, Structure, Variability, Variable, VariableKind,

@@ -6,5 +6,6 @@ pub const LOG_CATEGORIES: &[(&str, &str)] = &[
     ("logStatusDiscard", "Steps that were refused and may be tried again, shorter"),
     ("logStatusError", "Calls that were refused, and why"),
     ("logStatusFatal", "Failures that no further call can repair"),
+    ("logSolver", "What the integration has cost, at the end"),
     ("logAll", "Everything"),
 ];

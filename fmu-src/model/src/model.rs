@@ -157,8 +157,10 @@ pub enum Kind {
     Actuator,
     /// Turns measurements into a command.
     Controller,
-    /// Excites.
+    /// Excites a wheel.
     Road,
+    /// Gives a signal over time.
+    Source,
     /// Measures.
     Sensor,
     /// Anything else.
@@ -173,6 +175,7 @@ impl Kind {
             Self::Actuator => "actuator",
             Self::Controller => "controller",
             Self::Road => "road",
+            Self::Source => "source",
             Self::Sensor => "sensor",
             Self::Other => "other",
         }
@@ -208,7 +211,7 @@ impl Experiment {
     pub const DEFAULT: Self = Self { stop: 10.0, step: 1e-3, tolerance: 1e-7, stimuli: &[], plot: &[] };
 }
 
-/// What an input does in an experiment.
+/// What an input does in an experiment, about its start value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stimulus {
     /// From zero to `height` at time `at`.

@@ -21,6 +21,7 @@ use crate::{
 /// [values]
 /// sprung_mass = { value = 94.38, unit = "kg", source = "Table 10" }
 /// tire.lift_off = { value = true, source = "4.3.2", assumed = true }
+/// damping = { value = [0.3, 0.5], unit = "N.m.s/rad", source = "Fig. 9" }  # damping[1], damping[2]
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterSet {
@@ -89,9 +90,19 @@ fn collect(table: &Table, prefix: &str, into: &mut BTreeMap<String, Given>) -> R
     for (key, entry) in table {
         let name = if prefix.is_empty() { key.clone() } else { format!("{prefix}.{key}") };
         match entry {
-            Toml::Table(entry) if entry.contains_key("value") => {
-                into.insert(name.clone(), given(entry, &name)?);
-            }
+            Toml::Table(entry) if entry.contains_key("value") => match entry.get("value") {
+                Some(Toml::Array(elements)) => {
+                    for (number, element) in (1..).zip(elements) {
+                        let mut entry = entry.clone();
+                        entry.insert("value".into(), element.clone());
+                        let name = format!("{name}[{number}]");
+                        into.insert(name.clone(), given(&entry, &name)?);
+                    }
+                }
+                _ => {
+                    into.insert(name.clone(), given(entry, &name)?);
+                }
+            },
             Toml::Table(group) => collect(group, &name, into)?,
             _ => {
                 return Err(format!(
@@ -243,6 +254,17 @@ mod tests {
             set.values["tire.lift_off"],
             Given { value: Value::Boolean(true), unit: None, source: String::new(), assumed: true }
         );
+    }
+
+    #[test]
+    fn a_list_is_the_values_of_an_array() {
+        let text =
+            format!("{HEAD}[values]\na.damping = {{ value = [1.5, 2], unit = 'N', source = 'Fig. 9' }}\n");
+        let set = ParameterSet::parse(&text).unwrap();
+        let names: Vec<&str> = set.values.keys().map(String::as_str).collect();
+        assert_eq!(names, ["a.damping[1]", "a.damping[2]"]);
+        assert_eq!(set.values["a.damping[2]"].value, Value::Integer(2));
+        assert_eq!(set.values["a.damping[2]"].source, "Fig. 9");
     }
 
     #[test]

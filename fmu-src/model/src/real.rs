@@ -54,6 +54,15 @@ pub trait Real:
     /// values and slopes.
     fn lookup<const N: usize>(self, functions: impl Fn(f64) -> ([f64; N], [f64; N])) -> [Self; N];
 
+    /// Natural logarithm of a positive number.
+    fn ln(self) -> Self {
+        let [logarithm] = self.lookup(|number| ([libm::log(number)], [1.0 / number]));
+        logarithm
+    }
+    /// A positive number raised to a power.
+    fn powf(self, exponent: Self) -> Self {
+        (self.ln() * exponent).exp()
+    }
     /// Absolute value; its derivative at zero is taken from the left.
     fn abs(self) -> Self {
         self.select(self, -self)
@@ -198,6 +207,17 @@ mod tests {
             let dual = polynomial_with_kink(Dual64::new(x, 1.0));
             prop_assert!((dual.re - polynomial_with_kink(x)).abs() < 1e-12 * (1.0 + dual.re.abs()));
             prop_assert!((dual.eps - difference).abs() < 1e-6 * (1.0 + difference.abs()));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn powers_agree_with_those_of_the_library(x in 0.1..10.0_f64, exponent in -3.0..3.0_f64) {
+            let power = Real::powf(Dual64::new(x, 1.0), Dual64::from(exponent));
+            prop_assert!((power.re / x.powf(exponent) - 1.0).abs() < 1e-14);
+            prop_assert!((power.eps - exponent * x.powf(exponent - 1.0)).abs() < 1e-13 * power.eps.abs());
+            let by_exponent = Real::powf(Dual64::from(x), Dual64::new(exponent, 1.0));
+            prop_assert!((by_exponent.eps - x.ln() * x.powf(exponent)).abs() < 1e-13 * (1.0 + power.re));
         }
     }
 

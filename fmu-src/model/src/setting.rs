@@ -84,6 +84,8 @@ impl_setting! {
 
 /// A struct of settings; made by `#[derive(Settings)]`.
 pub trait Settings: Clone + PartialEq + std::fmt::Debug + Send + 'static {
+    /// Number of settings, those of groups included.
+    const COUNT: usize;
     /// Declared start values.
     fn starts() -> Self;
     /// Declares the settings in order.
@@ -99,6 +101,7 @@ pub trait Settings: Clone + PartialEq + std::fmt::Debug + Send + 'static {
 pub struct NoSettings;
 
 impl Settings for NoSettings {
+    const COUNT: usize = 0;
     fn starts() -> Self {
         Self
     }
@@ -129,12 +132,18 @@ mod tests {
 
     #[derive(DeriveSettings, Clone, Debug, PartialEq)]
     struct Sheet {
-        /// Shape
-        #[set(start = Shape::Square)]
-        shape: Shape,
+        /// Outline
+        outline: Outline,
         /// File
         #[set(name = "profile.file", start = "a.csv", tunable)]
         file: String,
+    }
+
+    #[derive(DeriveSettings, Clone, Debug, PartialEq)]
+    struct Outline {
+        /// Shape
+        #[set(start = Shape::Square)]
+        shape: Shape,
     }
 
     #[test]
@@ -142,7 +151,7 @@ mod tests {
         let mut sheet = Sheet::starts();
         assert_eq!(sheet.get(0), Some(Value::Integer(2)));
         assert_eq!(sheet.set(0, Value::Integer(1)), Some(()));
-        assert_eq!(sheet.shape, Shape::Round);
+        assert_eq!(sheet.outline.shape, Shape::Round);
         assert_eq!(sheet.set(0, Value::Integer(3)), None);
         assert_eq!(sheet.set(1, Value::Boolean(true)), None);
         assert_eq!(sheet.get(2), None);

@@ -63,6 +63,8 @@ units! {
     ONE = "1" {};
     /// Kilogram.
     KG = "kg" { kg: 1 };
+    /// Kilogram square metre: a moment of inertia.
+    KG_M2 = "kg.m2" { kg: 1, m: 2 };
     /// Metre.
     M = "m" { m: 1 };
     /// Second.
@@ -71,6 +73,16 @@ units! {
     A = "A" { a: 1 };
     /// Radian.
     RAD = "rad" { rad: 1 };
+    /// Radian per second.
+    RAD_PER_S = "rad/s" { rad: 1, s: -1 };
+    /// Radian per second squared.
+    RAD_PER_S2 = "rad/s2" { rad: 1, s: -2 };
+    /// Second per radian: a duty cycle that is made of a speed.
+    S_PER_RAD = "s/rad" { s: 1, rad: -1 };
+    /// Second squared per radian: a duty cycle that is made of an acceleration.
+    S2_PER_RAD = "s2/rad" { s: 2, rad: -1 };
+    /// Per radian: a duty cycle that is made of an angle.
+    PER_RAD = "1/rad" { rad: -1 };
     /// Hertz.
     HZ = "Hz" { s: -1 };
     /// Hertz per second.
@@ -81,7 +93,9 @@ units! {
     M_PER_S = "m/s" { m: 1, s: -1 };
     /// Metre per second squared.
     M_PER_S2 = "m/s2" { m: 1, s: -2 };
-    /// Cubic metre: a road's displacement spectral density over spatial frequency.
+    /// Square metre.
+    M2 = "m2" { m: 2 };
+    /// Cubic metre; also a road's displacement spectral density over spatial frequency.
     M3 = "m3" { m: 3 };
     /// Cycles per metre.
     PER_M = "1/m" { m: -1 };
@@ -93,16 +107,72 @@ units! {
     N_PER_M2 = "N/m2" { kg: 1, m: -1, s: -2 };
     /// Newton second per metre.
     N_S_PER_M = "N.s/m" { kg: 1, s: -1 };
+    /// Kilogram per cubic metre.
+    KG_PER_M3 = "kg/m3" { kg: 1, m: -3 };
+    /// Pascal.
+    PA = "Pa" { kg: 1, m: -1, s: -2 };
+    /// Cubic metre per second.
+    M3_PER_S = "m3/s" { m: 3, s: -1 };
+    /// Square metre per second: the flow of one metre of valve opening.
+    M2_PER_S = "m2/s" { m: 2, s: -1 };
+    /// Cubic metre per second and pascal: a leakage.
+    M5_PER_N_S = "m5/(N.s)" { kg: -1, m: 4, s: 1 };
+    /// Newton per metre to the fifth: the pressure of one cubic metre of oil that is forced in.
+    N_PER_M5 = "N/m5" { kg: 1, m: -4, s: -2 };
+    /// Newton metre second per radian: what a rotary damper has.
+    N_M_S_PER_RAD = "N.m.s/rad" { kg: 1, m: 2, s: -1, rad: -1 };
+    /// Newton metre: a torque.
+    N_M = "N.m" { kg: 1, m: 2, s: -2 };
+    /// Radian per metre: how far something turns for a way.
+    RAD_PER_M = "rad/m" { m: -1, rad: 1 };
+    /// Pascal second per cubic metre: what a valve makes of a flow.
+    PA_S_PER_M3 = "Pa.s/m3" { kg: 1, m: -4, s: -1 };
+    /// Newton metre per radian: what a speed controller makes of a speed with time.
+    N_M_PER_RAD = "N.m/rad" { kg: 1, m: 2, s: -2, rad: -1 };
+    /// Newton metre second squared per radian: what a speed controller makes of an acceleration.
+    N_M_S2_PER_RAD = "N.m.s2/rad" { kg: 1, m: 2, rad: -1 };
+    /// Metre per second and newton: what a force controller makes of a force.
+    M_PER_S_N = "m/(s.N)" { kg: -1, s: 1 };
+    /// Metre per second squared and newton: what a force controller makes of a force with time.
+    M_PER_S2_N = "m/(s2.N)" { kg: -1 };
+    /// Radian per second and newton: what a force controller makes of a force.
+    RAD_PER_S_N = "rad/(s.N)" { kg: -1, m: -1, s: 1, rad: 1 };
+    /// Radian per second squared and newton: what a force controller makes of a force with time.
+    RAD_PER_S2_N = "rad/(s2.N)" { kg: -1, m: -1, rad: 1 };
     /// Watt.
     W = "W" { kg: 1, m: 2, s: -3 };
     /// Volt.
     V = "V" { kg: 1, m: 2, s: -3, a: -1 };
+    /// Volt per second.
+    V_PER_S = "V/s" { kg: 1, m: 2, s: -4, a: -1 };
+    /// Metre per volt.
+    M_PER_V = "m/V" { kg: -1, m: -1, s: 3, a: 1 };
+    /// Metre per second and volt.
+    M_PER_V_S = "m/(V.s)" { kg: -1, m: -1, s: 2, a: 1 };
+    /// Volt second squared per metre: the sensitivity of an accelerometer.
+    V_S2_PER_M = "V.s2/m" { kg: 1, m: 1, s: -1, a: -1 };
+    /// Volt per newton: the sensitivity of a load cell.
+    V_PER_N = "V/N" { m: 1, s: -1, a: -1 };
+    /// Volt per ampere: the sensitivity of a current sensor.
+    V_PER_A = "V/A" { kg: 1, m: 2, s: -3, a: -2 };
     /// Ampere per volt.
     A_PER_V = "A/V" { kg: -1, m: -2, s: 3, a: 2 };
+    /// Newton metre per ampere: what a motor makes of its current.
+    N_M_PER_A = "N.m/A" { kg: 1, m: 2, s: -2, a: -1 };
     /// Newton per ampere.
     N_PER_A = "N/A" { kg: 1, m: 1, s: -2, a: -1 };
     /// Newton per volt.
     N_PER_V = "N/V" { m: -1, s: 1, a: 1 };
+    /// Ohm: a resistance, or what a current controller makes of a current.
+    OHM = "Ohm" { kg: 1, m: 2, s: -3, a: -2 };
+    /// Ohm per second: what a current controller makes of a current with time.
+    OHM_PER_S = "Ohm/s" { kg: 1, m: 2, s: -4, a: -2 };
+    /// Henry.
+    H = "H" { kg: 1, m: 2, s: -2, a: -2 };
+    /// Ampere per metre: what a velocity controller makes of a velocity with time.
+    A_PER_M = "A/m" { a: 1, m: -1 };
+    /// Ampere second per metre: what a velocity controller makes of a velocity.
+    A_S_PER_M = "A.s/m" { a: 1, m: -1, s: 1 };
     /// Ampere squared second: what an I²t limiter accumulates.
     A2_S = "A2.s" { a: 2, s: 1 };
     /// Per volt and second.
@@ -135,8 +205,11 @@ mod tests {
                     "rad" => [0, 0, 0, 0, 0, 1],
                     "Hz" => [0, 0, -1, 0, 0, 0],
                     "N" => [1, 1, -2, 0, 0, 0],
+                    "Pa" => [1, -1, -2, 0, 0, 0],
                     "W" => [1, 2, -3, 0, 0, 0],
                     "V" => [1, 2, -3, -1, 0, 0],
+                    "Ohm" => [1, 2, -3, -2, 0, 0],
+                    "H" => [1, 2, -2, -2, 0, 0],
                     other => panic!("unknown unit {other}"),
                 };
                 for (sum, exponent) in total.iter_mut().zip(base) {

@@ -13,8 +13,9 @@ use syn::{Attribute, DeriveInput, Expr, ExprLit, Lit, Meta, parse_macro_input};
 /// A field of the struct's type parameter is a variable and carries `#[var(...)]` with `unit` (a
 /// constant of `strut_model::unit` or any expression of type `Unit`) and, optional, `start` (0),
 /// `min`, `max`, `nominal`, `fixed` (a parameter that is fixed at initialisation) and `output` (a
-/// state that is an output as well). A field of another type is a group: its variables are named
-/// `field.variable`.
+/// state that is an output as well). An array of them is declared alike, with one start for all or an
+/// array of starts; its variables are named `field[1]`, `field[2]` and so on. A field of another type is
+/// a group: its variables are named `field.variable`.
 #[proc_macro_derive(Variables, attributes(var))]
 pub fn derive_variables(input: TokenStream) -> TokenStream {
     expand(&parse_macro_input!(input as DeriveInput), variables::expand)
@@ -22,7 +23,8 @@ pub fn derive_variables(input: TokenStream) -> TokenStream {
 
 /// Makes a struct a set of declared settings: parameters that are not real numbers.
 ///
-/// Every field carries `#[set(start = ...)]` and, optional, `name = "dotted.name"` and `tunable`.
+/// A field carries `#[set(start = ...)]` and, optional, `name = "dotted.name"` and `tunable`. One that
+/// carries nothing is a group: a struct of settings of its own, whose names stand as they are.
 #[proc_macro_derive(Settings, attributes(set))]
 pub fn derive_settings(input: TokenStream) -> TokenStream {
     expand(&parse_macro_input!(input as DeriveInput), settings::expand)

@@ -41,6 +41,24 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
                 name: #text.into(), doc: #doc.into(), unit: #unit, start: #start,
                 min: #min, max: #max, nominal: #nominal, fixed: #fixed, output: #output,
             });));
+        } else if let Some(length) = array_length(&field.ty, scalar) {
+            let Var { unit, start, min, max, nominal, fixed, output } = parse(field, ident)?;
+            let (min, max, nominal) = (option(min), option(max), option(nominal));
+            // One start for all, or one for each.
+            let start = match start {
+                Expr::Array(starts) => quote!({ let starts: [f64; #length] = #starts; starts[index] }),
+                same => same.to_token_stream(),
+            };
+            count.push(quote!(#length));
+            gather.push(quote!(#ident: ::core::array::from_fn(|_| next())));
+            scatter.push(quote!(self.#ident.into_iter().for_each(&mut *put);));
+            declare.push(quote!(for index in 0..#length {
+                declarations.variable(::strut_model::Declaration {
+                    name: format!("{}[{}]", #text, index + 1), doc: format!("{}, {}", #doc, index + 1),
+                    unit: #unit, start: #start, min: #min, max: #max, nominal: #nominal, fixed: #fixed,
+                    output: #output,
+                });
+            }));
         } else {
             let ty = &field.ty;
             let concrete = with_f64(ty.to_token_stream(), scalar);
@@ -128,6 +146,14 @@ fn option(value: Option<Expr>) -> TokenStream {
 
 fn is_scalar(ty: &Type, scalar: &Ident) -> bool {
     matches!(ty, Type::Path(path) if path.qself.is_none() && path.path.is_ident(scalar))
+}
+
+/// The length of an array of scalars.
+fn array_length<'a>(ty: &'a Type, scalar: &Ident) -> Option<&'a Expr> {
+    match ty {
+        Type::Array(array) if is_scalar(&array.elem, scalar) => Some(&array.len),
+        _ => None,
+    }
 }
 
 /// The type with `f64` in place of the scalar: array lengths may not name a type parameter.

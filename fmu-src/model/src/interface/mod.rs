@@ -169,6 +169,12 @@ impl Interface {
         {
             variables.push(setting(reference as u32, declaration, value));
         }
+        // Who sees the value in a tool must see that its source does not give it.
+        for (name, _) in set.iter().flat_map(|set| &set.values).filter(|(_, given)| given.assumed) {
+            for variable in variables.iter_mut().filter(|variable| variable.name == *name) {
+                variable.doc.push_str(" (value assumed)");
+            }
+        }
         let structure = Structure::new::<M>(&dependency, &variables);
         Ok(Self { about: M::ABOUT, variables, structure, states: Layout::<M>::STATES })
     }
