@@ -66,6 +66,20 @@ fn every_set_fits_its_model_and_runs() {
 }
 
 #[test]
+fn assumed_values_say_so_in_the_description() {
+    let mut seen = 0;
+    for set in sets() {
+        let interface = fmu(&set.fmu);
+        for (name, given) in &set.values {
+            let says = interface.variable(name).unwrap().doc.ends_with("(value assumed)");
+            assert_eq!(says, given.assumed, "{}: {name}", set.fmu);
+            seen += usize::from(says);
+        }
+    }
+    assert!(seen > 100);
+}
+
+#[test]
 fn every_declared_model_runs_and_shows_something() {
     for entry in CATALOGUE {
         let trajectory =
@@ -85,7 +99,17 @@ fn every_declared_model_runs_and_shows_something() {
 }
 
 #[test]
-fn names_are_unique_and_files_are_listed() {
+fn variables_have_names_of_their_own() {
+    for entry in CATALOGUE {
+        let mut names = BTreeSet::new();
+        for variable in entry.interface(None, None).unwrap().variables {
+            assert!(names.insert(variable.name.clone()), "{}: {} twice", entry.about.name, variable.name);
+        }
+    }
+}
+
+#[test]
+fn names_are_unique_and_files_exist() {
     let mut names: BTreeSet<String> = CATALOGUE.iter().map(|entry| entry.about.name.to_owned()).collect();
     for set in sets() {
         assert!(names.insert(set.fmu.clone()), "{} twice", set.fmu);
@@ -93,13 +117,6 @@ fn names_are_unique_and_files_are_listed() {
             assert!(resources().join(file).is_file(), "{}: {file}", set.fmu);
         }
     }
-    let listed: BTreeSet<&str> = PARAMETER_SETS.iter().map(|(file, _)| *file).collect();
-    let found: BTreeSet<String> = std::fs::read_dir(PARAMETERS)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .filter(|file| file.ends_with(".toml"))
-        .collect();
-    assert!(found.iter().map(String::as_str).eq(listed), "{found:?}");
 }
 
 #[test]
@@ -160,6 +177,23 @@ fn systems_connect_outputs_with_inputs_of_equal_unit() {
             assert_eq!(given["unit"].as_str(), Some(unit.symbol), "{file}: {path}");
             assert_eq!(given["value"].as_float(), start, "{file}: {path} must restate what is built in");
         }
+    }
+}
+
+/// A passive configuration is a set of its own for masters that do not apply parameter sets; nothing else may differ.
+#[test]
+fn passive_actuators_are_the_active_ones_with_their_pumps_locked() {
+    for valves in ["Soft", "Hard"] {
+        let values = |kind: &str| {
+            let name = format!("Ajala{kind}{valves}PumpHydraulicActuator");
+            let set =
+                sets().into_iter().find(|set| set.fmu == name).unwrap_or_else(|| panic!("no set {name}"));
+            set.values.into_iter().map(|(name, given)| (name, given.value)).collect::<Vec<_>>()
+        };
+        let (active, mut passive) = (values(""), values("Passive"));
+        passive.retain(|(name, value)| !(name == "pump.locked" && *value == Value::Boolean(true)));
+        assert_eq!(passive.len() + 1, values("Passive").len(), "{valves}: the pump is not locked");
+        assert_eq!(active, passive);
     }
 }
 

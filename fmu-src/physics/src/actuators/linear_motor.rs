@@ -8,6 +8,8 @@ use strut_model::{
 
 use crate::signals::Travel;
 
+use super::Overload;
+
 /// The suspension actuator of TUM 3.2.2 and 4.2: a voltage commands a current, the current makes the force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearMotor;
@@ -51,6 +53,14 @@ pub struct Parameters<R> {
     /// Largest speed (Table 3)
     #[var(unit = M_PER_S, start = 4.0, min = 0.0)]
     pub speed_limit: R,
+}
+
+impl<R: Real> Parameters<R> {
+    #[inline]
+    fn overload(&self) -> Overload<R> {
+        let Self { peak_current, continuous_current, peak_time, fade, .. } = *self;
+        Overload { peak_current, continuous_current, peak_time, fade }
+    }
 }
 
 /// What comes from outside.
@@ -180,19 +190,12 @@ impl Model for LinearMotor {
         Derived {
             static_gain,
             force_gain: static_gain * p.force_constant,
-            overload_capacity: (p.peak_current.squared() - p.continuous_current.squared()) * p.peak_time,
+            overload_capacity: p.overload().capacity(),
         }
     }
 
     fn check(&self, p: &Parameters<f64>, _: &Derived<f64>) -> Result<(), String> {
-        if p.peak_current > p.continuous_current {
-            return Ok(());
-        }
-        Err(format!(
-            "peak_current = {} A must be larger than continuous_current = {} A: there would be no overload \
-             to limit",
-            p.peak_current, p.continuous_current
-        ))
+        p.overload().check()
     }
 
     #[inline]
@@ -200,16 +203,10 @@ impl Model for LinearMotor {
         let (x, u, p) = (now.state, now.input, now.parameters);
         let current = p.current_gain * x.delayed;
 
-        let surplus = current.squared() - p.continuous_current.squared();
-        // Empty it cannot fall, full it cannot grow.
-        let charging =
-            (now.derived.overload_capacity - x.overload).select(surplus, surplus.min(R::from(0.0)));
-        let overload = x.overload.select(charging, charging.max(R::from(0.0)));
-
         let rates = State {
             current_loop: p.input_gain * command(now) - p.electric_pole * x.current_loop,
             delayed: p.delay_pole * (x.current_loop - x.delayed),
-            overload,
+            overload: p.overload().rate(now.derived.overload_capacity, x.overload, current),
         };
         let output = Output {
             current,
@@ -225,9 +222,7 @@ impl Model for LinearMotor {
 #[inline]
 fn command<R: Real>(now: Now<'_, LinearMotor, R>) -> R {
     let (p, derived) = (now.parameters, now.derived);
-    let left = (derived.overload_capacity - now.state.overload) / (p.fade * derived.overload_capacity);
-    let share = left.clamp(R::from(0.0), R::from(1.0));
-    let current_limit = p.continuous_current + (p.peak_current - p.continuous_current) * share;
+    let current_limit = p.overload().current_limit(derived.overload_capacity, now.state.overload);
     let bound = p.voltage_limit.min(current_limit / derived.static_gain);
     (now.input.voltage + now.input.force_reference / derived.force_gain).clamp(-bound, bound)
 }

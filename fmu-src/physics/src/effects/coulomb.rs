@@ -37,6 +37,27 @@ impl<R: Real> Coulomb<R> {
     }
 }
 
+/// The same law between parts that turn: a torque that resists a relative speed.
+///
+/// Without torque it costs one question, as [`Coulomb`] does.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct RotaryCoulomb<R> {
+    /// Friction torque once the motion is fast; zero switches the friction off
+    #[var(unit = N_M, start = 0.0, min = 0.0)]
+    pub torque: R,
+    /// Speed at which 76 % of the torque is reached
+    #[var(unit = RAD_PER_S, start = 0.05, min = 1e-6)]
+    pub speed: R,
+}
+
+impl<R: Real> RotaryCoulomb<R> {
+    /// Another torque and the friction that resists `speed`.
+    #[inline]
+    pub fn added_to(&self, other: impl FnOnce() -> R, speed: R) -> R {
+        Coulomb { force: self.torque, velocity: self.speed }.added_to(other, speed)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -62,6 +83,13 @@ mod tests {
         #[test]
         fn without_force_it_is_absent(v in -5.0..5.0_f64) {
             prop_assert_eq!(Coulomb { force: 0.0, velocity: 0.008 }.added_to(|| v, v), v);
+            prop_assert_eq!(RotaryCoulomb { torque: 0.0, speed: 0.05 }.added_to(|| v, v), v);
+        }
+
+        #[test]
+        fn turning_parts_rub_as_sliding_ones_do(speed in -5.0..5.0_f64, other in -10.0..10.0_f64) {
+            let bearing = RotaryCoulomb { torque: 115.0, speed: 0.008 };
+            prop_assert_eq!(bearing.added_to(|| other, speed), STRUT.added_to(|| other, speed));
         }
     }
 }

@@ -7,9 +7,11 @@
 mod asymmetry;
 mod coulomb;
 mod lift_off;
+mod pwm;
 mod quadratic;
 
 pub use asymmetry::Asymmetry;
-pub use coulomb::Coulomb;
+pub use coulomb::{Coulomb, RotaryCoulomb};
 pub use lift_off::LiftOff;
+pub use pwm::{Pwm, PwmOptions};
 pub use quadratic::Quadratic;

@@ -1,7 +1,19 @@
 //! Elements between masses: the textbook law with the effects that may sit on it.
 
+mod anti_roll_bar;
+mod corner;
+mod hydraulics;
+mod mode;
+mod servo_cylinder;
 mod strut;
 mod tire;
+mod valve;
 
+pub use anti_roll_bar::AntiRollBar;
+pub use corner::{Corner, Moving};
+pub use hydraulics::{Gas, Piston, Pump};
+pub use mode::Mode;
+pub use servo_cylinder::{Flow, Hydraulics, ServoCylinder, ValveLaw};
 pub use strut::Strut;
-pub use tire::Tire;
+pub use tire::{Load, Tire};
+pub use valve::{Valve, Valves};

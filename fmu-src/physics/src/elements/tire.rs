@@ -2,6 +2,7 @@
 
 use strut_model::{Real, Variables};
 
+use crate::GRAVITY;
 use crate::effects::{Coulomb, LiftOff, Quadratic};
 
 /// Tyre, TUM eq. 5 with the quadratic rate (4.3.2) and the friction of Table 7:
@@ -21,6 +22,25 @@ pub struct Tire<R> {
     pub coulomb: Coulomb<R>,
 }
 
+/// What stands on a tyre.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct Load<R> {
+    /// Load at static equilibrium
+    #[var(unit = N)]
+    pub static_load: R,
+    /// Deflection (wheel above road) at which the tyre's spring carries nothing
+    #[var(unit = M)]
+    pub lift_off_deflection: R,
+}
+
+impl<R: Real> Load<R> {
+    /// Where the tyre leaves the road.
+    #[inline]
+    pub fn lift_off(&self) -> LiftOff<R> {
+        LiftOff { load: self.static_load, compression: -self.lift_off_deflection }
+    }
+}
+
 impl<R: Real> Tire<R> {
     /// The force that presses on the road, less the static load, while the tyre cannot leave it.
     #[inline]
@@ -33,16 +53,42 @@ impl<R: Real> Tire<R> {
         self.coulomb.added_to(passive, velocity)
     }
 
-    /// Where and with what the tyre leaves the road under a static load.
+    /// The same tyre with a damping rate of zero, for those who integrate the damper's force themselves.
     #[inline]
-    pub fn lift_off(&self, load: R) -> LiftOff<R> {
-        LiftOff { load, compression: self.spring().compression_at_relief(load) }
+    pub fn without_damping(&self) -> Self {
+        Self { damping: R::from(0.0), ..*self }
+    }
+
+    /// What a mass of `carried` kilograms means for the tyre.
+    pub fn load(&self, carried: R) -> Load<R> {
+        let static_load = carried * GRAVITY;
+        Load { static_load, lift_off_deflection: -self.spring().compression_at_relief(static_load) }
     }
 
     /// The spring alone.
     #[inline]
     pub fn spring(&self) -> Quadratic<R> {
         Quadratic { stiffness: self.stiffness, quadratic: self.quadratic }
+    }
+}
+
+impl Tire<f64> {
+    /// Refuses a tyre that would never leave the road; `name` is that of its parameters.
+    ///
+    /// # Errors
+    /// The parameters, their values and their bound.
+    pub fn check_lift_off(&self, name: &str, load: &Load<f64>) -> Result<(), String> {
+        let Self { stiffness, quadratic, .. } = *self;
+        let load = load.static_load;
+        if self.spring().reaches(load) {
+            return Ok(());
+        }
+        Err(format!(
+            "the tyre would never leave the road: with {name}.stiffness = {stiffness} N/m and {name}.quadratic = \
+             {quadratic} N/m2 its force never falls to the static load of {load} N below rest; lift-off needs \
+             {name}.quadratic < {name}.stiffness^2 / (4 · load) = {} N/m2, or set tire.lift_off to false",
+            stiffness.powi(2) / (4.0 * load)
+        ))
     }
 }
 
@@ -62,9 +108,9 @@ mod tests {
 
     #[test]
     fn table_10_lifts_off_near_10_7_millimetres() {
-        let lift_off = tire(4_075_400.0, 0.0).lift_off((94.38 + 23.92) * crate::GRAVITY);
-        assert!((lift_off.load - 1160.127).abs() < 1e-3);
-        assert!((lift_off.compression + 10.682e-3).abs() < 1e-6);
+        let load = tire(4_075_400.0, 0.0).load(94.38 + 23.92);
+        assert!((load.static_load - 1160.127).abs() < 1e-3);
+        assert!((load.lift_off_deflection - 10.682e-3).abs() < 1e-6);
     }
 
     proptest! {

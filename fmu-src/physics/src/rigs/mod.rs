@@ -1,5 +1,15 @@
 //! Plants: masses and what holds them together.
 
+mod element_dyno;
+mod full_car;
 mod quarter_car;
+mod sas_rig;
+mod servo_suspension;
+mod servo_suspension_identified;
 
+pub use element_dyno::ElementDyno;
+pub use full_car::FullCar;
 pub use quarter_car::QuarterCar;
+pub use sas_rig::{SasRig, SpringLever};
+pub use servo_suspension::ServoSuspension;
+pub use servo_suspension_identified::ServoSuspensionIdentified;

@@ -4,17 +4,15 @@
 //! Konieczny eq. 2.14–2.15 (f_s being the actuator force) and Ajala eq. 27; with effects it is the gray-box
 //! model of TUM 4.3–4.4. Which rig it is, is a matter of parameters.
 
-use std::f64::consts::TAU;
 use std::path::Path;
 
 use strut_model::{
     About, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
 };
 
-use crate::GRAVITY;
 use crate::effects::Coulomb;
-use crate::elements::{Strut, Tire};
-use crate::signals::{Deflection, RoadMotion, Travel};
+use crate::elements::{Corner, Load, Mode, Strut, Tire};
+use crate::signals::{Acceleration, Deflection, Motion, Pushing, RoadMotion, Travel, WheelMotion};
 
 /// A quarter of a car, or a test rig of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,15 +59,7 @@ pub struct Input<R> {
     /// Road under the tyre
     pub road: RoadMotion<R>,
     /// Actuator between body and wheel
-    pub actuator: Actuator<R>,
-}
-
-/// The actuator.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Actuator<R> {
-    /// Force, positive if it pushes body and wheel apart (F, F_c, f_s, F_a)
-    #[var(unit = N)]
-    pub force: R,
+    pub actuator: Pushing<R>,
 }
 
 /// The motion.
@@ -81,47 +71,17 @@ pub struct State<R> {
     pub wheel: Motion<R>,
 }
 
-/// Of one mass.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Motion<R> {
-    /// Height above static equilibrium
-    #[var(unit = M, nominal = 0.01, output)]
-    pub position: R,
-    /// Velocity, positive upwards
-    #[var(unit = M_PER_S, nominal = 0.1, output)]
-    pub velocity: R,
-}
-
 /// What can be measured.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Output<R> {
     /// Body
     pub body: Acceleration<R>,
     /// Wheel
-    pub wheel: WheelOutput<R>,
+    pub wheel: WheelMotion<R>,
     /// Suspension
     pub suspension: Travel<R>,
     /// Tyre
     pub tire: Deflection<R>,
-}
-
-/// Of the body.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Acceleration<R> {
-    /// Acceleration, positive upwards
-    #[var(unit = M_PER_S2)]
-    pub acceleration: R,
-}
-
-/// Of the wheel.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct WheelOutput<R> {
-    /// Acceleration, positive upwards
-    #[var(unit = M_PER_S2)]
-    pub acceleration: R,
-    /// Dynamic wheel load, positive if it presses on the road (F_dyn)
-    #[var(unit = N)]
-    pub force: R,
 }
 
 /// What follows from the parameters.
@@ -132,29 +92,7 @@ pub struct Derived<R> {
     /// Wheel alone
     pub wheel: Mode<R>,
     /// Tyre
-    pub tire: TireDerived<R>,
-}
-
-/// A mass that moves alone, as TUM's Tables 7, 9 and 10 have it.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Mode<R> {
-    /// Undamped natural frequency, uncoupled
-    #[var(unit = HZ)]
-    pub natural_frequency: R,
-    /// Damping ratio, uncoupled
-    #[var(unit = ONE)]
-    pub damping_ratio: R,
-}
-
-/// Of the tyre.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct TireDerived<R> {
-    /// Load at static equilibrium
-    #[var(unit = N)]
-    pub static_load: R,
-    /// Deflection (wheel above road) at which the tyre's spring carries nothing
-    #[var(unit = M)]
-    pub lift_off_deflection: R,
+    pub tire: Load<R>,
 }
 
 impl Model for QuarterCar {
@@ -235,73 +173,45 @@ impl Model for QuarterCar {
 
     /// Uncoupled modes by the formulas behind TUM's Tables 9 and 10.
     fn derive<R: Real>(&self, p: &Parameters<R>) -> Derived<R> {
-        let mode = |frequency_rate: R, damping_rate: R, mass: R| Mode {
-            natural_frequency: (frequency_rate / mass).sqrt() / TAU,
-            damping_ratio: p.strut.damping / ((damping_rate * mass).sqrt() * 2.0),
-        };
-        let static_load = (p.sprung_mass + p.unsprung_mass) * GRAVITY;
+        let (strut, tire) = (p.strut, p.tire);
+        let both = strut.stiffness + tire.stiffness;
         Derived {
-            body: mode(p.strut.stiffness, p.strut.stiffness, p.sprung_mass),
-            wheel: mode(p.tire.stiffness, p.strut.stiffness + p.tire.stiffness, p.unsprung_mass),
-            tire: TireDerived { static_load, lift_off_deflection: -p.tire.lift_off(static_load).compression },
+            body: Mode::of(p.sprung_mass, strut.stiffness, strut.stiffness, strut.damping),
+            wheel: Mode::of(p.unsprung_mass, tire.stiffness, both, strut.damping),
+            tire: tire.load(p.sprung_mass + p.unsprung_mass),
         }
     }
 
     fn check(&self, p: &Parameters<f64>, derived: &Derived<f64>) -> Result<(), String> {
-        let (spring, load) = (p.tire.spring(), derived.tire.static_load);
-        if !self.lift_off || spring.reaches(load) {
-            return Ok(());
-        }
-        Err(format!(
-            "the tyre would never leave the road: with tire.stiffness = {} N/m and tire.quadratic = {} N/m2 \
-             its force never falls to the static load of {load} N below rest; lift-off needs tire.quadratic \
-             < tire.stiffness^2 / (4 · load) = {} N/m2, or set tire.lift_off to false",
-            p.tire.stiffness,
-            p.tire.quadratic,
-            p.tire.stiffness.powi(2) / (4.0 * load)
-        ))
+        if self.lift_off { p.tire.check_lift_off("tire", &derived.tire) } else { Ok(()) }
     }
 
     #[inline(always)]
     fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
         let (State { body, wheel }, p) = (*now.state, now.parameters);
         let (road, actuator) = (now.input.road, now.input.actuator.force);
-
-        let (deflection, velocity) = (body.position - wheel.position, body.velocity - wheel.velocity);
-        let strut = p.strut.force(deflection, velocity);
-        let on_body = p.guide.coulomb.added_to(|| strut, body.velocity);
-        let tire = self.tire_force(road.position - wheel.position, road.velocity - wheel.velocity, now);
-
-        // Reciprocals, which do not wait for the forces as quotients would.
-        let (per_sprung, per_unsprung) = (R::from(1.0) / p.sprung_mass, R::from(1.0) / p.unsprung_mass);
-        let body_acceleration = (actuator - on_body) * per_sprung;
-        let wheel_acceleration = (strut - actuator + tire) * per_unsprung;
+        let corner = Corner {
+            strut: &p.strut,
+            unsprung_mass: p.unsprung_mass,
+            tire: &p.tire,
+            lift_off: if self.lift_off { Some(now.derived.tire.lift_off()) } else { None },
+        };
+        let moving = corner.between(body, wheel, road, actuator);
+        let on_body = p.guide.coulomb.added_to(|| moving.strut_force, body.velocity);
+        // The reciprocal does not wait for the force as the quotient would.
+        let acceleration = (actuator - on_body) * (R::from(1.0) / p.sprung_mass);
 
         let rates = State {
-            body: Motion { position: body.velocity, velocity: body_acceleration },
-            wheel: Motion { position: wheel.velocity, velocity: wheel_acceleration },
+            body: Motion { position: body.velocity, velocity: acceleration },
+            wheel: Motion { position: wheel.velocity, velocity: moving.wheel.acceleration },
         };
         let output = Output {
-            body: Acceleration { acceleration: body_acceleration },
-            wheel: WheelOutput { acceleration: wheel_acceleration, force: tire },
-            suspension: Travel { deflection, velocity },
-            tire: Deflection { deflection: wheel.position - road.position },
+            body: Acceleration { acceleration },
+            wheel: moving.wheel,
+            suspension: moving.suspension,
+            tire: moving.tire,
         };
         (rates, output)
-    }
-}
-
-impl QuarterCar {
-    #[inline]
-    fn tire_force<R: Real>(&self, compression: R, velocity: R, now: Now<'_, Self, R>) -> R {
-        let force = now.parameters.tire.force(compression, velocity);
-        if !self.lift_off {
-            return force;
-        }
-        let derived = now.derived.tire;
-        let lift_off =
-            crate::effects::LiftOff { load: derived.static_load, compression: -derived.lift_off_deflection };
-        lift_off.applied(force, compression)
     }
 }
 

@@ -4,10 +4,11 @@ use std::path::Path;
 
 use strut_model::{About, Experiment, Kind, Model, Now, Real, Settings, Variables, bundles};
 
+use crate::car::Corners;
 use crate::signals::RoadMotion;
 
 use super::{
-    IsoClass, Profile, RoadKind, Shape,
+    Course, Profile, Shape,
     road::{EQUATIONS, NOTES},
 };
 
@@ -21,19 +22,8 @@ pub struct FourWheelRoad {
 /// What road it is.
 #[derive(Settings, Clone, Debug, PartialEq)]
 pub struct Options {
-    /// Shape of the road
-    #[set(start = RoadKind::Bump)]
-    kind: RoadKind,
-    /// Class of a random road (ISO 8608)
-    #[set(start = IsoClass::C)]
-    iso_class: IsoClass,
-    /// Seed of a random road: equal seeds give equal roads
-    #[set(start = 1)]
-    seed: i32,
-    /// File of a measured profile in the FMU's resources, or an absolute path: CSV with the header
-    /// `time [s], position [m]`
-    #[set(start = "profile.csv")]
-    file: String,
+    /// Course
+    course: Course,
     /// Left and right wheels run over the same random track (others are the same anyway)
     #[set(start = false)]
     same_track: bool,
@@ -50,17 +40,7 @@ pub struct Parameters<R> {
 }
 
 /// The motion of the road under each wheel.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Output<R> {
-    /// Front left
-    pub front_left: RoadMotion<R>,
-    /// Front right
-    pub front_right: RoadMotion<R>,
-    /// Rear left
-    pub rear_left: RoadMotion<R>,
-    /// Rear right
-    pub rear_right: RoadMotion<R>,
-}
+pub type Roads<R> = Corners<RoadMotion<R>>;
 
 impl Model for FourWheelRoad {
     const ABOUT: About = About {
@@ -78,39 +58,35 @@ impl Model for FourWheelRoad {
         ..About::DEFAULT
     };
 
-    bundles! { settings: Options, parameters: Parameters, output: Output }
+    bundles! { settings: Options, parameters: Parameters, output: Roads }
 
     fn prepare(options: &Options, resources: Option<&Path>) -> Result<Self, String> {
-        let Options { kind, iso_class, seed, file, same_track } = options;
-        let track = |number: usize| Profile::new(*kind, *iso_class, *seed, number, file, resources);
-        Ok(Self { left: track(0)?, right: track(usize::from(!same_track))? })
+        let track = |number: usize| options.course.profile(number, resources);
+        Ok(Self { left: track(0)?, right: track(usize::from(!options.same_track))? })
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (strut_model::Nothing, Output<R>) {
+    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (strut_model::Nothing, Roads<R>) {
         let Parameters { profile: shape, wheelbase } = now.parameters;
         let front = now.time - shape.start_time;
         let rear = front - *wheelbase / shape.speed;
-        let under = |track: &Profile, tau: R| {
-            let [position, velocity] = track.at(tau, shape);
-            RoadMotion { position, velocity }
+        let under = |tau: R| {
+            Profile::side_by_side([&self.left, &self.right], tau, shape)
+                .map(|[position, velocity]| RoadMotion { position, velocity })
         };
-        let output = Output {
-            front_left: under(&self.left, front),
-            front_right: under(&self.right, front),
-            rear_left: under(&self.left, rear),
-            rear_right: under(&self.right, rear),
-        };
+        let ([front_left, front_right], [rear_left, rear_right]) = (under(front), under(rear));
+        let output = Roads { front_left, front_right, rear_left, rear_right };
         (strut_model::Nothing, output)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::RoadKind;
     use super::*;
     use proptest::prelude::*;
     use strut_model::{Bundle, Declarations, Nothing};
 
-    fn output(car: &FourWheelRoad, time: f64) -> Output<f64> {
+    fn output(car: &FourWheelRoad, time: f64) -> Roads<f64> {
         let declared = Declarations::of::<Parameters<f64>>();
         let parameters = Bundle::from_fn(|i| declared[i].start);
         car.equations(Now {
@@ -126,7 +102,8 @@ mod tests {
     }
 
     fn random(same_track: bool) -> FourWheelRoad {
-        let options = Options { kind: RoadKind::Iso8608, same_track, ..Options::starts() };
+        let course = Course { kind: RoadKind::Iso8608, ..Course::starts() };
+        let options = Options { course, same_track };
         FourWheelRoad::prepare(&options, None).unwrap()
     }
 

@@ -8,6 +8,6 @@ mod road;
 
 pub use four_wheel_road::FourWheelRoad;
 pub use iso8608::{IsoClass, IsoTrack};
-pub use profile::{Profile, RoadKind, Shape};
+pub use profile::{Course, Profile, RoadKind, Shape};
 pub use recorded::Recorded;
 pub use road::Road;

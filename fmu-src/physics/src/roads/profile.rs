@@ -1,9 +1,11 @@
 //! The shapes that a road can have, as functions of the time since the start.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 use std::path::Path;
 
-use strut_model::{Choice, Real, Variables};
+use strut_model::{Choice, Real, Settings, Variables};
+
+use crate::waveform::{Chirp, edge, sine, square};
 
 use super::{IsoClass, IsoTrack, Recorded};
 
@@ -58,20 +60,6 @@ pub struct Shape<R> {
     pub speed: R,
 }
 
-/// A sweep of the frequency.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Chirp<R> {
-    /// Frequency at the start
-    #[var(unit = HZ, start = 1.0, min = 0.0)]
-    pub start_frequency: R,
-    /// Frequency at the end, and afterwards
-    #[var(unit = HZ, start = 8.0, min = 0.0)]
-    pub end_frequency: R,
-    /// Duration of the sweep
-    #[var(unit = S, start = 25.0, min = 1e-3)]
-    pub duration: R,
-}
-
 /// A frequency that grows.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Ramp<R> {
@@ -99,6 +87,38 @@ pub struct Bump<R> {
     pub length: R,
 }
 
+/// Which road it is.
+#[derive(Settings, Clone, Debug, PartialEq)]
+pub struct Course {
+    /// Shape of the road
+    #[set(start = RoadKind::Sine)]
+    pub kind: RoadKind,
+    /// Class of a random road (ISO 8608)
+    #[set(start = IsoClass::C)]
+    pub iso_class: IsoClass,
+    /// Seed of a random road: equal seeds give equal roads
+    #[set(start = 1)]
+    pub seed: i32,
+    /// File of a measured profile in the FMU's resources, or an absolute path: CSV with the header
+    /// `time [s], position [m]`
+    #[set(start = "profile.csv")]
+    pub file: String,
+}
+
+impl Course {
+    /// Its profile; `track` tells the random tracks of a seed apart.
+    ///
+    /// # Errors
+    /// If the file of a measured profile cannot be used.
+    pub fn profile(&self, track: usize, resources: Option<&Path>) -> Result<Profile, String> {
+        Ok(match self.kind {
+            RoadKind::Iso8608 => Profile::Iso8608(IsoTrack::new(self.iso_class, self.seed, track)),
+            RoadKind::Recorded => Profile::Recorded(Recorded::read(&self.file, resources)?),
+            formula => Profile::Formula(formula),
+        })
+    }
+}
+
 /// A road, ready to be driven on.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Profile {
@@ -111,25 +131,6 @@ pub enum Profile {
 }
 
 impl Profile {
-    /// The profile of a kind; `track` tells the random tracks of a seed apart.
-    ///
-    /// # Errors
-    /// If the file of a measured profile cannot be used.
-    pub fn new(
-        kind: RoadKind,
-        class: IsoClass,
-        seed: i32,
-        track: usize,
-        file: &str,
-        resources: Option<&Path>,
-    ) -> Result<Self, String> {
-        Ok(match kind {
-            RoadKind::Iso8608 => Self::Iso8608(IsoTrack::new(class, seed, track)),
-            RoadKind::Recorded => Self::Recorded(Recorded::read(file, resources)?),
-            formula => Self::Formula(formula),
-        })
-    }
-
     /// Height and its rate of change, `tau` seconds after the start.
     #[inline]
     pub fn at<R: Real>(&self, tau: R, shape: &Shape<R>) -> [R; 2] {
@@ -139,8 +140,8 @@ impl Profile {
             Self::Recorded(recorded) => recorded.at(tau),
             Self::Formula(kind) => match kind {
                 RoadKind::Sine => sine(shape.amplitude, tau * shape.frequency * TAU, shape.frequency * TAU),
-                RoadKind::Square => square(tau, shape),
-                RoadKind::Chirp => chirp(tau, shape),
+                RoadKind::Square => square(tau, shape.amplitude, shape.frequency, shape.edge_time),
+                RoadKind::Chirp => shape.chirp.at(tau, shape.amplitude),
                 RoadKind::FrequencyRamp => {
                     let frequency = shape.ramp.rate * tau * TAU;
                     sine(shape.amplitude, frequency * tau * 0.5, frequency)
@@ -150,12 +151,25 @@ impl Profile {
                 RoadKind::Flat | RoadKind::Iso8608 | RoadKind::Recorded => [zero; 2],
             },
         };
-        // At the start itself the road is under way: its velocity is that from the right.
         if let Self::Recorded(_) = self {
             return active;
         }
-        active.map(|value| (-tau).select(zero, value))
+        since_start(tau, active)
     }
+
+    /// Two tracks, `tau` seconds after the start: random ones have the same waves, whose sines they share.
+    pub fn side_by_side<R: Real>(tracks: [&Self; 2], tau: R, shape: &Shape<R>) -> [[R; 2]; 2] {
+        let [Self::Iso8608(left), Self::Iso8608(right)] = tracks else {
+            return tracks.map(|track| track.at(tau, shape));
+        };
+        IsoTrack::side_by_side([left, right], tau * shape.speed)
+            .map(|track| since_start(tau, track.into_position_and_velocity(shape.speed)))
+    }
+}
+
+/// At the start itself the road is under way: its velocity is that from the right.
+fn since_start<R: Real>(tau: R, [position, velocity]: [R; 2]) -> [R; 2] {
+    [position, velocity].map(|value| (-tau).select(R::from(0.0), value))
 }
 
 /// Height and slope over the distance.
@@ -165,46 +179,6 @@ impl<R: Real> HeightAndSlope<R> {
     fn into_position_and_velocity(self, speed: R) -> [R; 2] {
         [self.0, self.1 * speed]
     }
-}
-
-/// `A sin φ` and its rate, φ' being the angular frequency.
-fn sine<R: Real>(amplitude: R, phase: R, angular_frequency: R) -> [R; 2] {
-    [amplitude * phase.sin(), amplitude * angular_frequency * phase.cos()]
-}
-
-/// From `origin` to `target` on a cosine half wave that begins at zero.
-fn edge<R: Real>(tau: R, origin: R, target: R, duration: R) -> [R; 2] {
-    let rate = R::from(PI) / duration;
-    let half = (target - origin) * 0.5;
-    let under_way = duration - tau;
-    [
-        under_way.select(origin + half * (R::from(1.0) - (rate * tau).cos()), target),
-        under_way.select(half * rate * (rate * tau).sin(), R::from(0.0)),
-    ]
-}
-
-/// Edges at k/(2f): from zero up at k = 0, then down and up in turn.
-fn square<R: Real>(tau: R, shape: &Shape<R>) -> [R; 2] {
-    let half_period = R::from(0.5) / shape.frequency;
-    // Number of the edge, whether it leads up, and whether there is one before it. An edge is a kink in
-    // time only, so that none of these has a slope.
-    let [count, up, later] = (tau / half_period).lookup(|halves| {
-        let count = halves.floor();
-        ([count, if count.rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 }, f64::from(count > 0.0)], [0.0; 3])
-    });
-    let target = shape.amplitude * up;
-    edge(tau - count * half_period, -(target * later), target, shape.edge_time)
-}
-
-/// The frequency grows linearly over the duration; the phase is its integral and goes on without a jump.
-fn chirp<R: Real>(tau: R, shape: &Shape<R>) -> [R; 2] {
-    let Chirp { start_frequency: from, end_frequency: to, duration } = shape.chirp;
-    let past = tau - duration;
-    let growth = (to - from) / duration;
-    let cycles =
-        past.select((from + to) * duration * 0.5 + to * past, from * tau + growth * tau.squared() * 0.5);
-    let frequency = past.select(to, from + growth * tau);
-    sine(shape.amplitude, cycles * TAU, frequency * TAU)
 }
 
 /// `h (1 − cos(2π s/L))/2` over the length L.

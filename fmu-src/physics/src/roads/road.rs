@@ -2,34 +2,16 @@
 
 use std::path::Path;
 
-use strut_model::{About, Equation, Experiment, Kind, Model, Now, Real, Settings, bundles};
+use strut_model::{About, Equation, Experiment, Kind, Model, Now, Real, bundles};
 
 use crate::signals::RoadMotion;
 
-use super::{IsoClass, Profile, RoadKind, Shape};
+use super::{Course, Profile, Shape};
 
 /// The road under one wheel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Road {
     profile: Profile,
-}
-
-/// What road it is.
-#[derive(Settings, Clone, Debug, PartialEq)]
-pub struct Options {
-    /// Shape of the road
-    #[set(start = RoadKind::Sine)]
-    kind: RoadKind,
-    /// Class of a random road (ISO 8608)
-    #[set(start = IsoClass::C)]
-    iso_class: IsoClass,
-    /// Seed of a random road: equal seeds give equal roads
-    #[set(start = 1)]
-    seed: i32,
-    /// File of a measured profile in the FMU's resources, or an absolute path: CSV with the header
-    /// `time [s], position [m]`
-    #[set(start = "profile.csv")]
-    file: String,
 }
 
 /// What must be known about any road.
@@ -76,11 +58,10 @@ impl Model for Road {
         ..About::DEFAULT
     };
 
-    bundles! { settings: Options, parameters: Shape, output: RoadMotion }
+    bundles! { settings: Course, parameters: Shape, output: RoadMotion }
 
-    fn prepare(options: &Options, resources: Option<&Path>) -> Result<Self, String> {
-        let Options { kind, iso_class, seed, file } = options;
-        Ok(Self { profile: Profile::new(*kind, *iso_class, *seed, 0, file, resources)? })
+    fn prepare(course: &Course, resources: Option<&Path>) -> Result<Self, String> {
+        Ok(Self { profile: course.profile(0, resources)? })
     }
 
     fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (strut_model::Nothing, RoadMotion<R>) {

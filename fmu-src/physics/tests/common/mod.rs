@@ -1,10 +1,13 @@
 //! Reads the reference cases and drives a simulation by names.
 #![allow(dead_code, reason = "each test program uses a part")]
 
+pub mod system;
+
 use std::collections::BTreeMap;
 
 use serde_json::Value as Json;
-use strut_model::{Access, Interface, Model, Simulation, Value};
+use strut_model::{Access, Instance, ParameterSet, Value, Variable};
+use strut_physics::{CATALOGUE, PARAMETER_SETS};
 
 const CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/reference/cases");
 
@@ -85,48 +88,65 @@ fn value(formula: &Json, t: f64) -> f64 {
     sines.sum::<f64>() + steps.sum::<f64>()
 }
 
-/// A simulation whose variables have names.
-pub struct Named<M: Model> {
-    pub simulation: Simulation<M>,
-    references: BTreeMap<String, u32>,
+/// An instance whose variables have names.
+pub struct Named {
+    pub instance: Box<dyn Instance>,
+    variables: BTreeMap<String, Variable>,
 }
 
-impl<M: Model> Named<M> {
-    pub fn new() -> Self {
-        let interface = Interface::of::<M>(None, None).unwrap();
-        let references =
-            interface.variables.into_iter().map(|variable| (variable.name, variable.reference)).collect();
-        Self { simulation: Simulation::new(None, None).unwrap(), references }
+impl Named {
+    /// The model of this name as it is declared.
+    pub fn new(model: &str) -> Self {
+        Self::with(model, None)
     }
 
-    pub fn has(&self, name: &str) -> bool {
-        self.references.contains_key(name)
+    /// The FMU of a published parameter set.
+    pub fn published(fmu: &str) -> Self {
+        let file = format!("{fmu}.toml");
+        let found = PARAMETER_SETS.iter().find(|(name, _)| *name == file);
+        let (_, text) = found.unwrap_or_else(|| panic!("there is no set {fmu}"));
+        let set = ParameterSet::parse(text).unwrap();
+        Self::with(&set.model, Some(&set))
+    }
+
+    fn with(model: &str, set: Option<&ParameterSet>) -> Self {
+        let entry = CATALOGUE.iter().find(|entry| entry.about.name == model);
+        let entry = entry.unwrap_or_else(|| panic!("there is no model {model}"));
+        let variables = entry.interface(set, None).unwrap().variables.into_iter();
+        Self {
+            instance: entry.instance(set, None).unwrap(),
+            variables: variables.map(|variable| (variable.name.clone(), variable)).collect(),
+        }
+    }
+
+    pub fn variable(&self, name: &str) -> &Variable {
+        self.variables.get(name).unwrap_or_else(|| panic!("no variable {name}"))
     }
 
     fn reference(&self, name: &str) -> u32 {
-        *self.references.get(name).unwrap_or_else(|| panic!("no variable {name}"))
+        self.variable(name).reference
     }
 
     pub fn start(&mut self, name: &str, value: f64) {
-        self.simulation.set_real(&[self.reference(name)], &[value], Access::All).unwrap();
+        self.instance.set_real(&[self.reference(name)], &[value], Access::All).unwrap();
     }
 
     pub fn choose(&mut self, name: &str, value: Value) {
-        self.simulation.set_setting(self.reference(name), value, Access::All).unwrap();
+        self.instance.set_setting(self.reference(name), value, Access::All).unwrap();
     }
 
     pub fn initialize(&mut self) {
-        self.simulation.set_up(0.0, None).unwrap();
-        self.simulation.initialize().unwrap();
+        self.instance.set_up(0.0, None).unwrap();
+        self.instance.initialize().unwrap();
     }
 
     pub fn set(&mut self, name: &str, value: f64) {
-        self.simulation.set_real(&[self.reference(name)], &[value], Access::Inputs).unwrap();
+        self.instance.set_real(&[self.reference(name)], &[value], Access::Inputs).unwrap();
     }
 
     pub fn get(&mut self, name: &str) -> f64 {
         let mut value = [0.0];
-        self.simulation.real(&[self.reference(name)], &mut value).unwrap();
+        self.instance.real(&[self.reference(name)], &mut value).unwrap();
         value[0]
     }
 }

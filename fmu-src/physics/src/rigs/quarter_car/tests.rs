@@ -3,6 +3,7 @@ use proptest::prelude::*;
 use strut_model::{Bundle, Error, Lanes, Simulation};
 
 use super::*;
+use crate::GRAVITY;
 
 fn parameters(
     sprung_mass: f64,

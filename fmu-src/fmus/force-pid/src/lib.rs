@@ -1,0 +1,3 @@
+//! ForcePid as an FMU.
+
+strut_fmi2::export_fmu!(strut_physics::controllers::ForcePid);

@@ -1,0 +1,3 @@
+//! ModalSkyhook as an FMU.
+
+strut_fmi2::export_fmu!(strut_physics::controllers::ModalSkyhook);

@@ -1,0 +1,3 @@
+//! PumpHydraulicActuator as an FMU.
+
+strut_fmi2::export_fmu!(strut_physics::actuators::PumpHydraulicActuator);

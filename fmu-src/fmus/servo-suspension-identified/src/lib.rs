@@ -1,0 +1,3 @@
+//! ServoSuspensionIdentified as an FMU.
+
+strut_fmi2::export_fmu!(strut_physics::rigs::ServoSuspensionIdentified);

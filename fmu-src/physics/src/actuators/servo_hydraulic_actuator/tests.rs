@@ -1,0 +1,104 @@
+use proptest::prelude::*;
+use strut_model::{Access, Interface, Simulation, Value};
+
+use super::*;
+use crate::testing::Bench;
+
+fn actuator(law: ValveLaw, start: &[(&str, f64)]) -> Bench<ServoHydraulicActuator> {
+    let bench =
+        Bench::published("KoniecznyServoHydraulicActuator").choose("law", Value::Integer(law as i32 + 1));
+    start.iter().fold(bench, |bench, (name, value)| bench.start(name, *value)).initialized()
+}
+
+const LAWS: [ValveLaw; 3] = [ValveLaw::Nonlinear, ValveLaw::Linear, ValveLaw::Regression];
+
+#[test]
+fn the_spool_answers_as_a_lag_of_2_32_milliseconds() {
+    let mut bench = actuator(ValveLaw::Nonlinear, &[("voltage", 4.0)]);
+    for _ in 0..20 {
+        bench.step(1e-3);
+        let time = bench.time();
+        let exact = 0.1e-3 * (1.0 - (-time / 2.32e-3).exp());
+        assert!((bench.get("spool.position") - exact).abs() < 1e-10, "{time}");
+    }
+}
+
+#[test]
+fn at_the_stop_a_higher_voltage_changes_nothing() {
+    let mut bench = actuator(ValveLaw::Nonlinear, &[("voltage", 1000.0)]);
+    (0..50).for_each(|_| bench.step(1e-3));
+    assert!((bench.get("spool.position") - 0.5e-3).abs() < 1e-9);
+}
+
+#[test]
+fn a_piston_that_moves_at_its_free_speed_has_no_load() {
+    for law in [ValveLaw::Nonlinear, ValveLaw::Linear] {
+        let mut bench =
+            actuator(law, &[("voltage", 2.0), ("spool.position", 0.05e-3), ("suspension.velocity", 0.0)]);
+        let speed = 2.0 * bench.get("velocity_gain");
+        let mut bench =
+            actuator(law, &[("voltage", 2.0), ("spool.position", 0.05e-3), ("suspension.velocity", speed)]);
+        (0..100).for_each(|_| bench.step(1e-3));
+        assert!(bench.get("pressure").abs() < 1e-3, "{law:?}");
+        // All of the supply's power drives the flow through the valve: 336 W for a volt.
+        assert!((bench.get("supply.power") / (2.0 * 336.2) - 1.0).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn a_held_piston_stalls_just_below_the_supply_pressure() {
+    let mut bench = actuator(ValveLaw::Nonlinear, &[("voltage", 2.0)]);
+    (0..200).for_each(|_| bench.step(1e-3));
+    let pressure = bench.get("pressure");
+    // What still flows is the leakage, eq. 2.9 = eq. 2.7.
+    let flow = 0.05e-3 * 15.708e-3 * 0.611 * ((12e6 - pressure) / 880.0).sqrt();
+    assert!(pressure < 12e6 && (flow / (15e-12 * pressure) - 1.0).abs() < 1e-4, "{pressure}");
+    assert!((bench.get("force") - 0.765_786e-3 * pressure).abs() < 1e-9);
+}
+
+proptest! {
+    #[test]
+    fn what_goes_in_comes_out_is_stored_or_lost(
+        pressure in -15e6..15e6_f64, position in -0.5e-3..0.5e-3_f64, velocity in -1.0..1.0_f64,
+        voltage in -10.0..10.0_f64, index in 0..3_usize,
+    ) {
+        prop_assume!(LAWS[index] == ValveLaw::Nonlinear || pressure.abs() <= 12e6);
+        let actuator = ServoHydraulicActuator { law: LAWS[index] };
+        let declared = strut_model::Declarations::of::<ServoCylinder<f64>>();
+        let p: ServoCylinder<f64> = strut_model::Bundle::from_fn(|i| declared[i].start);
+        let derived = actuator.derive(&p);
+        let (rates, output) = actuator.equations(Now {
+            time: 0.0,
+            state: &State { pressure, spool: SpoolState { position } },
+            input: &Input { voltage, suspension: TravelRate { velocity } },
+            parameters: &p,
+            derived: &derived,
+            memory: &strut_model::Nothing,
+            tick: 0,
+        });
+        let stored = pressure * rates.pressure / derived.coefficient;
+        let lost = output.supply.power - output.force * velocity - stored;
+        prop_assert!(lost >= 15e-12 * pressure * pressure * (1.0 - 1e-9) - 1e-6, "{lost}");
+    }
+}
+
+#[test]
+fn what_cannot_be_is_refused() {
+    let interface = Interface::of::<ServoHydraulicActuator>(None, None).unwrap();
+    for (name, value) in [
+        ("supply.pressure", 17e6),
+        ("fluid.density", 0.0),
+        ("fluid.bulk_modulus", -1.0),
+        ("cylinder.area", 0.0),
+        ("cylinder.volume", 0.0),
+        ("cylinder.leakage", -1e-12),
+        ("valve.discharge_coefficient", 1.1),
+        ("spool.time_constant", 0.0),
+        ("spool.stroke", 0.0),
+    ] {
+        let mut simulation = Simulation::<ServoHydraulicActuator>::new(None, None).unwrap();
+        let reference = interface.variable(name).unwrap().reference;
+        let error = simulation.set_real(&[reference], &[value], Access::All).unwrap_err();
+        assert!(matches!(error, strut_model::Error::OutOfBounds { .. }), "{name}: {error}");
+    }
+}
