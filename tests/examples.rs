@@ -32,11 +32,26 @@ fn the_systems_from_python_and_from_rust_are_the_same() {
     let python = [python_example("quanser_lqr"), python_example("tum_active")].concat();
     let (native, headers) = strut::libclang();
     let mut master = strut::cargo();
-    master.args(["run", "--quiet", "--release", "--package", "rust-master", "--"]);
+    master.args(["run", "--quiet", "--package", "rust-master", "--"]);
     master.arg(strut::fmus()).arg(strut::target().join("tested-pictures"));
     master.env("LIBCLANG_PATH", native).env("BINDGEN_EXTRA_CLANG_ARGS", include(&headers));
     let rust = numbers(&String::from_utf8_lossy(&strut::run(&mut master).stdout));
     assert_contains(&python, &rust);
+}
+
+/// Ajala Fig. 8 on the FMUs; the bounds stand in `strut-physics`' own tests.
+#[test]
+fn the_car_rides_as_in_figure_8() {
+    let table = python_example("full_car");
+    let rows: Vec<&[f64]> = table.chunks_exact(3).collect();
+    assert_eq!(rows.len(), 9, "heave, roll and pitch in three bands");
+    for motion in rows.chunks_exact(3) {
+        let [[low_soft, low_hard, low_active], [soft, hard, active], [high_soft, high_hard, high_active]] =
+            [motion[0], motion[1], motion[2]].map(|row| [row[0], row[1], row[2]]);
+        assert!(low_active < low_hard && low_hard < low_soft, "{motion:?}");
+        assert!(active < soft && soft < hard, "{motion:?}");
+        assert!(high_active < high_hard && high_soft < high_hard, "{motion:?}");
+    }
 }
 
 fn include(folder: &std::path::Path) -> std::ffi::OsString {
@@ -54,4 +69,27 @@ fn a_model_of_ones_own_becomes_an_fmu_by_one_command() {
         let output = strut::python("tests/masters/fmpy_checks.py", [check.as_ref(), out.as_os_str()]);
         assert_eq!(output.trim(), format!("{check}: AirSpring"));
     }
+}
+
+/// The page of published numbers is what its command makes; a number that does not come out, or a claim that does not
+/// hold, is an error of the command.
+#[test]
+fn the_reproduction_page_can_be_made_again() {
+    let out = strut::target().join("tested-reproduction");
+    let arguments = ["--fmus".as_ref(), strut::fmus().as_os_str(), "--out".as_ref(), out.as_os_str()];
+    strut::python("examples/reproduction/reproduce.py", arguments);
+    let page =
+        |folder: &std::path::Path| fs::read_to_string(folder.join("README.md")).expect("there is a page");
+    assert_eq!(page(&out), page(&strut::root().join("examples/reproduction")), "make the page again");
+}
+
+#[test]
+fn the_benchmark_prints_a_row_of_numbers() {
+    let fmu = strut::fmus().join("TumQuarterVehicle.fmu");
+    let fmu = fmu.to_str().expect("the folder's name is text");
+    let text = strut::python("examples/benchmark/benchmark.py", [fmu, "--steps", "20", "--runs", "1"]);
+    let row: Vec<&str> = text.lines().last().unwrap_or_default().split('|').map(str::trim).collect();
+    assert_eq!(row[1], "TumQuarterVehicle", "{text}");
+    let nanoseconds: f64 = row[7].parse().unwrap_or_else(|_| panic!("no time: {text}"));
+    assert!(nanoseconds > 0.0, "{text}");
 }

@@ -25,6 +25,27 @@ connected! {
     tum_active_in_ecos: "ecos" "tum-active";
 }
 
+/// Those that have no reference as a whole.
+fn others(master: &str) {
+    let arguments = [Path::new(master), strut::fmus()];
+    print!("{}", strut::python("tests/masters/connected_all.py", arguments));
+}
+
+#[test]
+fn all_others_in_fmpy() {
+    others("fmpy");
+}
+
+#[test]
+fn all_others_in_libcosimpy() {
+    others("libcosimpy");
+}
+
+#[test]
+fn all_others_in_ecos() {
+    others("ecos");
+}
+
 #[test]
 fn parameter_sets_of_a_system_take_effect() {
     print!("{}", strut::python("tests/masters/connected_parameters.py", [strut::fmus()]));
@@ -33,4 +54,9 @@ fn parameter_sets_of_a_system_take_effect() {
 #[test]
 fn the_coupling_error_falls_with_the_step() {
     print!("{}", strut::python("tests/masters/connected_convergence.py", [strut::fmus()]));
+}
+
+#[test]
+fn the_semi_active_rig_shows_what_its_source_found() {
+    print!("{}", strut::python("tests/masters/connected_semi_active.py", [strut::fmus()]));
 }

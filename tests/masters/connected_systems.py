@@ -22,11 +22,9 @@ class Reference:
     def __init__(self, name):
         self.case, rows = load(REFERENCE / "cases" / f"{name}.json")
         self.stop, self.step = self.case["stop"], self.case["step"]
-        # The first row is the initial state. Where the road's velocity or the controller's force jumps, the
-        # reference has what holds after the jump, and a master what held in the step that arrives there.
-        components = self.case["components"]
-        jumps = [components["road"]["parameters"]["start"], components["controller"].get("switch_on_time", 0.0)]
-        rows = rows[(np.abs(rows[:, :1] - [0.0, *jumps]) > 1e-9).all(axis=1)]
+        # The first row is the initial state. Where a signal jumps, the reference has what holds after the jump, and
+        # a master what held in the step that arrives there.
+        rows = rows[(np.abs(rows[:, :1] - [0.0, *self.case["jumps"]]) > 1e-9).all(axis=1)]
         self.times = rows[:, 0]
         self.signals = self.case["columns"][1:]
         self.values = {name: rows[:, index] for index, name in enumerate(self.signals, 1)}
@@ -38,14 +36,14 @@ class Reference:
     def at_rows(self, result, step):
         """A result with a row every step, at the reference's times.
 
-        The controller's force is looked at one step later: the reference has it after the tick at t_k, a
-        master gets to see that tick's force at the end of the step that begins at t_k.
+        What a sampled component puts out is looked at one step later: the reference has it after the tick at t_k,
+        a master gets to see that tick's output at the end of the step that begins at t_k.
         """
         index = np.rint(self.times / step).astype(int)
         # `time` of a row is the master's own, added up by some.
         assert np.allclose(result["time"][index], self.times, rtol=0, atol=1e-9)
         signals = [name for name in self.signals if name in result]
-        return {name: result[name][index + (name == "controller.force")] for name in signals}
+        return {name: result[name][index + (name in self.case["ticked"])] for name in signals}
 
 
 def compose(name, folder, kind=System, parameters=None):

@@ -1,19 +1,15 @@
 """An FMU on the test bench: loaded through FMPy, driven by reproducible inputs."""
 
 import contextlib
-import math
 import shutil
-import zlib
 from pathlib import Path
 
 import numpy as np
+from excitation import excitation
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
 STEP = 1e-3
-
-# Amplitudes by unit, so that every effect of every model is at work.
-AMPLITUDE = {"m": 0.004, "m/s": 0.12, "N": 150.0, "V": 3.0, "m/s2": 2.0, "A": 3.0}
 
 
 class Messages(list):
@@ -41,6 +37,8 @@ class Fmu:
         self.variables = {v.name: v for v in self.description.modelVariables}
         self.real = [v for v in self.description.modelVariables if v.type == "Real"]
         self.inputs = [v for v in self.real if v.causality == "input"]
+        # What the inputs swing about: an eccentric is not at height zero.
+        self.middle = [float(v.start) for v in self.inputs]
         self.outputs = [v for v in self.real if v.causality == "output"]
         self.states = [d.variable.derivative for d in self.description.derivatives]
         self.rates = [d.variable for d in self.description.derivatives]
@@ -96,16 +94,9 @@ class Fmu:
         setter([variable.valueReference], [value])
 
     def excitation(self, time):
-        """Inputs at a time: for each two sines of its own frequencies."""
-        values = []
-        for variable in self.inputs:
-            seed = zlib.crc32(variable.name.encode())
-            amplitude = AMPLITUDE[variable.unit]
-            low, high = 0.7 + seed % 7 * 0.3, 4.1 + seed % 11 * 0.7
-            values.append(
-                amplitude * (math.sin(math.tau * low * time + seed % 5) + 0.4 * math.sin(math.tau * high * time))
-            )
-        return values
+        """Inputs at a time."""
+        swings = [excitation(variable.name, variable.unit, time) for variable in self.inputs]
+        return [middle + swing for middle, swing in zip(self.middle, swings)]
 
     def excite(self, fmu, time):
         if self.inputs:

@@ -1,11 +1,44 @@
 """The single-model cases: what is driven how. Chosen to show every effect of each set."""
 
-from models import LinearMotor, QuarterCar
+from controllers import WEIGHTS, LqrController, Skyhook
+from linear_motor import LinearMotor
 from parameter_sets import MOTOR, SETS
+from quarter_car import QuarterCar
 from stimulus import road_sines
 
-SAMPLING = ("inputs hold value(t_k) on [t_k, t_k + step]; the row at t_k > 0 is read at the end "
-            "of the step that arrives at t_k, before new inputs are set; the row at 0 with the input at 0")
+# Which FMU a parameter set is.
+PACKAGES = {
+    "quanser": "QuanserQuarterCar",
+    "quanser-table-3-1": "QuanserTable31QuarterCar",
+    "konieczny": "KoniecznyQuarterCar",
+    "ajala": "AjalaQuarterCar",
+    "tum-linear-optimised": "TumLinearOptimisedQuarterCar",
+    "tum-linear-measured": "TumLinearMeasuredQuarterCar",
+    "tum-table-7-optimised": "TumTable7OptimisedQuarterVehicle",
+    "tum-table-7-measured": "TumTable7MeasuredQuarterVehicle",
+    "tum-table-10": "TumQuarterVehicle",
+}
+
+
+def single(name, model, inputs, *, stop, every, step=1e-3, package=None, parameters=None, changed=None,
+           settings=None, start=None, error=1e-6, description=""):
+    """A model driven by held inputs. `parameters` are those of the FMU, `changed` is set on top of them."""
+    return {
+        "case": name,
+        "kind": "single",
+        "fmu": model.__name__,
+        "package": package or model.__name__,
+        "description": description,
+        "parameters": parameters or {},
+        "changed": changed or {},
+        "settings": settings or {},
+        "start": start or {},
+        "step": step,
+        "stop": stop,
+        "rows_every": every,
+        "inputs": inputs,
+        "error": error,
+    }
 
 
 def quarter_car(name, parameter_set, road, force, stop=3.0, start=None, lift_off=False,
@@ -13,43 +46,16 @@ def quarter_car(name, parameter_set, road, force, stop=3.0, start=None, lift_off
     position, velocity = road_sines(road)
     position["steps"] = [list(step) for step in road_steps]
     sines, steps = force
-    return {
-        "case": name,
-        "kind": "single",
-        "fmu": "QuarterCar",
-        "description": description,
-        "parameter_set": parameter_set,
-        "parameters": SETS[parameter_set],
-        "settings": {"tire.lift_off": lift_off},
-        "start": dict(zip(QuarterCar.states, start or [0.0] * 4)),
-        "step": 1e-3,
-        "stop": stop,
-        "rows_every": 15,
-        "inputs": {"road.position": position, "road.velocity": velocity,
-                   "actuator.force": {"sines": sines, "steps": steps}},
-        "states": QuarterCar.states,
-        "outputs": QuarterCar.outputs,
-        "sampling": SAMPLING,
-    }
+    inputs = {"road.position": position, "road.velocity": velocity,
+              "actuator.force": {"sines": sines, "steps": steps}}
+    return single(name, QuarterCar, inputs, stop=stop, every=15, package=PACKAGES[parameter_set],
+                  parameters=SETS[parameter_set], settings={"tire.lift_off": lift_off},
+                  start=dict(zip(QuarterCar.states, start or [0.0] * 4)), description=description)
 
 
 def motor(name, voltage, reference, stop, every, description):
-    return {
-        "case": name,
-        "kind": "single",
-        "fmu": "LinearMotor",
-        "description": description,
-        "parameters": MOTOR,
-        "settings": {},
-        "start": dict.fromkeys(LinearMotor.states, 0.0),
-        "step": 1e-3,
-        "stop": stop,
-        "rows_every": every,
-        "inputs": {"voltage": voltage, "force_reference": reference},
-        "states": LinearMotor.states,
-        "outputs": LinearMotor.outputs,
-        "sampling": SAMPLING,
-    }
+    return single(name, LinearMotor, {"voltage": voltage, "force_reference": reference},
+                  stop=stop, every=every, parameters=MOTOR, description=description)
 
 
 RIG_ROAD = [[0.010, 1.3, 0.3], [0.003, 4.7, 1.1], [0.001, 13.1, 2.0]]
@@ -93,42 +99,18 @@ MOTORS = [
           "directions, and gives peak current back after rest."),
 ]
 
-SINGLE = QUARTER_CARS + MOTORS
+# The rig that the regulator is made for: Quanser Table 3.1 with the tyre that the printed gain belongs to.
+RIG_OF_REGULATOR = {name: SETS["quanser"][name] for name in (
+    "sprung_mass", "unsprung_mass", "strut.stiffness", "strut.damping", "tire.stiffness", "tire.damping")}
 
-ROADS = [
-    {"case": f"road-{kind.replace('_', '-')}", "kind": "road", "fmu": "Road", "road_kind": kind,
-     "parameters": parameters, "stop": stop, "rows": rows,
-     "sampling": "road.position and road.velocity at the row's time; no row stands on an edge"}
-    for kind, parameters, stop, rows in [
-        ("sine", {"amplitude": 0.005, "frequency": 1.7, "start": 0.25}, 3.0, 60),
-        ("square", {"amplitude": 0.01, "frequency": 0.3, "edge_time": 0.02, "start": 0.0}, 6.0, 90),
-        ("step", {"amplitude": 0.1, "edge_time": 0.05, "start": 0.5}, 1.5, 60),
-        ("chirp", {"amplitude": 0.0015, "start_frequency": 1.0, "end_frequency": 8.0,
-                   "duration": 25.0, "start": 0.0}, 30.0, 120),
-        ("frequency_ramp", {"amplitude": 0.0025, "rate": 0.1, "start": 0.0}, 40.0, 120),
-        ("bump", {"height": 0.08, "length": 1.2, "speed": 5.0, "start": 0.5}, 1.5, 60),
-        ("iso8608", {"road_class": "D", "speed": 10.0, "seed": 1, "start": 0.5}, 20.0, 150),
-    ]
-] + [
-    {"case": "road-iso8608-class-a", "kind": "road", "fmu": "Road", "road_kind": "iso8608",
-     "parameters": {"road_class": "A", "speed": 25.0, "seed": 20260101, "start": 0.0},
-     "stop": 10.0, "rows": 60,
-     "sampling": "road.position and road.velocity at the row's time"},
-]
-
-CONTROLLERS = [
-    {"case": "lqr-static", "kind": "static", "fmu": "LqrController", "step": 1e-3, "stop": 0.2,
-     "rows_every": 4, "law": "force = -K x from t = switch_on_time on, else 0",
-     "parameter_set": "quanser", "switch_on_time": 0.1,
-     "sampling": "the force at t_k follows from the inputs at t_k",
-     "inputs": {"suspension.deflection": {"sines": [[0.01, 6.0, 0.1]], "steps": []},
-                "body.velocity": {"sines": [[0.2, 9.0, 0.7]], "steps": []},
-                "tire.deflection": {"sines": [[0.004, 21.0, 1.3]], "steps": []},
-                "wheel.velocity": {"sines": [[0.5, 15.0, 2.9]], "steps": []}},
-     "outputs": ["force"]},
-    {"case": "skyhook-static", "kind": "static", "fmu": "Skyhook", "step": 1e-3, "stop": 0.2,
-     "rows_every": 4, "law": "force = -damping body.velocity (Ajala eq. 28)", "damping": 1500.0,
-     "sampling": "the force at t_k follows from the inputs at t_k",
-     "inputs": {"body.velocity": {"sines": [[0.3, 9.0, 0.7]], "steps": [[0.1, 0.0505]]}},
-     "outputs": ["force"]},
+CASES = QUARTER_CARS + MOTORS + [
+    single("lqr", LqrController, {
+               "suspension.deflection": {"sines": [[0.01, 6.0, 0.1]], "steps": []},
+               "body.velocity": {"sines": [[0.2, 9.0, 0.7]], "steps": []},
+               "tire.deflection": {"sines": [[0.004, 21.0, 1.3]], "steps": []},
+               "wheel.velocity": {"sines": [[0.5, 15.0, 2.9]], "steps": []}},
+           stop=0.2, every=4, package="QuanserLqrController", error=1e-12,
+           parameters=RIG_OF_REGULATOR | WEIGHTS | {"period": 1e-3}, changed={"switch_on_time": 0.1}),
+    single("skyhook", Skyhook, {"body.velocity": {"sines": [[0.3, 9.0, 0.7]], "steps": [[0.1, 0.0505]]}},
+           stop=0.2, every=3, error=1e-12, parameters={"damping": 1500.0}, changed={"period": 2e-3}),
 ]

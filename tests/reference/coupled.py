@@ -1,187 +1,128 @@
-"""Closed loops as one ODE, the sampled controller handled exactly.
+"""Connected components as one ODE, sampled controllers handled exactly.
 
-At t_k = k * 1 ms the controller reads the state at t_k and its force acts on [t_k, t_k + 1 ms].
-Between two ticks rig, motor and road are one continuous system: nothing is exchanged, so
-there is no coupling error. A row at t_k is read after the tick, with the road's value from
-the right.
+A controller reads the state at t_k and its command acts until its next tick. Between two ticks all continuous
+components are one system: nothing is exchanged, so there is no coupling error. A row at t_k is read after the tick,
+with the roads' values from the right.
 """
 
-import math
-
-import numpy as np
-from scipy.linalg import solve_continuous_are
-
-from integrate import advance
-from models import LinearMotor, QuarterCar
-from parameter_sets import SETS
-from roads import Road
-
-# Quanser 3.1.1.
-Q_WEIGHTS = [450.0, 30.0, 5.0, 0.01]
-R_WEIGHT = 0.01
+from integrate import Smooth, advance
 
 
-def quanser_matrices(p):
-    """A and B of Quanser eq. 2.23: deflection, body velocity, tyre deflection, wheel velocity."""
-    ms, mu = p["sprung_mass"], p["unsprung_mass"]
-    k, d, kt, dt = p["strut.stiffness"], p["strut.damping"], p["tire.stiffness"], p["tire.damping"]
-    a = np.array([[0.0, 1.0, 0.0, -1.0],
-                  [-k / ms, -d / ms, 0.0, d / ms],
-                  [0.0, 0.0, 0.0, 1.0],
-                  [k / mu, d / mu, -kt / mu, -(d + dt) / mu]])
-    return a, np.array([[0.0], [1.0 / ms], [0.0], [-1.0 / mu]])
+class System(Smooth):
+    """Continuous components, driven by what roads and controllers put out (the inputs u of the whole).
 
+    `order` names the components in the order in which their outputs can be had: one whose outputs need another's
+    may be named twice, first for those that follow from its states alone.
+    """
 
-def lqr_gain(p, weights=Q_WEIGHTS, r=R_WEIGHT):
-    """K of F = -K x (Quanser 2.2.3), and the residual of the Riccati equation."""
-    a, b = quanser_matrices(p)
-    q = np.diag(weights)
-    x = solve_continuous_are(a, b, q, np.array([[r]]))
-    residual = a.T @ x + x @ a - x @ b @ b.T @ x / r + q
-    return (b.T @ x / r)[0].tolist(), float(np.abs(residual).max() / np.abs(q).max())
+    def __init__(self, components, connections, order):
+        self.components, self.sources = components, dict((target, source) for source, target in connections)
+        self.roads = [name for name, part in components.items() if hasattr(part, "breaks")]
+        self.sampled = [name for name, part in components.items() if getattr(part, "period", None)]
+        driving = [f"{name}.{output}" for name in self.roads + self.sampled for output in components[name].outputs]
+        self.parts = [name for name in components if name not in self.roads + self.sampled]
+        self.slices, first = {}, 0
+        for name in self.parts:
+            self.slices[name] = slice(first, first + len(components[name].states))
+            first += len(components[name].states)
+        self.size = first
+        self.names = driving + [f"{name}.{column}" for name in self.parts
+                                for column in components[name].states + components[name].outputs]
+        position = {name: index for index, name in enumerate(self.names)}
+        # The inputs of each component as positions in the values of all signals.
+        self.wiring = {name: [position.get(self.sources.get(f"{name}.{target}")) for target in part.inputs]
+                       for name, part in components.items() if name not in self.roads}
+        self.driving, self.position = len(driving), position
+        self.sweeps = [(name, components[name], self.slices[name], self.wiring[name],
+                        self.driving + sum(len(components[n].states + components[n].outputs)
+                                           for n in self.parts[:self.parts.index(name)])) for name in order]
 
+    @staticmethod
+    def gather(values, wiring):
+        return [0.0 if index is None else values[index] for index in wiring]
 
-class ActiveRig:
-    """Quarter car and linear motor; inputs: road position and velocity, force reference."""
-
-    def __init__(self, rig, motor):
-        self.rig, self.motor = rig, motor
-
-    def split(self, x, u):
-        rig, motor = x[:4], x[4:]
-        force = self.motor.output(motor, None, None)[1]
-        return rig, [u[0], u[1], force], motor, [0.0, u[2]]
-
-    def derivative(self, x, u, mode):
-        rig, road, motor, command = self.split(x, u)
-        return (self.rig.derivative(rig, road, mode[0])
-                + self.motor.derivative(motor, command, mode[1]))
+    def sweep(self, x, u, modes=None):
+        """The values of all signals, and the inputs and the mode of each component."""
+        values = list(u) + [0.0] * (len(self.names) - self.driving)
+        inputs, found = {}, {}
+        for name, part, states, wiring, first in self.sweeps:
+            own, given = x[states], self.gather(values, wiring)
+            mode = modes[name] if modes else part.mode(own, given)
+            row = [*own, *part.output(own, given, mode)]
+            values[first:first + len(row)] = row
+            inputs[name], found[name] = given, mode
+        return values, inputs, found
 
     def mode(self, x, u):
-        rig, road, motor, command = self.split(x, u)
-        return self.rig.mode(rig, road), self.motor.mode(motor, command)
+        return self.sweep(list(x), u)[2]
+
+    def derivative(self, x, u, modes):
+        x = list(x)
+        _, inputs, _ = self.sweep(x, u, modes)
+        return [rate for name in self.parts for rate in
+                self.components[name].derivative(x[self.slices[name]], inputs[name], modes[name])]
 
     def guards(self, x, u):
-        rig, road, motor, command = self.split(x, u)
-        return (*self.rig.guards(rig, road), *self.motor.guards(motor, command))
+        x = list(x)
+        _, inputs, _ = self.sweep(x, u)
+        return [guard for name in self.parts for guard in
+                self.components[name].guards(x[self.slices[name]], inputs[name])]
 
-    def watched(self, mode):
-        return self.rig.watched(mode[0]) + [(i + 2, d) for i, d in self.motor.watched(mode[1])]
+    def watched(self, modes):
+        found, first = [], 0
+        for name in self.parts:
+            part = self.components[name]
+            found += [(first + index, direction) for index, direction in part.watched(modes[name])]
+            first += part.guard_count
+        return found
 
-    def after(self, mode, guard, x, u):
-        rig, road, motor, command = self.split(x, u)
-        if guard < 2:
-            return self.rig.after(mode[0], guard, rig, road), mode[1]
-        return mode[0], self.motor.after(mode[1], guard - 2, motor, command)
+    def after(self, modes, guard, x, u):
+        x = list(x)
+        _, inputs, _ = self.sweep(x, u, modes)
+        for name in self.parts:
+            part = self.components[name]
+            if guard < part.guard_count:
+                return modes | {name: part.after(modes[name], guard, x[self.slices[name]], inputs[name])}
+            guard -= part.guard_count
+        raise IndexError(guard)
 
-    def settle(self, x, mode):
-        return x[:4] + self.motor.settle(x[4:], mode[1])
+    def settle(self, x, modes):
+        x = list(x)
+        return [value for name in self.parts
+                for value in self.components[name].settle(x[self.slices[name]], modes[name])]
 
+    def held(self, memory):
+        """What the sampled components put out; zero before their first tick."""
+        return [value for name in self.sampled for part in [self.components[name]]
+                for value in (part.output([], [0.0] * len(part.inputs) + memory[name], ()) if memory[name]
+                              else [0.0] * len(part.outputs))]
 
-def loop(model, state, road, control, stop, solver, step=1e-3):
-    """Yields (t, state, road position, road velocity, force) after each tick."""
-    count, marks = round(stop / step), road.breaks(stop)
-    for k in range(count + 1):
-        t0, t1 = k * step, (k + 1) * step
-        force = control(k, state, road(t0, t0 + 1e-9))
-        yield (t0, state, *road(t0, t0 + 1e-9), force)
-        if k == count:
-            return
-        # A piece shorter than 1 ns is the rounding of a mark that lies on the grid.
-        ends = [t0] + [m for m in marks if t0 + 1e-9 < m < t1 - 1e-9] + [t1]
-        for a, b in zip(ends, ends[1:]):
-            middle = 0.5 * (a + b)
-            state = advance(model, a, b, state, lambda t: (*road(t, middle), force), solver)
-
-
-QUANSER_LQR = {
-    "case": "quanser-lqr",
-    "kind": "coupled",
-    "description": "Quanser 3.1.1: square road, LQR switched on at 5 s. The K_us = 2500 set.",
-    "step": 1e-3,
-    "stop": 10.0,
-    "rows_every": 25,
-    "components": {
-        "road": {"fmu": "Road", "kind": "square",
-                 "parameters": {"amplitude": 0.01, "frequency": 0.3, "edge_time": 0.02, "start": 0.0}},
-        "rig": {"fmu": "QuarterCar", "parameter_set": "quanser"},
-        "controller": {"fmu": "LqrController", "period": 1e-3, "switch_on_time": 5.0,
-                       "q": Q_WEIGHTS, "r": R_WEIGHT,
-                       "law": "force = -K [suspension.deflection, body.velocity, tire.deflection, wheel.velocity]"},
-    },
-    "connections": [["road.position", "rig.road.position"], ["road.velocity", "rig.road.velocity"],
-                    ["rig.suspension.deflection", "controller"], ["rig.body.velocity", "controller"],
-                    ["rig.tire.deflection", "controller"], ["rig.wheel.velocity", "controller"],
-                    ["controller.force", "rig.actuator.force"]],
-}
-
-TUM_ACTIVE = {
-    "case": "tum-active",
-    "kind": "coupled",
-    "description": "TUM Table 10 rig with its linear motor, Skyhook (Ajala eq. 28) on the body "
-                   "velocity, ISO 8608 class D road. The road's velocity jumps at its start.",
-    "step": 1e-3,
-    "stop": 10.0,
-    "rows_every": 25,
-    "components": {
-        "road": {"fmu": "Road", "kind": "iso8608",
-                 "parameters": {"road_class": "D", "speed": 10.0, "seed": 1, "start": 0.5}},
-        "rig": {"fmu": "QuarterCar", "parameter_set": "tum-table-10",
-                "settings": {"tire.lift_off": True}},
-        "controller": {"fmu": "Skyhook", "period": 1e-3, "damping": 1500.0,
-                       "law": "force = -damping body.velocity"},
-        "motor": {"fmu": "LinearMotor", "inputs": {"voltage": 0.0}},
-    },
-    "connections": [["road.position", "rig.road.position"], ["road.velocity", "rig.road.velocity"],
-                    ["rig.body.velocity", "controller"],
-                    ["controller.force", "motor.force_reference"],
-                    ["motor.force", "rig.actuator.force"]],
-}
-
-
-def road_of(case):
-    component = case["components"]["road"]
-    return Road(component["kind"], **component["parameters"])
-
-
-def columns(*extra):
-    return (["time", "road.position", "road.velocity"]
-            + [f"rig.{name}" for name in QuarterCar.states + QuarterCar.outputs] + list(extra))
-
-
-def quanser_lqr(case, solver):
-    rig = QuarterCar(SETS["quanser"])
-    gain, _ = lqr_gain(SETS["quanser"])
-    first = round(case["components"]["controller"]["switch_on_time"] / case["step"])
-
-    def control(k, x, road):
-        measured = [x[0] - x[2], x[1], x[2] - road[0], x[3]]
-        return -math.fsum(g * m for g, m in zip(gain, measured)) if k >= first else 0.0
-
-    rows = []
-    for k, (t, x, zr, vr, force) in enumerate(loop(rig, [0.0] * 4, road_of(case), control,
-                                                   case["stop"], solver)):
-        if k % case["rows_every"] == 0:
-            u = (zr, vr, force)
-            rows.append([t, zr, vr, *x, *rig.output(x, u, rig.mode(x, u)), force])
-    return columns("controller.force"), rows, {}
-
-
-def tum_active(case, solver):
-    rig = QuarterCar(SETS["tum-table-10"], lift_off=True)
-    motor = LinearMotor()
-    model = ActiveRig(rig, motor)
-    damping = case["components"]["controller"]["damping"]
-    rows, airborne, content = [], 0, 0.0
-    for k, (t, x, zr, vr, force) in enumerate(loop(model, [0.0] * 7, road_of(case),
-                                                   lambda _k, x, _road: -damping * x[1],
-                                                   case["stop"], solver)):
-        current, actuator = motor.output(x[4:], None, None)
-        u = (zr, vr, actuator)
-        mode = rig.mode(x[:4], u)
-        airborne += mode != "contact"
-        content = max(content, x[6])
-        if k % case["rows_every"] == 0:
-            rows.append([t, zr, vr, *x[:4], *rig.output(x[:4], u, mode), force, current, actuator])
-    return (columns("controller.force", "motor.current", "motor.force"), rows,
-            {"ticks_without_contact": airborne, "largest_i2t_share": content / motor.capacity})
+    def run(self, stop, step, every, solver, start=None):
+        """Rows (time and the values of all signals) every so many ticks, and a look at each tick: {"modes": …}."""
+        x, count = start or [0.0] * self.size, round(stop / step)
+        marks = sorted({mark for name in self.roads for mark in self.components[name].breaks(stop)})
+        memory = {name: None for name in self.sampled}
+        rows, modes = [], {}
+        for k in range(count + 1):
+            t0, t1 = k * step, (k + 1) * step
+            at_tick = [value for name in self.roads for value in self.components[name](t0, t0 + 1e-9)]
+            values, _, mode = self.sweep(x, at_tick + self.held(memory))
+            for name in self.sampled:
+                part = self.components[name]
+                if k % round(part.period / step) == 0:
+                    given = self.gather(values, self.wiring[name])
+                    memory[name] = part.tick(memory[name], [], given, k // round(part.period / step))
+            held = self.held(memory)
+            for name, found in mode.items():
+                if found not in ((), "contact"):
+                    modes[f"{name} {found}"] = modes.get(f"{name} {found}", 0) + 1
+            if k % every == 0:
+                rows.append([t0, *self.sweep(x, at_tick + held)[0]])
+            if k == count:
+                return rows, modes
+            # A piece shorter than 1 ns is the rounding of a mark that lies on the grid.
+            ends = [t0] + [m for m in marks if t0 + 1e-9 < m < t1 - 1e-9] + [t1]
+            for a, b in zip(ends, ends[1:]):
+                roads = [self.components[name].piece(a, b) for name in self.roads]
+                x = advance(self, a, b, x, lambda t: [value for road in roads for value in road(t)] + held, solver)
+        raise AssertionError("unreachable")

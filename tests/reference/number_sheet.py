@@ -5,9 +5,12 @@ import math
 import numpy as np
 from scipy.optimize import brentq
 
-from coupled import lqr_gain, quanser_matrices
-from models import LinearMotor, QuarterCar
+from controllers import lqr_gain, quanser_matrices
+from linear_motor import LinearMotor
+from number_sheet_agh import kogut, konieczny
+from number_sheet_ajala import ajala
 from parameter_sets import ASYMMETRY, G, SETS
+from quarter_car import QuarterCar
 from sanity import linear_matrices
 
 
@@ -56,15 +59,15 @@ PRINTED = {
 def tire(p):
     car = QuarterCar(p)
     k, q = p["tire.stiffness"], p["tire.quadratic"]
-    numeric = brentq(lambda c: car.static_load + k * c + q * c * c, -k / (2.0 * q), 0.0, xtol=1e-18)
-    assert abs(numeric / car.lift_off_compression - 1.0) < 1e-12
+    numeric = brentq(lambda c: car.tire.static_load + k * c + q * c * c, -k / (2.0 * q), 0.0, xtol=1e-18)
+    assert abs(numeric / car.tire.lift_off_compression - 1.0) < 1e-12
     return {
-        "static_load": car.static_load,
-        "lift_off_compression": car.lift_off_compression,
+        "static_load": car.tire.static_load,
+        "lift_off_compression": car.tire.lift_off_compression,
         "parabola_turns_at": -k / (2.0 * q),
-        "force_returns_to_lift_off_at": -k / q - car.lift_off_compression,
+        "force_returns_to_lift_off_at": -k / q - car.tire.lift_off_compression,
         "tangent_rate_at_static_equilibrium": k,
-        "tangent_rate_if_counted_from_unloaded_tyre": math.sqrt(k * k + 4.0 * q * car.static_load),
+        "tangent_rate_if_counted_from_unloaded_tyre": math.sqrt(k * k + 4.0 * q * car.tire.static_load),
     }
 
 
@@ -97,6 +100,19 @@ def lqr(name):
     return {"k_us": p["tire.stiffness"], "gain": gain, "closed_loop": modes(a - b @ np.array([gain]))}
 
 
+def tum_errors():
+    """Where the printed form cannot be: fourth entry of E in eq. 9, the strut's own rate, the force of 10 V."""
+    linear, table_10, m = SETS["tum-linear-optimised"], SETS["tum-table-10"], LinearMotor()
+    return {
+        "eq_9_fourth_entry": {"printed": 1.0, "computed": linear["tire.damping"] / linear["unsprung_mass"]},
+        # c_c = i^2 c_strut (eq. 13); with Table 10's i^-2 the strut would be softer than its effect at the wheel.
+        "strut_rate": {"by_eq_13": table_10["strut.stiffness"] / 0.392**2,
+                       "by_table_10": table_10["strut.stiffness"] * 0.392**2},
+        "force_at_10_v": {"printed_1_kn_per_a": 10.0 * m.static_gain * 1e3, "computed": 10.0 * m.static_gain * 100.0,
+                          "peak_of_table_3": 3200.0},
+    }
+
+
 def numbers():
     measured = SETS["tum-table-7-measured"]
     return {
@@ -112,4 +128,8 @@ def numbers():
             "compression_where_measured_tangent_has_it":
                 (152186.0 - measured["tire.stiffness"]) / (2.0 * measured["tire.quadratic"])},
         "linear_motor": motor(),
+        "tum_errors": tum_errors(),
+        "konieczny": konieczny(),
+        "ajala": ajala(),
+        "kogut": kogut(),
     }

@@ -8,10 +8,13 @@ from scipy.linalg import expm
 from scipy.signal import welch
 
 from integrate import REFERENCE, advance
-from models import LinearMotor, QuarterCar
+from linear_motor import LinearMotor
 from parameter_sets import SETS
+from quarter_car import QuarterCar
 from roads import IsoProfile, Road, splitmix64
 from stimulus import inputs_at
+
+LIFT_OFF = {"tire.lift_off": True}
 
 
 def linear_matrices(p):
@@ -55,11 +58,11 @@ def complaints():
 def rig_complaints():
     found = []
     for name, p in SETS.items():
-        car = QuarterCar(p, lift_off=True)
+        car = QuarterCar(p, LIFT_OFF)
         if any(car.derivative([0.0] * 4, [0.0] * 3, car.mode([0.0] * 4, [0.0] * 3))):
             found.append(f"{name}: the origin is not an equilibrium")
         # Free motion from a raised body: undamped sets keep their energy, others only lose it.
-        free = QuarterCar(p, lift_off=False)
+        free = QuarterCar(p)
         size = 0.005 if p["sprung_mass"] > 10.0 else 0.001
         energies = [free.energy(x) for x in run(free, [size, 0.1, -size / 2, -0.2], [0.0] * 3, 1.0)]
         if p["strut.damping"] == 0.0:
@@ -73,13 +76,13 @@ def rig_complaints():
     if max(abs(end[2] - 0.01), abs(end[0] - end[2] - 3.0 / p["strut.stiffness"]), abs(end[1])) > 1e-11:
         found.append("quanser: wrong rest position under a constant force on a raised road")
     # In the air the centre of mass falls with g, whatever the strut does.
-    car = QuarterCar(SETS["tum-table-10"] | {"guide.coulomb.force": 0.0}, lift_off=True)
+    car = QuarterCar(SETS["tum-table-10"] | {"guide.coulomb.force": 0.0}, LIFT_OFF)
     x, u = [0.02, 0.3, 0.04, -0.4], [0.0, 0.0, 77.0]
     a = car.derivative(x, u, car.mode(x, u))
     if abs((car.ms * a[1] + car.mu * a[3]) / (car.ms + car.mu) + 9.80665) > 1e-12:
         found.append("tum-table-10: airborne, but not in free fall")
     # The tyre force never goes below minus the static load, and is continuous at lift-off.
-    if abs(car.tire_force(car.lift_off_compression, 0.0, "contact") + car.static_load) > 1e-9:
+    if abs(car.tire.force(car.tire.lift_off_compression, 0.0, "contact") + car.tire.static_load) > 1e-9:
         found.append("tum-table-10: the tyre force jumps at the lift-off point")
     return found
 
@@ -119,10 +122,12 @@ def road_complaints():
 
 def velocity_complaints():
     """The velocity against a central difference, away from the pieces' ends."""
-    from cases import ROADS
+    from cases_of_time import ROADS
     found = []
     for case in ROADS:
-        road = Road(case["road_kind"], **case["parameters"])
+        if case["fmu"] != "Road":
+            continue
+        road = Road(case["changed"], case["settings"])
         times = np.linspace(0.013, case["stop"] - 0.011, 173)
         h = 1e-6
         scale = max(abs(road(t)[1]) for t in times)

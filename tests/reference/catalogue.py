@@ -1,0 +1,56 @@
+"""The reference models by the names of the models that they are references of; all single-model cases."""
+
+import cases
+import cases_ajala
+import cases_full_car
+import cases_kogut
+import cases_of_time
+import cases_sensors
+import cases_tum
+from controllers import LqrController, ModalSkyhook, Skyhook
+from excitation import ExcitationMotor
+from force_controllers import ForcePid, ForceTwoDof, ForceTwoDofLpv
+from full_car import FullCar
+from linear_motor import LinearMotor
+from pump import PumpHydraulicActuator, PumpHydraulicActuatorLinear
+from quarter_car import QuarterCar
+from roads import FourWheelRoad, Road
+from sas import MrRotaryBrake, SasRig
+from sensors import AngleSensorChain, SensorChain, VelocityEstimator
+from servo import ServoHydraulicActuator, ServoSuspension, ServoSuspensionIdentified
+from sources import FrequencySource, VoltageSource
+
+MODELS = {model.__name__: model for model in (
+    AngleSensorChain,
+    ExcitationMotor,
+    ForcePid,
+    ForceTwoDof,
+    ForceTwoDofLpv,
+    FourWheelRoad,
+    FrequencySource,
+    FullCar,
+    LinearMotor,
+    LqrController,
+    ModalSkyhook,
+    MrRotaryBrake,
+    PumpHydraulicActuator,
+    PumpHydraulicActuatorLinear,
+    QuarterCar,
+    Road,
+    SasRig,
+    SensorChain,
+    ServoHydraulicActuator,
+    ServoSuspension,
+    ServoSuspensionIdentified,
+    Skyhook,
+    VelocityEstimator,
+    VoltageSource,
+)}
+
+CASES = [case for module in (cases, cases_ajala, cases_full_car, cases_kogut, cases_of_time, cases_sensors, cases_tum)
+         for case in module.CASES]
+
+
+def model_of(case):
+    """The model of a single-model case, with its parameters and settings."""
+    return MODELS[case["fmu"]](case.get("parameters", {}) | case.get("changed", {}), case.get("settings", {}))
