@@ -32,6 +32,12 @@ class Component:
     def references(self, names):
         return [self.variables[name].valueReference for name in names]
 
+    def set(self, name, value):
+        """Sets a variable of any type; an enumeration's item by its number."""
+        variable = self.variables[name]
+        kind = "Integer" if variable.type == "Enumeration" else variable.type
+        getattr(self.fmu, f"set{kind}")([variable.valueReference], [value])
+
     def close(self, failed):
         # After an error the standard allows nothing but to free the instance.
         if not failed:
@@ -58,8 +64,7 @@ class System:
             self.inputs[name].append((variable, source))
         for target, value in (parameters or {}).items():
             name, variable = target.split(".", 1)
-            component = self.components[name]
-            component.fmu.setReal(component.references([variable]), [value])
+            self.components[name].set(variable, value)
 
     @staticmethod
     def add(signals, signal):
