@@ -11,12 +11,10 @@ use cargo_metadata::{CrateType, Message, Metadata, MetadataCommand};
 use crate::failure::{Failure, Result, similar};
 use crate::platform::Platform;
 
-/// How a library that ships is compiled, in whatever workspace it stands: one codegen unit and the
-/// optimiser at link time, so that the equations are inlined into the solver's loop.
-const SHIPPED: [&str; 7] = [
+/// How a library that ships is compiled, in whatever workspace it stands: as the release profile of
+/// Strut's own workspace has it.
+const SHIPPED: [&str; 5] = [
     "--release",
-    "--config",
-    "profile.release.lto='fat'",
     "--config",
     "profile.release.codegen-units=1",
     "--config",

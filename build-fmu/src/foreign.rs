@@ -56,7 +56,11 @@ impl Package {
         write("Cargo.toml", &self.manifest()?)?;
         write("src/main.rs", &self.program(&library.name))?;
         let mut command = Command::new(cargo::program());
-        command.args(["run", "--quiet", "--release", "--manifest-path"]).arg(folder.join("Cargo.toml"));
+        command.args(["run", "--quiet", "--manifest-path"]).arg(folder.join("Cargo.toml"));
+        // As this program was compiled, so that its dependencies are found compiled.
+        if !cfg!(debug_assertions) {
+            command.arg("--release");
+        }
         if let Some(root) = self.strut_root() {
             // What this program was made of is compiled already, in the versions of its lock file.
             let lock = root.join("Cargo.lock");
@@ -122,11 +126,21 @@ impl Package {
         let folder = self.described.manifest_path.parent().map_or("", |folder| folder.as_str());
         Ok(format!(
             "# Written by build-fmu.\n[package]\nname = \"packager-of-{name}\"\nedition = \"2024\"\npublish = false\n\n\
-             [dependencies]\nbuild-fmu = {{ {packager} }}\nmodel = {{ package = {}, path = {} }}\n\n[workspace]\n",
+             {}\n[dependencies]\nbuild-fmu = {{ {packager}, default-features = false }}\nmodel = {{ package = {}, path = {} }}\n\n[workspace]\n",
+            self.profiles(),
             quoted(&self.described.name),
             quoted(folder),
             name = self.described.name,
         ))
+    }
+
+    /// The profiles of Strut's workspace: what is compiled in others is compiled again.
+    fn profiles(&self) -> String {
+        let manifest = self.strut_root().and_then(|root| fs::read_to_string(root.join("Cargo.toml")).ok());
+        let manifest = manifest.and_then(|text| text.parse::<toml::Table>().ok());
+        let mut manifest = manifest.unwrap_or_default();
+        manifest.retain(|key, _| key == "profile");
+        manifest.to_string()
     }
 
     fn program(&self, library: &str) -> String {

@@ -23,13 +23,15 @@ pub mod waveform;
 #[cfg(test)]
 mod testing;
 
+#[cfg(feature = "catalogue")]
 use strut_model::Entry;
 
 /// Standard acceleration of gravity in m/s².
 pub const GRAVITY: f64 = 9.80665;
 
-/// All models.
-pub const CATALOGUE: &[Entry] = &[
+/// All models. A static, so that they are compiled once and not by everyone who looks into it.
+#[cfg(feature = "catalogue")]
+pub static CATALOGUE: &[Entry] = &[
     Entry::of::<rigs::QuarterCar>(),
     Entry::of::<rigs::FullCar>(),
     Entry::of::<rigs::SasRig>(),
