@@ -1,0 +1,277 @@
+//! What a diagnosis finds: the contents of `report.json`.
+
+use serde::Serialize;
+
+/// Version of the format of `report.json`: raised when a reader of an older one would misunderstand it.
+pub const FORMAT: u32 = 1;
+
+/// All that a diagnosis has found.
+#[derive(Clone, Debug, Serialize)]
+pub struct Findings {
+    /// [`FORMAT`].
+    pub format: u32,
+    /// The rig, as the user named it.
+    pub rig: String,
+    /// Names of the files that were learnt from.
+    pub train: Vec<String>,
+    /// Names of the files that judge.
+    pub test: Vec<String>,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The verdict in one or two sentences for an engineer.
+    pub summary: String,
+    /// What was found, in the order of its gain.
+    pub effects: Vec<Effect>,
+    /// Parameters of the starting model that were fitted.
+    pub base_parameters: Vec<BaseParameter>,
+    /// The model's errors on the held-out data, before and after.
+    pub signals: Vec<Signal>,
+    /// A cause without a name.
+    pub unnamed: Option<Curve>,
+    /// What would settle doubts.
+    pub experiment: Option<String>,
+    /// What is wrong with the data.
+    pub data_problems: Vec<DataProblem>,
+    /// Every candidate that was looked at.
+    pub candidates: Vec<Candidate>,
+    /// What the pictures show.
+    pub pictures: Pictures,
+    /// How long the diagnosis took, in seconds.
+    pub seconds: f64,
+}
+
+/// What is the matter with the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Nothing that this record could show.
+    NoEffect,
+    /// Parameters differ from those that the model started with; nothing beyond.
+    ParameterMismatch,
+    /// One or several causes are named.
+    Named,
+    /// Several causes explain the data equally well.
+    Ambiguous,
+    /// There is a cause that has no name in the catalogue.
+    Unnamed,
+    /// A sensor is at fault, not the plant.
+    SensorFault,
+    /// The model explains too little for a cause to be looked for.
+    ModelInadequate,
+    /// The data cannot be used.
+    BadData,
+}
+
+/// A cause that was found.
+#[derive(Clone, Debug, Serialize)]
+pub struct Effect {
+    /// Its number in the catalogue: `01`.
+    pub id: String,
+    /// Where it acts: `strut`, `guide`, `tire`, `actuator`, or the signal of a sensor.
+    pub element: String,
+    /// What it is called.
+    pub name: String,
+    /// Its law in plain text.
+    pub equation: String,
+    /// Its parameters.
+    pub parameters: Vec<EffectParameter>,
+    /// Why it is believed.
+    pub evidence: Evidence,
+    /// Numbers and places of the causes that cannot be told from it with these data.
+    pub ambiguous_with: Vec<String>,
+    /// What would tell them apart.
+    pub experiment: Option<String>,
+}
+
+/// A parameter of an effect.
+#[derive(Clone, Debug, Serialize)]
+pub struct EffectParameter {
+    /// As in the FMU, or for a sensor `signal.gain`.
+    pub name: String,
+    /// In `unit`.
+    pub value: f64,
+    /// SI.
+    pub unit: String,
+    /// Lower end of the 95 % interval.
+    pub low: f64,
+    /// Upper end of the 95 % interval.
+    pub high: f64,
+}
+
+/// Why an effect is believed: every gate that it went through.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Evidence {
+    /// Fall of the Bayesian information criterion, residuals whitened.
+    pub delta_bic: f64,
+    /// Student's t of the gain over the blocks of the training data.
+    pub block_t: f64,
+    /// Student's t of the gain over the blocks of the held-out data.
+    pub held_out_t: f64,
+    /// Share of the residual's power that it explains on the held-out data.
+    pub explained: f64,
+}
+
+/// A parameter of the starting model.
+#[derive(Clone, Debug, Serialize)]
+pub struct BaseParameter {
+    /// As in the FMU.
+    pub name: String,
+    /// SI.
+    pub unit: String,
+    /// What the model started with.
+    pub before: f64,
+    /// What the data say.
+    pub after: f64,
+    /// Lower end of the 95 % interval.
+    pub low: f64,
+    /// Upper end of the 95 % interval.
+    pub high: f64,
+    /// Whether the difference is both significant and large enough to matter.
+    pub mismatch: bool,
+}
+
+/// The error of one signal, on the held-out data.
+#[derive(Clone, Debug, Serialize)]
+pub struct Signal {
+    /// As in the FMU.
+    pub name: String,
+    /// SI.
+    pub unit: String,
+    /// 1 − rms(e)/rms(z), TUM eq. 16, of the starting model.
+    pub phi_before: f64,
+    /// The same of the starting model with fitted parameters.
+    pub phi_fitted: f64,
+    /// The same of the extended model.
+    pub phi_after: f64,
+    /// Root mean square of the starting model's error.
+    pub rms_before: f64,
+    /// The same of the starting model with fitted parameters.
+    pub rms_fitted: f64,
+    /// The same of the extended model.
+    pub rms_after: f64,
+    /// Root mean square of the measurement's noise.
+    pub noise_floor: f64,
+    /// Root mean square of the difference of two repeats, over √2; where there are repeats.
+    pub repeatability: Option<f64>,
+}
+
+/// A force, or another quantity, over a variable.
+#[derive(Clone, Debug, Serialize)]
+pub struct Curve {
+    /// Where it acts.
+    pub location: String,
+    /// Over which variable.
+    pub variable: String,
+    /// Unit of the variable.
+    pub variable_unit: String,
+    /// Unit of the quantity.
+    pub unit: String,
+    /// The variable's values, within what the data cover.
+    pub x: Vec<f64>,
+    /// The quantity.
+    pub y: Vec<f64>,
+    /// Lower end of its 95 % interval.
+    pub low: Vec<f64>,
+    /// Upper end of its 95 % interval.
+    pub high: Vec<f64>,
+}
+
+/// Something wrong with the data.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DataProblem {
+    /// The file.
+    pub record: String,
+    /// The signal, or `time`.
+    pub signal: String,
+    /// What is wrong, where, and what to do.
+    pub text: String,
+    /// Whether the diagnosis cannot go on with it.
+    pub fatal: bool,
+}
+
+/// A candidate that was looked at.
+#[derive(Clone, Debug, Serialize)]
+pub struct Candidate {
+    /// Its number in the catalogue.
+    pub id: String,
+    /// Where it acts.
+    pub element: String,
+    /// What it is called.
+    pub name: String,
+    /// Whether it was fitted, or only screened.
+    pub fitted: bool,
+    /// What the gates said, if it was fitted.
+    pub evidence: Option<Evidence>,
+    /// Size that would have been seen for certain with these data, of its first parameter.
+    pub detectable: Option<f64>,
+    /// Unit of the size.
+    pub unit: String,
+    /// Why it is not named: `accepted`, `weaker than …`, `no gain on held-out data`, `not excited`, …
+    pub outcome: String,
+}
+
+/// What the pictures of the report show.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Pictures {
+    /// Measured and simulated signals of a held-out record.
+    pub traces: Vec<Trace>,
+    /// Error power over frequency for each signal.
+    pub spectra: Vec<Spectrum>,
+    /// Error of the fitted starting model over a variable, in bins.
+    pub scatters: Vec<Binned>,
+}
+
+/// A signal over time.
+#[derive(Clone, Debug, Serialize)]
+pub struct Trace {
+    /// As in the FMU.
+    pub signal: String,
+    /// SI.
+    pub unit: String,
+    /// In seconds.
+    pub time: Vec<f64>,
+    /// Measured.
+    pub measured: Vec<f64>,
+    /// Simulated by the starting model with fitted parameters.
+    pub before: Vec<f64>,
+    /// Simulated by the extended model.
+    pub after: Vec<f64>,
+}
+
+/// Power spectral density.
+#[derive(Clone, Debug, Serialize)]
+pub struct Spectrum {
+    /// As in the FMU.
+    pub signal: String,
+    /// SI; the densities are in its square per hertz.
+    pub unit: String,
+    /// In hertz.
+    pub frequency: Vec<f64>,
+    /// Of the measured signal.
+    pub measured: Vec<f64>,
+    /// Of the error of the starting model with fitted parameters.
+    pub before: Vec<f64>,
+    /// Of the error of the extended model.
+    pub after: Vec<f64>,
+}
+
+/// Mean of an error over bins of a variable, by the direction in which the variable moves.
+#[derive(Clone, Debug, Serialize)]
+pub struct Binned {
+    /// What is shown: `force missing in the strut`.
+    pub quantity: String,
+    /// Its unit.
+    pub unit: String,
+    /// Over which variable.
+    pub variable: String,
+    /// Its unit.
+    pub variable_unit: String,
+    /// Middle of each bin.
+    pub x: Vec<f64>,
+    /// Mean in each bin while the variable rises; null where there are too few samples.
+    pub rising: Vec<Option<f64>>,
+    /// Mean in each bin while the variable falls.
+    pub falling: Vec<Option<f64>>,
+    /// Twice the standard error of the means.
+    pub two_sigma: Vec<Option<f64>>,
+}

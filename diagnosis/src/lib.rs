@@ -1,0 +1,6 @@
+//! From measured data to a named cause, an extended model and a measured gain.
+//!
+//! [`data`] reads and checks records; [`findings`] is what comes out.
+
+pub mod data;
+pub mod findings;
