@@ -2,5 +2,17 @@
 //!
 //! [`data`] reads and checks records; [`findings`] is what comes out.
 
+pub mod catalogue;
+pub mod correction;
 pub mod data;
+pub mod diagnosis;
 pub mod findings;
+pub mod fit;
+pub mod hypothesis;
+pub mod lsq;
+pub mod plant;
+pub mod recorded;
+pub mod rig;
+pub mod screening;
+pub mod search;
+pub mod whitening;

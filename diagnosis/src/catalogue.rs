@@ -1,0 +1,195 @@
+//! The catalogue of causes: which parameters they switch on, how large they may be, what they are confused with.
+
+mod strut;
+mod tire;
+
+use crate::plant::Plant;
+
+/// A cause with a name.
+#[derive(Clone, Copy, Debug)]
+pub struct Cause {
+    /// Its number.
+    pub id: &'static str,
+    /// The element that it acts on.
+    pub element: Element,
+    /// What it is called.
+    pub name: &'static str,
+    /// Its law in plain text.
+    pub equation: &'static str,
+    /// A setting that has to be on.
+    pub setting: Option<&'static str>,
+    /// Its parameters; the first one is how much of it there is.
+    pub parts: &'static [Part],
+    /// What separates it from the causes that it is most often confused with.
+    pub experiment: &'static str,
+}
+
+/// Where a cause acts; its parameters are measured in that element's own forces and motions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Element {
+    /// Between body and wheel.
+    Strut,
+    /// Between body and ground.
+    Guide,
+    /// Between wheel and ground.
+    WheelGuide,
+    /// Between wheel and road.
+    Tire,
+}
+
+impl Element {
+    /// As in parameters' names.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Strut => "strut",
+            Self::Guide => "guide",
+            Self::WheelGuide => "wheel_guide",
+            Self::Tire => "tire",
+        }
+    }
+}
+
+/// A parameter of a cause.
+#[derive(Clone, Copy, Debug)]
+pub struct Part {
+    /// As in the plant.
+    pub parameter: &'static str,
+    /// What its numbers are in.
+    pub scale: Scale,
+    /// Smallest and largest value.
+    pub bounds: (f64, f64),
+    /// Values from which it is looked for.
+    pub probes: &'static [f64],
+}
+
+/// Powers of an element's typical force, deflection and velocity that a parameter's numbers are in: what is large and
+/// what is small depends on the element.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    force: i32,
+    deflection: i32,
+    velocity: i32,
+}
+
+impl Scale {
+    /// The parameter's own unit.
+    pub const ONE: Self = Self { force: 0, deflection: 0, velocity: 0 };
+    /// A force.
+    pub const FORCE: Self = Self { force: 1, ..Self::ONE };
+    /// A deflection.
+    pub const DEFLECTION: Self = Self { deflection: 1, ..Self::ONE };
+    /// A velocity.
+    pub const VELOCITY: Self = Self { velocity: 1, ..Self::ONE };
+    /// Per deflection.
+    pub const PER_DEFLECTION: Self = Self { deflection: -1, ..Self::ONE };
+    /// A stiffness.
+    pub const STIFFNESS: Self = Self { force: 1, deflection: -1, velocity: 0 };
+    /// A compliance.
+    pub const COMPLIANCE: Self = Self { force: -1, deflection: 1, velocity: 0 };
+    /// A force over a deflection squared.
+    pub const QUADRATIC: Self = Self { force: 1, deflection: -2, velocity: 0 };
+    /// A force over a deflection cubed.
+    pub const CUBIC: Self = Self { force: 1, deflection: -3, velocity: 0 };
+    /// A damping rate.
+    pub const DAMPING: Self = Self { force: 1, deflection: 0, velocity: -1 };
+    /// A force over a velocity squared.
+    pub const ORIFICE: Self = Self { force: 1, deflection: 0, velocity: -2 };
+
+    /// In SI units.
+    pub fn of(self, typical: &Typical) -> f64 {
+        typical.force.powi(self.force)
+            * typical.deflection.powi(self.deflection)
+            * typical.velocity.powi(self.velocity)
+    }
+}
+
+/// Typical magnitudes of an element, root mean square: force in N, deflection in m, velocity in m/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Typical {
+    /// In N.
+    pub force: f64,
+    /// In m.
+    pub deflection: f64,
+    /// In m/s.
+    pub velocity: f64,
+}
+
+/// A parameter of a cause.
+const fn part(parameter: &'static str, scale: Scale, bounds: (f64, f64), probes: &'static [f64]) -> Part {
+    Part { parameter, scale, bounds, probes }
+}
+
+/// A force without a name, over a variable: a table in the plant.
+#[derive(Clone, Copy, Debug)]
+pub struct Table {
+    /// Its number.
+    pub id: &'static str,
+    /// The element that it acts on.
+    pub element: Element,
+    /// What it is over.
+    pub variable: &'static str,
+    /// The parameter that switches it on.
+    pub switch: &'static str,
+    /// The parameter that is the range of the variable, to both sides.
+    pub range: &'static str,
+    /// The parameter that is the table: its points are `table[1]`, `table[2]`, …
+    pub points: &'static str,
+    /// Whether the variable is a deflection or a velocity.
+    pub scale: Scale,
+}
+
+/// Every named cause that acts through a plant's parameters.
+pub fn causes(plant: &Plant) -> impl Iterator<Item = &'static Cause> {
+    let has = |cause: &&Cause| {
+        cause.parts.iter().all(|part| plant.parameter(part.parameter).is_some())
+            && cause.setting.is_none_or(|setting| plant.setting(setting).is_some())
+    };
+    strut::CAUSES.iter().chain(tire::CAUSES).filter(has)
+}
+
+/// Every cause without a name that a plant can have.
+pub fn tables(plant: &Plant) -> impl Iterator<Item = &'static Table> {
+    let has = |table: &&Table| {
+        plant.parameter(table.switch).is_some() && plant.parameter(&format!("{}[1]", table.points)).is_some()
+    };
+    TABLES.iter().filter(has)
+}
+
+const TABLES: &[Table] = &[
+    Table {
+        id: "G1",
+        element: Element::Strut,
+        variable: "deflection",
+        switch: "strut.curve.scale",
+        range: "strut.curve.deflection_range",
+        points: "strut.curve.over_deflection",
+        scale: Scale::DEFLECTION,
+    },
+    Table {
+        id: "G1",
+        element: Element::Strut,
+        variable: "velocity",
+        switch: "strut.curve.scale",
+        range: "strut.curve.velocity_range",
+        points: "strut.curve.over_velocity",
+        scale: Scale::VELOCITY,
+    },
+    Table {
+        id: "G1",
+        element: Element::Guide,
+        variable: "velocity",
+        switch: "guide.curve.scale",
+        range: "guide.curve.velocity_range",
+        points: "guide.curve.over_velocity",
+        scale: Scale::VELOCITY,
+    },
+    Table {
+        id: "G1",
+        element: Element::Tire,
+        variable: "deflection",
+        switch: "tire.curve.scale",
+        range: "tire.curve.deflection_range",
+        points: "tire.curve.over_deflection",
+        scale: Scale::DEFLECTION,
+    },
+];

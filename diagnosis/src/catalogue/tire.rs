@@ -1,0 +1,36 @@
+//! Causes in the tyre.
+
+use super::{Cause, Element, Scale, part};
+
+pub(super) const CAUSES: &[Cause] = &[
+    Cause {
+        id: "19",
+        element: Element::Tire,
+        name: "progressive tyre",
+        equation: "F = q c^2",
+        setting: None,
+        parts: &[part("tire.quadratic", Scale::QUADRATIC, (-5.0, 5.0), &[0.05])],
+        experiment: "compare two static loads",
+    },
+    Cause {
+        id: "20",
+        element: Element::Tire,
+        name: "lift-off",
+        equation: "F >= -F_0",
+        setting: Some("tire.lift_off"),
+        parts: &[],
+        experiment: "drop the wheel, or drive over a large bump",
+    },
+    Cause {
+        id: "21",
+        element: Element::Tire,
+        name: "tyre friction",
+        equation: "F = F_t tanh(c'/v_0)",
+        setting: None,
+        parts: &[
+            part("tire.coulomb.force", Scale::FORCE, (0.0, 5.0), &[0.1]),
+            part("tire.coulomb.velocity", Scale::VELOCITY, (1e-3, 1.0), &[0.05]),
+        ],
+        experiment: "sweep the frequency",
+    },
+];

@@ -1,0 +1,202 @@
+//! What a sensor or an actuator makes of a signal: gain, offset, drift, lag, delay, curvature.
+
+/// A way in which a signal is changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Fault {
+    /// Relative change of the gain.
+    Gain,
+    /// Constant, in the signal's unit.
+    Offset,
+    /// Growing constant, in the signal's unit per second.
+    Drift,
+    /// Time constant of a first-order lag in seconds.
+    Lag,
+    /// Delay in seconds; negative: the signal is early.
+    Delay,
+    /// Quadratic part, in one over the signal's unit.
+    Quadratic,
+    /// Cubic part, in one over the signal's unit squared.
+    Cubic,
+}
+
+impl Fault {
+    /// All of them.
+    pub const ALL: [Self; 7] =
+        [Self::Gain, Self::Offset, Self::Drift, Self::Lag, Self::Delay, Self::Quadratic, Self::Cubic];
+
+    /// Its name, as the last part of a parameter's.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Gain => "gain",
+            Self::Offset => "offset",
+            Self::Drift => "drift",
+            Self::Lag => "lag",
+            Self::Delay => "delay",
+            Self::Quadratic => "quadratic",
+            Self::Cubic => "cubic",
+        }
+    }
+
+    /// Unit of its parameter for a signal of a unit.
+    pub fn unit(self, signal: &str) -> String {
+        match self {
+            Self::Gain => "1".into(),
+            Self::Offset => signal.into(),
+            Self::Drift => format!("{signal}/s"),
+            Self::Lag | Self::Delay => "s".into(),
+            Self::Quadratic => format!("1/({signal})"),
+            Self::Cubic => format!("1/({signal})2"),
+        }
+    }
+}
+
+/// Every change of one signal: `(1 + gain) lag(delay(y + q y² + c y³)) + offset + drift t`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Correction {
+    amounts: [f64; 7],
+}
+
+impl Correction {
+    /// How much of a fault there is.
+    pub fn get(&self, fault: Fault) -> f64 {
+        self.amounts[fault as usize]
+    }
+
+    /// Sets how much of a fault there is.
+    pub fn set(&mut self, fault: Fault, amount: f64) {
+        self.amounts[fault as usize] = amount;
+    }
+
+    /// Whether it changes nothing.
+    pub fn is_neutral(&self) -> bool {
+        self.amounts.iter().all(|amount| *amount == 0.0)
+    }
+
+    /// What becomes of a signal that is sampled every `step` seconds.
+    pub fn applied(&self, signal: &[f64], step: f64) -> Vec<f64> {
+        self.through(signal, step, true)
+    }
+
+    /// What becomes of a small change of a signal.
+    pub fn tangent(&self, signal: &[f64], change: &[f64], step: f64) -> Vec<f64> {
+        let (quadratic, cubic) = (self.get(Fault::Quadratic), self.get(Fault::Cubic));
+        if quadratic == 0.0 && cubic == 0.0 {
+            return self.through(change, step, false);
+        }
+        let bent: Vec<f64> = signal
+            .iter()
+            .zip(change)
+            .map(|(y, dy)| dy * (1.0 + 2.0 * quadratic * y + 3.0 * cubic * y * y))
+            .collect();
+        let straight = Self {
+            amounts: {
+                let mut a = self.amounts;
+                a[Fault::Quadratic as usize] = 0.0;
+                a[Fault::Cubic as usize] = 0.0;
+                a
+            },
+        };
+        straight.through(&bent, step, false)
+    }
+
+    fn through(&self, signal: &[f64], step: f64, constants: bool) -> Vec<f64> {
+        let [gain, offset, drift, lag, delay, quadratic, cubic] = self.amounts;
+        let mut result: Vec<f64> = if quadratic == 0.0 && cubic == 0.0 {
+            signal.to_vec()
+        } else {
+            signal.iter().map(|y| y * (1.0 + y * (quadratic + y * cubic))).collect()
+        };
+        if delay != 0.0 {
+            result = delayed(&result, delay / step);
+        }
+        if lag > 0.0 {
+            lagged(&mut result, lag / step);
+        }
+        if gain != 0.0 {
+            result.iter_mut().for_each(|y| *y *= 1.0 + gain);
+        }
+        if constants && (offset != 0.0 || drift != 0.0) {
+            for (index, y) in result.iter_mut().enumerate() {
+                *y += offset + drift * step * index as f64;
+            }
+        }
+        result
+    }
+}
+
+/// A signal some samples later, by cubic interpolation between them; the ends are held.
+fn delayed(signal: &[f64], samples: f64) -> Vec<f64> {
+    let last = signal.len() as isize - 1;
+    let at = |index: isize| signal[index.clamp(0, last) as usize];
+    (0..=last)
+        .map(|index| {
+            let position = index as f64 - samples;
+            let before = position.floor();
+            let (k, s) = (before as isize, position - before);
+            let (a, b, c, d) = (at(k - 1), at(k), at(k + 1), at(k + 2));
+            b + 0.5 * s * (c - a + s * (2.0 * a - 5.0 * b + 4.0 * c - d + s * (3.0 * (b - c) + d - a)))
+        })
+        .collect()
+}
+
+/// A first-order lag with a time constant in samples, exact for a signal that is straight between them.
+fn lagged(signal: &mut [f64], samples: f64) {
+    let Some(&first) = signal.first() else { return };
+    let decay = (-1.0 / samples).exp();
+    let (mut state, mut before) = (first, first);
+    for y in signal {
+        let slope = *y - before;
+        // Response to a ramp from `before`: it follows the ramp `samples` behind.
+        state = *y - samples * slope + (state - before + samples * slope) * decay;
+        before = *y;
+        *y = state;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn sine(n: usize, step: f64, at: impl Fn(f64) -> f64) -> Vec<f64> {
+        (0..n).map(|k| at(k as f64 * step)).collect()
+    }
+
+    #[test]
+    fn a_lag_delays_a_slow_sine_by_its_time_constant_and_weakens_a_fast_one() {
+        let mut correction = Correction::default();
+        correction.set(Fault::Lag, 0.01);
+        let omega = 100.0;
+        let lagged = correction.applied(&sine(4000, 1e-4, |t| (omega * t).sin()), 1e-4);
+        let (gain, phase) = (1.0 / 2.0_f64.sqrt(), -std::f64::consts::FRAC_PI_4);
+        for k in (2000..4000).step_by(7) {
+            let expected = gain * (omega * k as f64 * 1e-4 + phase).sin();
+            assert!((lagged[k] - expected).abs() < 1e-4, "{k}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn a_delay_is_one(delay in -0.02..0.02_f64) {
+            let mut correction = Correction::default();
+            correction.set(Fault::Delay, delay);
+            let y = |t: f64| (20.0 * t).sin() + 0.3 * (55.0 * t).cos();
+            let delayed = correction.applied(&sine(1000, 1e-3, y), 1e-3);
+            for k in 30..970 {
+                prop_assert!((delayed[k] - y(k as f64 * 1e-3 - delay)).abs() < 1e-4);
+            }
+        }
+
+        #[test]
+        fn the_tangent_is_the_derivative(amounts in prop::array::uniform7(-0.2..0.2_f64), h in 1e-6..1e-5_f64) {
+            let correction = Correction { amounts };
+            let y = sine(50, 1e-2, |t| (9.0 * t).sin());
+            let change = sine(50, 1e-2, |t| (4.0 * t).cos());
+            let moved: Vec<f64> = y.iter().zip(&change).map(|(y, d)| y + h * d).collect();
+            let (a, b) = (correction.applied(&y, 1e-2), correction.applied(&moved, 1e-2));
+            for ((a, b), t) in a.iter().zip(&b).zip(correction.tangent(&y, &change, 1e-2)) {
+                prop_assert!(((b - a) / h - t).abs() < 1e-3);
+            }
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! From records to findings: base fit, search, and what is told about it.
+
+use nalgebra::DMatrix;
+
+use crate::correction::Fault;
+use crate::fit::{self, Handle, Residuals};
+use crate::hypothesis::{Fitted, World};
+use crate::lsq::Stop;
+use crate::plant::Drive;
+use crate::recorded::{Measured, Recorded, Source};
+use crate::rig::Rig;
+use crate::screening::{rms, typical};
+use crate::search::Found;
+
+/// A diagnosis that has come to its end.
+pub struct Diagnosis<'a> {
+    /// What it was about.
+    pub world: World<'a>,
+    /// The starting model as it was given, on the held-out data.
+    pub before: Residuals,
+    /// What was found.
+    pub found: Found,
+    /// Signals that had to be turned over before anything fitted.
+    pub reversed: Vec<Handle>,
+}
+
+/// Diagnoses a rig from records.
+///
+/// # Errors
+/// If the model refuses its parameters or diverges on the records.
+pub fn diagnose<'a>(
+    rig: &'a Rig,
+    train: &'a [Recorded],
+    test: &'a [Recorded],
+    known: Vec<(usize, f64, f64)>,
+    progress: &(dyn Fn(&str) + Sync),
+) -> Result<Diagnosis<'a>, String> {
+    let mut world = World {
+        rig,
+        train,
+        test,
+        typical: Vec::new(),
+        known,
+        sigma: vec![1.0; rig.plant.outputs.len()],
+        floor: Vec::new(),
+    };
+    progress("simulating the starting model");
+    let dynamics = world.dynamics(&[])?;
+    world.sigma = measured_sigma(rig, train, |measured| rms(&measured.values));
+    world.floor = floors(train);
+    let mut start = {
+        let bare = world.fit(&*dynamics, train, Vec::new());
+        bare.settled(world.origin())
+    };
+    let before = {
+        let point = world.held_out_point(&*dynamics, &start);
+        world.fit(&*dynamics, test, Vec::new()).residuals(&point)
+    };
+    progress("fitting the starting model's parameters");
+    let mut reversed = Vec::new();
+    let mut base = world.fitted(&[], &[start.clone()], Stop::NOISY)?;
+    for handle in signals(train) {
+        let mut turned = start.clone();
+        turned.set(handle, -2.0);
+        let other = world.fitted(&[], &[turned.clone()], Stop { iterations: 8, ..Stop::NOISY });
+        if let Ok(other) = other
+            && other.cost < 0.5 * base.cost
+        {
+            (base, start) = (other, turned);
+            reversed.push(handle);
+        }
+    }
+    // Weights by what is left, twice: then the fit is the likeliest for errors of such magnitudes.
+    for _ in 0..2 {
+        world.sigma = left_sigma(&world, &base.train);
+        base = world.fitted(&[], &[base.point.clone()], Stop::NOISY)?;
+    }
+    world.typical = {
+        let all = outputs(&world, &base);
+        typical(rig, train, &all)
+    };
+    let found = world.search(base, progress)?;
+    Ok(Diagnosis { world, before, found, reversed })
+}
+
+/// Root mean square of what is left of each output, and not below its noise.
+fn left_sigma(world: &World<'_>, residuals: &Residuals) -> Vec<f64> {
+    let mut sigma = world.sigma.clone();
+    for (row, floor) in world.floor.iter().enumerate() {
+        let output = world.train[0].measured[row].output;
+        let left: Vec<f64> = residuals.iter().flat_map(|record| record[row].iter().copied()).collect();
+        sigma[output] = root_mean_square(&left).max(*floor);
+    }
+    sigma
+}
+
+/// Every signal that may have been recorded with the wrong sign.
+fn signals(train: &[Recorded]) -> Vec<Handle> {
+    let Some(record) = train.first() else { return Vec::new() };
+    let inputs = record.inputs.iter().enumerate().filter(|(_, source)| matches!(source, Source::Measured(_)));
+    let inputs = inputs.map(|(index, _)| Handle::Input(index, Fault::Gain));
+    let outputs = record.measured.iter().map(|measured| Handle::Output(measured.output, Fault::Gain));
+    inputs.chain(outputs).collect()
+}
+
+fn measured_sigma(rig: &Rig, records: &[Recorded], of: impl Fn(&Measured) -> f64) -> Vec<f64> {
+    let mut sigma = vec![1.0; rig.plant.outputs.len()];
+    for record in records {
+        for measured in &record.measured {
+            sigma[measured.output] = of(measured).max(f64::MIN_POSITIVE);
+        }
+    }
+    sigma
+}
+
+fn floors(train: &[Recorded]) -> Vec<f64> {
+    let Some(first) = train.first() else { return Vec::new() };
+    first
+        .measured
+        .iter()
+        .map(|measured| measured.noise_floor.max(1e-6 * rms(&measured.values)).max(f64::MIN_POSITIVE))
+        .collect()
+}
+
+/// All outputs of the plant on the training records.
+fn outputs(world: &World<'_>, fitted: &Fitted) -> Vec<Vec<Vec<f64>>> {
+    let Ok(dynamics) = world.dynamics(&fitted.terms) else { return Vec::new() };
+    let mut starts = fitted.point.starts.iter();
+    world
+        .train
+        .iter()
+        .map(|record| {
+            let mut whole = vec![Vec::new(); world.rig.plant.outputs.len()];
+            for section in &record.sections {
+                let drive: Drive = record.drive(section, &fitted.point.inputs);
+                let Some(start) = starts.next() else { continue };
+                let part = dynamics.outputs(&fitted.point.parameters, start, &drive);
+                for (whole, part) in whole.iter_mut().zip(part) {
+                    whole.extend(part);
+                }
+            }
+            whole
+        })
+        .collect()
+}
+
+/// The covariance of a fit's coordinates; none if one is not determined.
+pub fn covariance(fitted: &Fitted) -> Option<DMatrix<f64>> {
+    fit::covariance(&fitted.linear, &fitted.trace.scores)
+}
+
+/// Value and half the 95 % interval of each coordinate.
+pub fn intervals(fitted: &Fitted) -> Vec<(Handle, f64, f64)> {
+    let covariance = covariance(fitted);
+    let half = |index: usize| match &covariance {
+        Some(matrix) => 1.96 * matrix[(index, index)].max(0.0).sqrt(),
+        None => f64::INFINITY,
+    };
+    let handles = fitted.coordinates.iter().enumerate();
+    handles.map(|(index, it)| (it.handle, fitted.point.get(it.handle), half(index))).collect()
+}
+
+/// How closely signals are met: `1 − rms(e)/rms(z)`, TUM eq. 16; z about its mean.
+pub fn phi(residuals: &[f64], measured: &[f64]) -> f64 {
+    1.0 - root_mean_square(residuals) / rms(measured).max(f64::MIN_POSITIVE)
+}
+
+/// Root of the mean of the known squares.
+pub fn root_mean_square(values: &[f64]) -> f64 {
+    let known = values.iter().filter(|value| value.is_finite());
+    let (sum, n) = known.fold((0.0, 0), |(sum, n), value| (sum + value * value, n + 1));
+    (sum / f64::from(n.max(1))).sqrt()
+}

@@ -1,0 +1,245 @@
+//! What may be the matter: a set of terms that are added to the starting model, and the fit with them.
+
+use strut_model::Value;
+
+use crate::catalogue::{Cause, Element, Table, Typical};
+use crate::correction::{Correction, Fault};
+use crate::fit::{Coordinate, Fit, Handle, Point, Residuals, Trace};
+use crate::lsq::{self, Linear, Problem, Stop};
+use crate::plant::Dynamics;
+use crate::recorded::Recorded;
+use crate::rig::Rig;
+use crate::whitening::Likelihood;
+
+/// Points of a table without a name.
+pub const POINTS: usize = 11;
+
+/// Something that is added to the starting model.
+#[derive(Clone, Copy, Debug)]
+pub enum Term {
+    /// A cause with a name.
+    Cause(&'static Cause),
+    /// A force without a name.
+    Table(&'static Table),
+    /// What a sensor or an actuator makes of a signal.
+    Fault(Handle),
+}
+
+impl PartialEq for Term {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Cause(a), Self::Cause(b)) => std::ptr::eq(*a, *b),
+            (Self::Table(a), Self::Table(b)) => std::ptr::eq(*a, *b),
+            (Self::Fault(a), Self::Fault(b)) => a == b,
+            _ => false,
+        }
+    }
+}
+
+/// The world that hypotheses are about.
+pub struct World<'a> {
+    /// The rig.
+    pub rig: &'a Rig,
+    /// The records that are learnt from.
+    pub train: &'a [Recorded],
+    /// The records that judge.
+    pub test: &'a [Recorded],
+    /// Typical magnitudes of each element.
+    pub typical: Vec<(Element, Typical)>,
+    /// What was known of parameters before: index, value, standard deviation.
+    pub known: Vec<(usize, f64, f64)>,
+    /// Standard deviation of each output's residuals.
+    pub sigma: Vec<f64>,
+    /// Noise of each measured output, in the order of a record's.
+    pub floor: Vec<f64>,
+}
+
+/// A hypothesis with its parameters fitted.
+#[derive(Clone, Debug)]
+pub struct Fitted {
+    /// What was added to the starting model.
+    pub terms: Vec<Term>,
+    /// The coordinates of the fit.
+    pub coordinates: Vec<Coordinate>,
+    /// Values, with the states at the start of the training sections.
+    pub point: Point,
+    /// The linearisation there.
+    pub linear: Linear,
+    /// What linearising left behind.
+    pub trace: Trace,
+    /// Half the weighted sum of squares on the training data.
+    pub cost: f64,
+    /// Errors on the training data.
+    pub train: Residuals,
+    /// Errors on the held-out data.
+    pub test: Residuals,
+    /// The likelihood of the former.
+    pub train_likelihood: Likelihood,
+    /// The likelihood of the latter.
+    pub test_likelihood: Likelihood,
+}
+
+impl World<'_> {
+    /// Typical magnitudes of an element.
+    pub fn typical(&self, element: Element) -> Typical {
+        let found = self.typical.iter().find(|(of, _)| *of == element);
+        found.map_or(Typical { force: 1.0, deflection: 1.0, velocity: 1.0 }, |(_, typical)| *typical)
+    }
+
+    /// The point that everything starts from.
+    pub fn origin(&self) -> Point {
+        let sections = self.train.iter().map(|record| record.sections.len()).sum();
+        let start: Vec<f64> = self.rig.plant.states.iter().map(|state| state.start).collect();
+        Point {
+            parameters: self.rig.parameters.clone(),
+            inputs: vec![Correction::default(); self.rig.plant.inputs.len()],
+            outputs: vec![Correction::default(); self.rig.plant.outputs.len()],
+            starts: vec![start; sections],
+        }
+    }
+
+    /// The settings with the terms.
+    pub fn choices(&self, terms: &[Term]) -> Vec<Value> {
+        let mut choices = self.rig.choices.clone();
+        for term in terms {
+            if let Term::Cause(Cause { setting: Some(setting), .. }) = term
+                && let Some(index) = self.rig.plant.setting(setting)
+            {
+                choices[index] = Value::Boolean(true);
+            }
+        }
+        choices
+    }
+
+    /// The equations with the terms.
+    ///
+    /// # Errors
+    /// The model's own words.
+    pub fn dynamics(&self, terms: &[Term]) -> Result<Box<dyn Dynamics>, String> {
+        self.rig.plant.prepare(&self.choices(terms))
+    }
+
+    /// The fit of some records with the terms.
+    pub fn fit<'b>(
+        &'b self,
+        dynamics: &'b dyn Dynamics,
+        records: &'b [Recorded],
+        coordinates: Vec<Coordinate>,
+    ) -> Fit<'b> {
+        Fit::new(&self.rig.plant, dynamics, records, coordinates, self.sigma.clone())
+    }
+
+    /// What is fitted with the terms: base parameters first, then the terms' own, each once.
+    pub fn coordinates(&self, terms: &[Term]) -> Vec<Coordinate> {
+        let plant = &self.rig.plant;
+        let mut coordinates: Vec<Coordinate> = Vec::new();
+        for index in self.rig.base() {
+            let (declared, value) = (&plant.parameters[index], self.rig.parameters[index]);
+            let bounds = (declared.min.unwrap_or(f64::NEG_INFINITY), declared.max.unwrap_or(f64::INFINITY));
+            let known = self.known.iter().find(|(of, _, _)| *of == index);
+            // A data sheet is right within a factor of two or so, where the data do not know better.
+            let prior =
+                known.map_or((value, value.abs().max(1e-6)), |(_, mean, deviation)| (*mean, *deviation));
+            coordinates.push(Coordinate { handle: Handle::Parameter(index), bounds, prior: Some(prior) });
+        }
+        for term in terms {
+            for coordinate in self.own_coordinates(*term) {
+                if !coordinates.iter().any(|other| other.handle == coordinate.handle) {
+                    coordinates.push(coordinate);
+                }
+            }
+        }
+        coordinates
+    }
+
+    /// The coordinates that a term brings.
+    pub fn own_coordinates(&self, term: Term) -> Vec<Coordinate> {
+        let plant = &self.rig.plant;
+        match term {
+            Term::Cause(cause) => {
+                let typical = self.typical(cause.element);
+                let parts = cause.parts.iter().filter_map(|part| {
+                    let (index, unit) = (plant.parameter(part.parameter)?, part.scale.of(&typical));
+                    let declared = &plant.parameters[index];
+                    let low = (part.bounds.0 * unit).max(declared.min.unwrap_or(f64::NEG_INFINITY));
+                    let high = (part.bounds.1 * unit).min(declared.max.unwrap_or(f64::INFINITY));
+                    Some(Coordinate { handle: Handle::Parameter(index), bounds: (low, high), prior: None })
+                });
+                parts.collect()
+            }
+            Term::Table(table) => {
+                let force = self.typical(table.element).force;
+                let points =
+                    (1..=POINTS).filter_map(|number| plant.parameter(&format!("{}[{number}]", table.points)));
+                points
+                    .map(|index| Coordinate {
+                        handle: Handle::Parameter(index),
+                        bounds: (-10.0 * force, 10.0 * force),
+                        // A ridge: points that nothing reaches stay at zero.
+                        prior: Some((0.0, force)),
+                    })
+                    .collect()
+            }
+            Term::Fault(handle) => {
+                vec![Coordinate { handle, bounds: self.fault_bounds(handle), prior: None }]
+            }
+        }
+    }
+
+    fn fault_bounds(&self, handle: Handle) -> (f64, f64) {
+        let fault = match handle {
+            Handle::Input(_, fault) | Handle::Output(_, fault) => fault,
+            Handle::Parameter(_) => return (f64::NEG_INFINITY, f64::INFINITY),
+        };
+        match fault {
+            Fault::Gain => (-0.9, 4.0),
+            Fault::Lag => (0.0, 0.2),
+            Fault::Delay => (-0.05, 0.05),
+            Fault::Offset | Fault::Drift | Fault::Quadratic | Fault::Cubic => {
+                (f64::NEG_INFINITY, f64::INFINITY)
+            }
+        }
+    }
+
+    /// Fits a hypothesis from several points and keeps the best.
+    ///
+    /// # Errors
+    /// If the model refuses its settings, or diverges from every point.
+    pub fn fitted(&self, terms: &[Term], starts: &[Point], stop: Stop) -> Result<Fitted, String> {
+        let dynamics = self.dynamics(terms)?;
+        let coordinates = self.coordinates(terms);
+        let fit = self.fit(&*dynamics, self.train, coordinates.clone());
+        let minima = starts.iter().filter(|start| fit.cost(start).is_finite());
+        let minima = minima.map(|start| lsq::minimise(&fit, fit.settled(start.clone()), stop));
+        let best = minima.min_by(|a, b| a.cost.total_cmp(&b.cost));
+        let best = best.ok_or("the simulation diverges from every start")?;
+        let (linear, trace) = fit.linearise(&best.point);
+        let train = fit.residuals(&best.point);
+        let test = self.held_out(&*dynamics, &best.point);
+        Ok(Fitted {
+            terms: terms.to_vec(),
+            coordinates,
+            linear,
+            trace,
+            cost: best.cost,
+            train_likelihood: Likelihood::of(&train, &self.floor),
+            test_likelihood: Likelihood::of(&test, &self.floor),
+            point: best.point,
+            train,
+            test,
+        })
+    }
+
+    /// The point of the held-out data: the same parameters, states at the start of their own.
+    pub fn held_out_point(&self, dynamics: &dyn Dynamics, point: &Point) -> Point {
+        let sections = self.test.iter().map(|record| record.sections.len()).sum();
+        let start: Vec<f64> = self.rig.plant.states.iter().map(|state| state.start).collect();
+        let point = Point { starts: vec![start; sections], ..point.clone() };
+        self.fit(dynamics, self.test, Vec::new()).settled(point)
+    }
+
+    fn held_out(&self, dynamics: &dyn Dynamics, point: &Point) -> Residuals {
+        let point = self.held_out_point(dynamics, point);
+        self.fit(dynamics, self.test, Vec::new()).residuals(&point)
+    }
+}

@@ -1,0 +1,226 @@
+//! Bounded nonlinear least squares: Levenberg–Marquardt with Moré's scaling.
+//!
+//! A problem linearises itself to a triangular system, however it has its residuals: by a QR factorisation where they
+//! are few, by accumulated normal equations where they are many. J. J. Moré, The Levenberg–Marquardt algorithm:
+//! implementation and theory, Numerical Analysis, LNM 630 (1978).
+
+use nalgebra::{DMatrix, DVector};
+
+/// Half a sum of squares, linearised: `½‖R d + q‖² + rest` for a small step d.
+#[derive(Clone, Debug)]
+pub struct Linear {
+    /// Upper triangular, n × n.
+    pub r: DMatrix<f64>,
+    /// n values.
+    pub q: DVector<f64>,
+}
+
+impl Linear {
+    /// From a Jacobian, m × n with m ≥ n, and the residuals.
+    pub fn by_qr(jacobian: DMatrix<f64>, residuals: &DVector<f64>) -> Self {
+        let qr = jacobian.qr();
+        let mut rotated = residuals.clone();
+        qr.q_tr_mul(&mut rotated);
+        let r = qr.r();
+        let q = rotated.rows(0, r.ncols()).into_owned();
+        Self { r, q }
+    }
+
+    /// From the normal equations `H = JᵀJ` and `g = Jᵀe`. Columns without influence get a zero row.
+    pub fn by_cholesky(h: &DMatrix<f64>, g: &DVector<f64>) -> Self {
+        let n = g.len();
+        let scale = DVector::from_fn(n, |i, _| h[(i, i)].max(0.0).sqrt());
+        let mut r = DMatrix::zeros(n, n);
+        // Row by row, in units of each column's own norm: what is left of a dependent column is rounding.
+        for i in 0..n {
+            let mut pivot = h[(i, i)];
+            for k in 0..i {
+                pivot -= r[(k, i)] * r[(k, i)];
+            }
+            if pivot.is_nan() || pivot <= 1e-13 * scale[i] * scale[i] {
+                continue;
+            }
+            r[(i, i)] = pivot.sqrt();
+            for j in i + 1..n {
+                let mut sum = h[(i, j)];
+                for k in 0..i {
+                    sum -= r[(k, i)] * r[(k, j)];
+                }
+                r[(i, j)] = sum / r[(i, i)];
+            }
+        }
+        let mut q = DVector::zeros(n);
+        for i in 0..n {
+            if r[(i, i)] > 0.0 {
+                let sum: f64 = (0..i).map(|k| r[(k, i)] * q[k]).sum();
+                q[i] = (g[i] - sum) / r[(i, i)];
+            }
+        }
+        Self { r, q }
+    }
+
+    /// Norm of each column of the Jacobian.
+    pub fn column_norms(&self) -> DVector<f64> {
+        DVector::from_fn(self.r.ncols(), |j, _| self.r.column(j).norm())
+    }
+
+    /// `(RᵀR)⁻¹`, the covariance for residuals of variance one; none if a direction is not determined.
+    pub fn covariance(&self) -> Option<DMatrix<f64>> {
+        let n = self.r.ncols();
+        let norms = self.column_norms();
+        if (0..n).any(|i| self.r[(i, i)].abs() <= 1e-12 * norms[i] || norms[i] == 0.0) {
+            return None;
+        }
+        let inverse = self.r.solve_upper_triangular(&DMatrix::identity(n, n))?;
+        Some(&inverse * inverse.transpose())
+    }
+
+    /// The step that is least in `‖R d + q‖² + λ‖D d‖²` over the free coordinates; others stay.
+    fn step(&self, lambda: f64, scale: &DVector<f64>, free: &[bool]) -> DVector<f64> {
+        let n = self.r.ncols();
+        let indices: Vec<usize> = (0..n).filter(|i| free[*i]).collect();
+        let m = indices.len();
+        let mut step = DVector::zeros(n);
+        if m == 0 {
+            return step;
+        }
+        let mut stacked = DMatrix::zeros(n + m, m);
+        for (column, index) in indices.iter().enumerate() {
+            stacked.view_mut((0, column), (n, 1)).copy_from(&self.r.column(*index));
+            stacked[(n + column, column)] = lambda.sqrt() * scale[*index];
+        }
+        let mut right = DVector::zeros(n + m);
+        right.rows_mut(0, n).copy_from(&(-&self.q));
+        let qr = stacked.qr();
+        qr.q_tr_mul(&mut right);
+        if let Some(solution) = qr.r().solve_upper_triangular(&right.rows(0, m).into_owned()) {
+            for (column, index) in indices.iter().enumerate() {
+                step[*index] = solution[column];
+            }
+        }
+        step
+    }
+}
+
+/// A least-squares problem about points of its own.
+pub trait Problem {
+    /// A point, which may hold more than the coordinates.
+    type Point: Clone;
+    /// What linearising leaves behind.
+    type Trace;
+    /// Half the sum of squares; not finite where it cannot be told.
+    fn cost(&self, point: &Self::Point) -> f64;
+    /// The linearisation in the coordinates.
+    fn linearise(&self, point: &Self::Point) -> (Linear, Self::Trace);
+    /// The coordinates of a point.
+    fn coordinates(&self, point: &Self::Point) -> DVector<f64>;
+    /// The point with these coordinates, a step from one that was linearised.
+    fn moved(&self, point: &Self::Point, trace: &Self::Trace, coordinates: &DVector<f64>) -> Self::Point;
+    /// Bounds of each coordinate.
+    fn bounds(&self) -> &[(f64, f64)];
+}
+
+/// When to stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stop {
+    /// Linearisations at most.
+    pub iterations: usize,
+    /// Relative fall of the cost below which it ends.
+    pub cost: f64,
+    /// Relative change of the coordinates, in units of their scale, below which it ends.
+    pub step: f64,
+}
+
+impl Stop {
+    /// To the last digit.
+    pub const EXACT: Self = Self { iterations: 2000, cost: 0.0, step: 1e-14 };
+    /// As closely as noise deserves.
+    pub const NOISY: Self = Self { iterations: 30, cost: 1e-5, step: 1e-6 };
+}
+
+/// A minimum.
+#[derive(Clone, Debug)]
+pub struct Minimum<P> {
+    /// Where.
+    pub point: P,
+    /// Half the sum of squares.
+    pub cost: f64,
+    /// The linearisation there.
+    pub linear: Linear,
+    /// Linearisations that it took.
+    pub iterations: usize,
+}
+
+/// Goes downhill from a point to a minimum within the bounds.
+pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum<P::Point> {
+    let mut point = start;
+    let mut cost = problem.cost(&point);
+    let (mut linear, mut trace) = problem.linearise(&point);
+    let mut scale = unit_where_zero(linear.column_norms());
+    let mut lambda = 1e-3;
+    let mut iterations = 1;
+    while iterations < stop.iterations {
+        let at = problem.coordinates(&point);
+        let candidate = clamped_step(&linear, lambda, &scale, &at, problem.bounds());
+        let length = candidate.component_mul(&scale).norm();
+        let reach = at.component_mul(&scale).norm();
+        if length <= stop.step * (reach + stop.step) {
+            break;
+        }
+        let expected = 0.5 * (linear.q.norm_squared() - (&linear.r * &candidate + &linear.q).norm_squared());
+        let trial = problem.moved(&point, &trace, &(&at + &candidate));
+        let trial_cost = problem.cost(&trial);
+        let fall = cost - trial_cost;
+        if trial_cost.is_finite() && fall > 0.0 {
+            let quality = fall / expected.max(f64::MIN_POSITIVE);
+            // Nielsen's update: as well predicted as it was, as bold is the next step.
+            lambda *= (1.0 - (2.0 * quality - 1.0).powi(3)).clamp(1.0 / 9.0, 2.0);
+            lambda = lambda.max(1e-16);
+            point = trial;
+            let small = fall <= stop.cost * cost;
+            cost = trial_cost;
+            (linear, trace) = problem.linearise(&point);
+            iterations += 1;
+            scale = scale.zip_map(&linear.column_norms(), f64::max);
+            if small {
+                break;
+            }
+        } else {
+            lambda = (lambda * 4.0).max(1e-12);
+            if lambda > 1e14 {
+                break;
+            }
+        }
+    }
+    Minimum { point, cost, linear, iterations }
+}
+
+fn unit_where_zero(norms: DVector<f64>) -> DVector<f64> {
+    norms.map(|norm| if norm > 0.0 { norm } else { 1.0 })
+}
+
+/// A step within the bounds: a coordinate that would leave them stops there, and the others take another step.
+fn clamped_step(
+    linear: &Linear,
+    lambda: f64,
+    scale: &DVector<f64>,
+    at: &DVector<f64>,
+    bounds: &[(f64, f64)],
+) -> DVector<f64> {
+    let mut free = vec![true; at.len()];
+    loop {
+        let step = linear.step(lambda, scale, &free);
+        let leaving = (0..at.len()).find(|&i| {
+            let (low, high) = bounds[i];
+            free[i] && ((at[i] <= low && step[i] < 0.0) || (at[i] >= high && step[i] > 0.0))
+        });
+        match leaving {
+            Some(index) => free[index] = false,
+            None => {
+                return DVector::from_fn(at.len(), |i, _| {
+                    (at[i] + step[i]).clamp(bounds[i].0, bounds[i].1) - at[i]
+                });
+            }
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! Models as predictors of records: the outputs that a drive leads to, and their derivatives.
+//!
+//! A model's equations are integrated over the samples of a record, with dual numbers for the derivatives. The
+//! derivatives are those of the integration itself, so that they belong to the outputs to the last digit.
+
+mod integrate;
+
+use strut_model::{Bundle, Declaration, Declarations, Model, SettingDeclaration, Settings, Value};
+
+use integrate::{Equations, Run};
+
+/// Derivatives that are taken at once.
+pub const DIRECTIONS: usize = 8;
+
+/// A model as a predictor.
+#[derive(Clone, Debug)]
+pub struct Plant {
+    /// The model's name.
+    pub name: &'static str,
+    /// What drives it.
+    pub inputs: Vec<Declaration>,
+    /// What can be measured: its outputs, then those of its states that are outputs too.
+    pub outputs: Vec<Declaration>,
+    /// Its parameters.
+    pub parameters: Vec<Declaration>,
+    /// Its states.
+    pub states: Vec<Declaration>,
+    /// What can be chosen.
+    pub settings: Vec<SettingDeclaration>,
+    /// The declared choices.
+    pub choices: Vec<Value>,
+    prepare: fn(&[Value]) -> Result<Box<dyn Dynamics>, String>,
+}
+
+impl Plant {
+    /// A model as a predictor.
+    pub fn of<M: Model + Sync>() -> Self {
+        let states = Declarations::of::<M::State<f64>>();
+        let mut outputs = Declarations::of::<M::Output<f64>>();
+        outputs.extend(states.iter().filter(|state| state.output).cloned());
+        let starts = M::Settings::starts();
+        let settings = M::Settings::declare();
+        Self {
+            name: M::ABOUT.name,
+            inputs: Declarations::of::<M::Input<f64>>(),
+            outputs,
+            parameters: Declarations::of::<M::Parameters<f64>>(),
+            states,
+            choices: (0..settings.len()).filter_map(|index| starts.get(index)).collect(),
+            settings,
+            prepare: |choices| {
+                let mut settings = M::Settings::starts();
+                for (index, choice) in choices.iter().enumerate() {
+                    settings.set(index, choice.clone()).ok_or("a setting has a value of a wrong type")?;
+                }
+                Ok(Box::new(Equations { model: M::prepare(&settings, None)? }))
+            },
+        }
+    }
+
+    /// The equations with these choices.
+    ///
+    /// # Errors
+    /// The model's own words if it refuses them.
+    pub fn prepare(&self, choices: &[Value]) -> Result<Box<dyn Dynamics>, String> {
+        (self.prepare)(choices)
+    }
+
+    /// Index of a parameter.
+    pub fn parameter(&self, name: &str) -> Option<usize> {
+        self.parameters.iter().position(|it| it.name == name)
+    }
+
+    /// Index of a measurable output.
+    pub fn output(&self, name: &str) -> Option<usize> {
+        self.outputs.iter().position(|it| it.name == name)
+    }
+
+    /// Index of an input.
+    pub fn input(&self, name: &str) -> Option<usize> {
+        self.inputs.iter().position(|it| it.name == name)
+    }
+
+    /// Index of a setting.
+    pub fn setting(&self, name: &str) -> Option<usize> {
+        self.settings.iter().position(|it| it.name == name)
+    }
+}
+
+/// What drives a plant: one signal for each input, evenly sampled, straight between the samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drive {
+    /// Time between two samples in seconds.
+    pub step: f64,
+    /// Values of each input at the samples.
+    pub inputs: Vec<Vec<f64>>,
+}
+
+impl Drive {
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.inputs.first().map_or(0, Vec::len)
+    }
+
+    /// Whether there are no samples.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// What a derivative is taken with respect to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Seed {
+    /// A parameter, by its index.
+    Parameter(usize),
+    /// A state at the start, by its index.
+    State(usize),
+    /// A change of inputs' signals: each input's index and how it changes.
+    Inputs(Vec<(usize, Vec<f64>)>),
+}
+
+/// Signals over the samples of a drive, one for each measurable output.
+pub type Signals = Vec<Vec<f64>>;
+
+/// A model that is ready to be run.
+pub trait Dynamics: Send + Sync {
+    /// The outputs at the samples.
+    fn outputs(&self, parameters: &[f64], start: &[f64], drive: &Drive) -> Signals;
+
+    /// The derivatives of the outputs with respect to at most [`DIRECTIONS`] seeds.
+    ///
+    /// # Panics
+    /// If there are more.
+    fn derivatives(&self, parameters: &[f64], start: &[f64], drive: &Drive, seeds: &[Seed]) -> Vec<Signals>;
+
+    /// Refuses parameters that do not go together.
+    ///
+    /// # Errors
+    /// The model's own words.
+    fn check(&self, parameters: &[f64]) -> Result<(), String>;
+}
+
+impl<M: Model + Sync> Dynamics for Equations<M> {
+    fn outputs(&self, parameters: &[f64], start: &[f64], drive: &Drive) -> Signals {
+        let mut signals = vec![Vec::with_capacity(drive.len()); outputs_of::<M>()];
+        let mut run = Run::<M, f64>::new(
+            &self.model,
+            parameters,
+            Bundle::from_fn(|i| parameters[i]),
+            Bundle::from_fn(|i| start[i]),
+            drive,
+        );
+        for sample in 0..drive.len() {
+            run.at(sample, |i| drive.inputs[i][sample], |output, value| signals[output].push(value));
+            if sample + 1 < drive.len() {
+                run.advance(sample, |i, share| {
+                    let (from, to) = (drive.inputs[i][sample], drive.inputs[i][sample + 1]);
+                    from + share * (to - from)
+                });
+            }
+        }
+        signals
+    }
+
+    fn derivatives(&self, parameters: &[f64], start: &[f64], drive: &Drive, seeds: &[Seed]) -> Vec<Signals> {
+        integrate::derivatives(&self.model, parameters, start, drive, seeds)
+    }
+
+    fn check(&self, parameters: &[f64]) -> Result<(), String> {
+        let parameters = Bundle::from_fn(|i| parameters[i]);
+        self.model.check(&parameters, &self.model.derive(&parameters))
+    }
+}
+
+fn outputs_of<M: Model>() -> usize {
+    let states = Declarations::of::<M::State<f64>>();
+    Declarations::of::<M::Output<f64>>().len() + states.iter().filter(|state| state.output).count()
+}

@@ -1,0 +1,253 @@
+//! The classical Runge–Kutta method over the samples of a record, for any scalar.
+
+use nalgebra::SMatrix;
+use num_dual::{Derivative, Dual64, DualSVec64};
+use strut_model::{Bundle, Declarations, Model, Now, Real};
+
+use super::{DIRECTIONS, Drive, Seed, Signals, outputs_of};
+
+/// Longest step of the integration in seconds, whatever the record's sampling.
+const LONGEST_STEP: f64 = 1e-3;
+/// Largest product of the step and the fastest rate of change; the method is stable up to 2.78.
+const STABLE: f64 = 1.2;
+/// Steps between two samples beyond which a model is too stiff for this method.
+const MOST_STEPS: f64 = 400.0;
+
+/// A model that is ready to be run.
+pub(super) struct Equations<M> {
+    pub model: M,
+}
+
+/// A model on its way through a record.
+pub(super) struct Run<'a, M: Model, R: Real> {
+    model: &'a M,
+    parameters: M::Parameters<R>,
+    derived: M::Derived<R>,
+    memory: M::Memory<R>,
+    state: M::State<R>,
+    /// Which states are measured, as (state, output).
+    measured: Vec<(usize, usize)>,
+    step: f64,
+    steps: usize,
+    period: Option<f64>,
+    ticks: u64,
+}
+
+impl<'a, M: Model, R: Real> Run<'a, M, R> {
+    /// `numbers` are the parameters without derivatives.
+    pub fn new(
+        model: &'a M,
+        numbers: &[f64],
+        parameters: M::Parameters<R>,
+        state: M::State<R>,
+        drive: &Drive,
+    ) -> Self {
+        let plain: M::Parameters<f64> = Bundle::from_fn(|i| numbers[i]);
+        let outputs = <M::Output<f64> as Bundle<f64>>::LEN;
+        let states = Declarations::of::<M::State<f64>>();
+        let measured = states.iter().enumerate().filter(|(_, state)| state.output).map(|(index, _)| index);
+        let memory = Declarations::of::<M::Memory<f64>>();
+        let period = M::period(&plain);
+        Self {
+            model,
+            parameters,
+            derived: model.derive(&parameters),
+            memory: Bundle::from_fn(|i| R::from(memory[i].start)),
+            state,
+            measured: measured.zip(outputs..).collect(),
+            step: drive.step,
+            steps: steps(model, &plain, drive),
+            period,
+            ticks: 0,
+        }
+    }
+
+    /// Hands out the outputs at a sample, by their index.
+    #[inline]
+    pub fn at(&mut self, sample: usize, input: impl Fn(usize) -> R, mut put: impl FnMut(usize, R)) {
+        let (time, input) = (sample as f64 * self.step, M::Input::<R>::from_fn(input));
+        self.tick_at(time, &input);
+        let (_, output) = self.equations(R::from(time), &self.state, &input);
+        output.for_each(&mut put);
+        let mut states = self.measured.iter().peekable();
+        self.state.for_each(|index, value| {
+            if let Some((_, output)) = states.next_if(|(state, _)| *state == index) {
+                put(*output, value);
+            }
+        });
+    }
+
+    /// Goes from a sample to the next; `input` gives an input at a share of the way.
+    #[inline]
+    pub fn advance(&mut self, sample: usize, input: impl Fn(usize, f64) -> R) {
+        let (step, steps) = (self.step, self.steps as f64);
+        let h = step / steps;
+        let at = |share: f64| M::Input::<R>::from_fn(|i| input(i, share));
+        for part in 0..self.steps {
+            let share = |offset: f64| (part as f64 + offset) / steps;
+            let time = |offset: f64| (sample as f64 + share(offset)) * step;
+            let (first, middle, last) = (at(share(0.0)), at(share(0.5)), at(share(1.0)));
+            if part > 0 {
+                self.tick_at(time(0.0), &first);
+            }
+            let x = self.state;
+            let (k1, _) = self.equations(R::from(time(0.0)), &x, &first);
+            let (k2, _) = self.equations(R::from(time(0.5)), &along::<M, R>(&x, &[(0.5 * h, &k1)]), &middle);
+            let (k3, _) = self.equations(R::from(time(0.5)), &along::<M, R>(&x, &[(0.5 * h, &k2)]), &middle);
+            let (k4, _) = self.equations(R::from(time(1.0)), &along::<M, R>(&x, &[(h, &k3)]), &last);
+            let (sixth, third) = (h / 6.0, h / 3.0);
+            self.state = along::<M, R>(&x, &[(sixth, &k1), (third, &k2), (third, &k3), (sixth, &k4)]);
+        }
+    }
+
+    #[inline]
+    fn equations(&self, time: R, state: &M::State<R>, input: &M::Input<R>) -> (M::State<R>, M::Output<R>) {
+        self.model.equations(self.now(time, state, input))
+    }
+
+    #[inline]
+    fn now<'b>(&'b self, time: R, state: &'b M::State<R>, input: &'b M::Input<R>) -> Now<'b, M, R> {
+        let (parameters, derived, memory) = (&self.parameters, &self.derived, &self.memory);
+        Now { time, state, input, parameters, derived, memory, tick: self.ticks }
+    }
+
+    /// Makes the tick of a sampled part that is due.
+    fn tick_at(&mut self, time: f64, input: &M::Input<R>) {
+        if let Some(period) = self.period
+            && self.ticks as f64 * period <= time + 1e-6 * period
+        {
+            self.memory = self.model.tick(self.now(R::from(time), &self.state, input));
+            self.ticks += 1;
+        }
+    }
+}
+
+/// `x + Σ h k`.
+#[inline]
+fn along<M: Model, R: Real>(x: &M::State<R>, slopes: &[(f64, &M::State<R>)]) -> M::State<R> {
+    let mut moved = [R::from(0.0); MOST_STATES];
+    x.for_each(|i, value| moved[i] = value);
+    for (h, slope) in slopes {
+        slope.for_each(|i, rate| moved[i] += rate * *h);
+    }
+    Bundle::from_fn(|i| moved[i])
+}
+
+/// States that a plant may have.
+const MOST_STATES: usize = 32;
+
+/// Steps between two samples that the model needs: none is longer than [`LONGEST_STEP`], and the fastest mode about
+/// rest, where friction is stiffest, is integrated stably.
+fn steps<M: Model>(model: &M, parameters: &M::Parameters<f64>, drive: &Drive) -> usize {
+    const { assert!(<M::State<f64> as Bundle<f64>>::LEN <= MOST_STATES, "raise MOST_STATES") };
+    let states = <M::State<f64> as Bundle<f64>>::LEN;
+    if states == 0 {
+        return 1;
+    }
+    let mut jacobian = nalgebra::DMatrix::<f64>::zeros(states, states);
+    let lifted: M::Parameters<Dual64> = lift(parameters);
+    let derived = model.derive(&lifted);
+    let memory = Declarations::of::<M::Memory<f64>>();
+    let memory = Bundle::from_fn(|i| Dual64::from(memory[i].start));
+    let declared = Declarations::of::<M::State<f64>>();
+    let input = Bundle::from_fn(|i| Dual64::from(drive.inputs[i].first().copied().unwrap_or(0.0)));
+    for column in 0..states {
+        let state = Bundle::from_fn(|i| Dual64::new(declared[i].start, f64::from(i == column)));
+        let now = Now {
+            time: Dual64::from(0.0),
+            state: &state,
+            input: &input,
+            parameters: &lifted,
+            derived: &derived,
+            memory: &memory,
+            tick: 0,
+        };
+        let (rates, _) = model.equations(now);
+        rates.for_each(|row, rate| jacobian[(row, column)] = rate.eps);
+    }
+    let fastest = if jacobian.iter().all(|entry| entry.is_finite()) {
+        jacobian.complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max)
+    } else {
+        f64::INFINITY
+    };
+    (drive.step / LONGEST_STEP).max(drive.step * fastest / STABLE).ceil().clamp(1.0, MOST_STEPS) as usize
+}
+
+fn lift<R: Real, A: Bundle<f64>, B: Bundle<R>>(bundle: &A) -> B {
+    let mut numbers = Vec::with_capacity(A::LEN);
+    bundle.for_each(|_, value| numbers.push(value));
+    B::from_fn(|i| R::from(numbers[i]))
+}
+
+type Dual = DualSVec64<DIRECTIONS>;
+
+fn dual(value: f64, tangent: [f64; DIRECTIONS]) -> Dual {
+    Dual::new(value, Derivative::some(SMatrix::<f64, DIRECTIONS, 1>::from(tangent)))
+}
+
+/// The direction of one seed.
+fn direction(index: usize) -> [f64; DIRECTIONS] {
+    std::array::from_fn(|i| f64::from(i == index))
+}
+
+/// As [`Dynamics::derivatives`](super::Dynamics::derivatives).
+pub(super) fn derivatives<M: Model>(
+    model: &M,
+    parameters: &[f64],
+    start: &[f64],
+    drive: &Drive,
+    seeds: &[Seed],
+) -> Vec<Signals> {
+    assert!(seeds.len() <= DIRECTIONS, "{} seeds are more than {DIRECTIONS}", seeds.len());
+    let seeded = |value: f64, seed: &dyn Fn(&Seed) -> bool| match seeds.iter().position(seed) {
+        Some(index) => dual(value, direction(index)),
+        None => Dual::from(value),
+    };
+    let mut run = Run::<M, Dual>::new(
+        model,
+        parameters,
+        Bundle::from_fn(|i| seeded(parameters[i], &|seed| *seed == Seed::Parameter(i))),
+        Bundle::from_fn(|i| seeded(start[i], &|seed| *seed == Seed::State(i))),
+        drive,
+    );
+    // Which changes there are of each input.
+    let changes: Vec<Vec<(usize, &[f64])>> = (0..drive.inputs.len())
+        .map(|input| {
+            let changing = seeds.iter().enumerate().filter_map(|(index, seed)| match seed {
+                Seed::Inputs(changes) => Some(changes.iter().map(move |change| (index, change))),
+                Seed::Parameter(_) | Seed::State(_) => None,
+            });
+            let of_input = changing.flatten().filter(|(_, (changed, _))| *changed == input);
+            of_input.map(|(index, (_, signal))| (index, signal.as_slice())).collect()
+        })
+        .collect();
+    let input = |i: usize, sample: usize, share: f64| {
+        let next = (sample + 1).min(drive.len() - 1);
+        let between = |signal: &[f64]| signal[sample] + share * (signal[next] - signal[sample]);
+        let value = between(&drive.inputs[i]);
+        if changes[i].is_empty() {
+            return Dual::from(value);
+        }
+        let mut tangent = [0.0; DIRECTIONS];
+        for (index, signal) in &changes[i] {
+            tangent[*index] = between(signal);
+        }
+        dual(value, tangent)
+    };
+    let mut signals = vec![vec![Vec::with_capacity(drive.len()); outputs_of::<M>()]; seeds.len()];
+    for sample in 0..drive.len() {
+        run.at(
+            sample,
+            |i| input(i, sample, 0.0),
+            |output, value| {
+                for (index, signals) in signals.iter_mut().enumerate() {
+                    signals[output].push(value.eps.0.map_or(0.0, |tangent| tangent[index]));
+                }
+            },
+        );
+        if sample + 1 < drive.len() {
+            run.advance(sample, |i, share| input(i, sample, share));
+        }
+    }
+    signals
+}

@@ -1,0 +1,97 @@
+//! A record as a plant sees it: what drives it, what was measured of it.
+
+use std::ops::Range;
+
+use crate::correction::Correction;
+use crate::plant::Drive;
+
+/// A record on a plant's inputs and outputs, evenly sampled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recorded {
+    /// The file's name.
+    pub name: String,
+    /// Time between two samples in seconds.
+    pub step: f64,
+    /// Where each input comes from.
+    pub inputs: Vec<Source>,
+    /// What was measured.
+    pub measured: Vec<Measured>,
+    /// Ranges of samples that are simulated in one go, each with states of its own at the start.
+    pub sections: Vec<Range<usize>>,
+}
+
+/// Where an input comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Source {
+    /// It was measured.
+    Measured(Vec<f64>),
+    /// It is the time derivative of another input, by its index.
+    DerivativeOf(usize),
+    /// It rests.
+    Constant(f64),
+}
+
+/// A measured output.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// Index among the plant's outputs.
+    pub output: usize,
+    /// Values, NaN where they are missing.
+    pub values: Vec<f64>,
+    /// Root mean square of the measurement's noise.
+    pub noise_floor: f64,
+}
+
+impl Recorded {
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.measured.first().map_or(0, |measured| measured.values.len())
+    }
+
+    /// Whether there are no samples.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// What drives the plant in a section, the inputs' signals being corrected.
+    pub fn drive(&self, section: &Range<usize>, corrections: &[Correction]) -> Drive {
+        let mut inputs: Vec<Vec<f64>> = Vec::with_capacity(self.inputs.len());
+        for (source, correction) in self.inputs.iter().zip(corrections) {
+            inputs.push(match source {
+                Source::Measured(values) if correction.is_neutral() => values[section.clone()].to_vec(),
+                Source::Measured(values) => correction.applied(&values[section.clone()], self.step),
+                Source::Constant(value) => vec![*value; section.len()],
+                Source::DerivativeOf(_) => Vec::new(),
+            });
+        }
+        for (index, source) in self.inputs.iter().enumerate() {
+            if let Source::DerivativeOf(other) = source {
+                inputs[index] = derivative(&inputs[*other], self.step);
+            }
+        }
+        Drive { step: self.step, inputs }
+    }
+
+    /// How the drive changes when one input's signal does.
+    pub fn change(&self, input: usize, change: Vec<f64>) -> Vec<(usize, Vec<f64>)> {
+        let mut changes = Vec::new();
+        for (index, source) in self.inputs.iter().enumerate() {
+            if *source == Source::DerivativeOf(input) {
+                changes.push((index, derivative(&change, self.step)));
+            }
+        }
+        changes.push((input, change));
+        changes
+    }
+}
+
+/// The derivative of an evenly sampled signal by central differences.
+pub fn derivative(signal: &[f64], step: f64) -> Vec<f64> {
+    let last = signal.len().saturating_sub(1);
+    (0..signal.len())
+        .map(|k| {
+            let (before, after) = (k.saturating_sub(1), (k + 1).min(last));
+            (signal[after] - signal[before]) / (step * (after - before).max(1) as f64)
+        })
+        .collect()
+}

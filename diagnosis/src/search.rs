@@ -1,0 +1,303 @@
+//! The search for causes: forward, with gates, on data that was not learnt from.
+
+use std::collections::BTreeSet;
+
+use rayon::prelude::*;
+
+use crate::findings::Evidence;
+use crate::fit::{Handle, Residuals};
+use crate::hypothesis::{Fitted, Term, World};
+use crate::lsq::Stop;
+use crate::recorded::Recorded;
+use crate::screening::Screened;
+use crate::whitening::student;
+
+/// Causes that are fitted in a round.
+const FITTED: usize = 10;
+/// Tables among them.
+const TABLES: usize = 3;
+/// Causes at most.
+const MOST: usize = 4;
+/// Blocks of time over which gains are compared, in seconds.
+const BLOCK: f64 = 0.5;
+
+/// What a cause has to show. Every gate has to be passed.
+#[derive(Clone, Copy, Debug)]
+pub struct Gates {
+    /// Fall of the information criterion.
+    pub delta_bic: f64,
+    /// Student's t over blocks of the training data.
+    pub block_t: f64,
+    /// Student's t over blocks of the held-out data.
+    pub held_out_t: f64,
+    /// Share of the residual power on the held-out data.
+    pub explained: f64,
+}
+
+impl Gates {
+    /// The gates.
+    pub const REQUIRED: Self = Self { delta_bic: 20.0, block_t: 3.5, held_out_t: 3.0, explained: 0.01 };
+
+    /// The first gate that is not passed, in words.
+    pub fn refusal(&self, evidence: &Evidence) -> Option<String> {
+        let Evidence { delta_bic, block_t, held_out_t, explained } = *evidence;
+        if delta_bic < self.delta_bic {
+            Some(format!("explains too little for its parameters (BIC falls by {delta_bic:.0})"))
+        } else if block_t < self.block_t {
+            Some(format!("no steady gain over the training data (t = {block_t:.1})"))
+        } else if held_out_t < self.held_out_t {
+            Some(format!("no gain on held-out data (t = {held_out_t:.1})"))
+        } else if explained < self.explained {
+            Some(format!("too small to matter ({:.1} % of the error)", 100.0 * explained))
+        } else {
+            None
+        }
+    }
+}
+
+/// A candidate that was fitted on top of others.
+#[derive(Clone, Debug)]
+pub struct Tried {
+    /// The term.
+    pub term: Term,
+    /// With it, or why there is no such fit.
+    pub fitted: Result<Fitted, String>,
+    /// What it shows.
+    pub evidence: Evidence,
+    /// Its rank: the larger the better.
+    pub score: f64,
+}
+
+/// A term that was accepted.
+#[derive(Clone, Debug)]
+pub struct Accepted {
+    /// The term.
+    pub term: Term,
+    /// What it showed when it was added.
+    pub evidence: Evidence,
+    /// Terms that explain the data as well.
+    pub rivals: Vec<Term>,
+}
+
+/// What the search has found.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The model with fitted parameters and nothing added.
+    pub base: Fitted,
+    /// The model with all accepted terms.
+    pub extended: Fitted,
+    /// The accepted terms.
+    pub accepted: Vec<Accepted>,
+    /// What screening said in the first round.
+    pub screened: Vec<Screened>,
+    /// All that was fitted, the last word on each term.
+    pub tried: Vec<Tried>,
+}
+
+impl World<'_> {
+    /// Weighted power of errors, in variances.
+    pub fn power(&self, residuals: &Residuals, records: &[Recorded]) -> f64 {
+        let mut sum = 0.0;
+        for (record, signals) in records.iter().zip(residuals) {
+            for (measured, signal) in record.measured.iter().zip(signals) {
+                let weight = self.sigma[measured.output].powi(-2);
+                sum += weight * signal.iter().filter(|e| e.is_finite()).map(|e| e * e).sum::<f64>();
+            }
+        }
+        sum
+    }
+
+    fn block(&self) -> usize {
+        let step = self.train.first().map_or(1.0, |record| record.step);
+        ((BLOCK / step).round() as usize).max(4)
+    }
+
+    /// What speaks for one fit over another, of which it is an extension.
+    pub fn evidence(&self, null: &Fitted, fitted: &Fitted) -> Evidence {
+        let more = fitted.coordinates.len().saturating_sub(null.coordinates.len());
+        let samples: usize = fitted.train_likelihood.samples.iter().map(Vec::len).sum();
+        let gain = fitted.train_likelihood.total() - null.train_likelihood.total();
+        let (before, after) = (self.power(&null.test, self.test), self.power(&fitted.test, self.test));
+        let test = null.test_likelihood.gains(&fitted.test_likelihood, self.block());
+        Evidence {
+            delta_bic: 2.0 * gain - more as f64 * (samples.max(1) as f64).ln(),
+            block_t: student(&null.train_likelihood.gains(&fitted.train_likelihood, self.block())),
+            held_out_t: student(&test),
+            explained: 1.0 - after / before.max(f64::MIN_POSITIVE),
+        }
+    }
+
+    fn score(&self, fitted: &Fitted) -> f64 {
+        let samples: usize = fitted.train_likelihood.samples.iter().map(Vec::len).sum();
+        let penalty = 0.5 * fitted.coordinates.len() as f64 * (samples.max(1) as f64).ln();
+        fitted.train_likelihood.total() + fitted.test_likelihood.total() - penalty
+    }
+
+    /// Student's t of how much likelier one fit is than another, over all data.
+    fn apart(&self, better: &Fitted, other: &Fitted) -> f64 {
+        let mut gains = other.train_likelihood.gains(&better.train_likelihood, self.block());
+        gains.extend(other.test_likelihood.gains(&better.test_likelihood, self.block()));
+        student(&gains)
+    }
+
+    fn tried(&self, null: &Fitted, screened: &Screened) -> Tried {
+        let mut terms = null.terms.clone();
+        terms.push(screened.term);
+        let fitted = self.fitted(&terms, &screened.starts, Stop::NOISY);
+        let (evidence, score) = match &fitted {
+            Ok(fitted) => (self.evidence(null, fitted), self.score(fitted)),
+            Err(_) => (Evidence::default(), f64::NEG_INFINITY),
+        };
+        Tried { term: screened.term, fitted, evidence, score }
+    }
+
+    /// Those of the screened terms that are worth a fit.
+    fn promising<'b>(&self, screened: &'b [Screened], null: &Fitted) -> Vec<&'b Screened> {
+        let worth = |it: &&Screened| it.gain > 12.0_f64.max(0.004 * 2.0 * null.cost);
+        let is_table = |it: &&Screened| matches!(it.term, Term::Table(_));
+        let (tables, named): (Vec<_>, Vec<_>) = screened.iter().filter(worth).partition(is_table);
+        // What has no derivative where it is absent may screen badly: it is tried all the same.
+        let hidden = screened.iter().filter(|it| {
+            matches!(it.term, Term::Cause(cause) if HIDDEN.contains(&cause.id)) && it.gain > 4.0
+        });
+        let mut chosen: Vec<&Screened> = named.into_iter().take(FITTED).collect();
+        for it in hidden.chain(tables.into_iter().take(TABLES)) {
+            if !chosen.iter().any(|other| other.term == it.term) {
+                chosen.push(it);
+            }
+        }
+        chosen
+    }
+
+    /// Looks for causes.
+    ///
+    /// # Errors
+    /// If the model refuses its settings or diverges.
+    pub fn search(&self, base: Fitted, progress: &(dyn Fn(&str) + Sync)) -> Result<Found, String> {
+        let mut current = base.clone();
+        let mut found = Found {
+            extended: base.clone(),
+            base,
+            accepted: Vec::new(),
+            screened: Vec::new(),
+            tried: Vec::new(),
+        };
+        while found.accepted.len() < MOST {
+            progress("comparing every cause to what is missing");
+            let screened = self.screened(&current)?;
+            let promising = self.promising(&screened, &current);
+            progress(&format!("fitting {} causes", promising.len()));
+            let mut tried: Vec<Tried> = promising.par_iter().map(|it| self.tried(&current, it)).collect();
+            tried.sort_by(|a, b| b.score.total_cmp(&a.score));
+            if found.screened.is_empty() {
+                found.screened = screened;
+            }
+            let passing: Vec<&Tried> =
+                tried.iter().filter(|it| Gates::REQUIRED.refusal(&it.evidence).is_none()).collect();
+            let chosen = self.chosen(&passing).cloned();
+            let rivals = chosen.as_ref().map_or_else(Vec::new, |chosen| self.rivals(chosen, &passing));
+            merge(&mut found.tried, tried);
+            let Some(chosen) = chosen else { break };
+            let Ok(fitted) = chosen.fitted else { break };
+            found.accepted.push(Accepted { term: chosen.term, evidence: chosen.evidence, rivals });
+            current = fitted;
+            if matches!(chosen.term, Term::Table(_)) {
+                break;
+            }
+        }
+        found.extended = current;
+        self.retest(&mut found)?;
+        Ok(found)
+    }
+
+    /// The best of those that pass: with a name if there is one that is not clearly worse than a table.
+    fn chosen<'b>(&self, passing: &[&'b Tried]) -> Option<&'b Tried> {
+        let named = passing.iter().find(|it| !matches!(it.term, Term::Table(_)));
+        let table = passing.iter().find(|it| matches!(it.term, Term::Table(_)));
+        match (named, table) {
+            (Some(named), Some(table)) => {
+                let (Ok(with_name), Ok(without)) = (&named.fitted, &table.fitted) else { return Some(named) };
+                let power = |it: &Fitted| self.power(&it.train, self.train) + self.power(&it.test, self.test);
+                let clearly =
+                    self.apart(without, with_name) > 4.0 && power(without) < 0.85 * power(with_name);
+                Some(if clearly { table } else { self.simplest(named, passing) })
+            }
+            (Some(named), None) => Some(self.simplest(named, passing)),
+            (None, Some(table)) => Some(table),
+            (None, None) => None,
+        }
+    }
+
+    /// One with fewer parameters that is a part of the best and explains the data as well.
+    fn simplest<'b>(&self, best: &'b Tried, passing: &[&'b Tried]) -> &'b Tried {
+        let Ok(fitted) = &best.fitted else { return best };
+        let handles = |it: &Fitted| it.coordinates.iter().map(|it| it.handle).collect::<BTreeSet<Handle>>();
+        let own = handles(fitted);
+        let mut chosen = best;
+        for other in passing {
+            if let Ok(simpler) = &other.fitted
+                && handles(simpler).is_subset(&own)
+                && simpler.coordinates.len() < fitted.coordinates.len()
+                && self.apart(fitted, simpler) < 2.5
+            {
+                chosen = other;
+            }
+        }
+        chosen
+    }
+
+    /// Those that explain the data as well as the chosen one, and are not the same with something more.
+    fn rivals(&self, chosen: &Tried, passing: &[&Tried]) -> Vec<Term> {
+        let Ok(best) = &chosen.fitted else { return Vec::new() };
+        let handles: BTreeSet<Handle> = best.coordinates.iter().map(|it| it.handle).collect();
+        let rival = |other: &&&Tried| {
+            let Ok(fitted) = &other.fitted else { return false };
+            let more = handles.iter().all(|handle| fitted.coordinates.iter().any(|it| it.handle == *handle));
+            other.term != chosen.term
+                && !matches!(other.term, Term::Table(_))
+                && !more
+                && self.apart(best, fitted) < 2.5
+        };
+        passing.iter().filter(rival).map(|it| it.term).collect()
+    }
+
+    /// Takes each accepted term away again, and drops it if nothing is lost.
+    fn retest(&self, found: &mut Found) -> Result<(), String> {
+        if found.accepted.len() < 2 {
+            return Ok(());
+        }
+        let mut index = 0;
+        while index < found.accepted.len() && found.accepted.len() > 1 {
+            let mut terms = found.extended.terms.clone();
+            terms.retain(|term| *term != found.accepted[index].term);
+            let mut start = found.extended.point.clone();
+            for coordinate in self.own_coordinates(found.accepted[index].term) {
+                let shared = terms.iter().any(|term| {
+                    self.own_coordinates(*term).iter().any(|other| other.handle == coordinate.handle)
+                });
+                if !shared {
+                    start.set(coordinate.handle, found.base.point.get(coordinate.handle));
+                }
+            }
+            let without = self.fitted(&terms, &[start], Stop::NOISY)?;
+            let evidence = self.evidence(&without, &found.extended);
+            if Gates::REQUIRED.refusal(&evidence).is_some() {
+                found.accepted.remove(index);
+                found.extended = without;
+            } else {
+                found.accepted[index].evidence = evidence;
+                index += 1;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Keeps the last word on each term.
+fn merge(all: &mut Vec<Tried>, new: Vec<Tried>) {
+    all.retain(|old| !new.iter().any(|it| it.term == old.term));
+    all.extend(new);
+}
+
+/// Terms that nothing shows of while they are absent: they begin to act beyond a threshold.
+const HIDDEN: &[&str] = &["09", "12", "20"];

@@ -1,0 +1,149 @@
+//! The search on records that the plant itself has made: what is hidden is found, what is not there is not claimed.
+
+use strut_diagnosis::diagnosis::diagnose;
+use strut_diagnosis::plant::Drive;
+use strut_diagnosis::recorded::{Measured, Recorded, Source};
+use strut_diagnosis::rig::Rig;
+
+const STEP: f64 = 2e-3;
+
+/// Sines with phases that follow from a seed.
+fn multisine(n: usize, seed: u64, lines: &[(f64, f64)]) -> Vec<f64> {
+    (0..n)
+        .map(|k| {
+            let t = k as f64 * STEP;
+            let phases = lines.iter().enumerate();
+            phases
+                .map(|(i, (frequency, amplitude))| {
+                    let phase = ((seed * 7919 + i as u64 * 104_729) % 6283) as f64 * 1e-3;
+                    amplitude * (std::f64::consts::TAU * frequency * t + phase).sin()
+                })
+                .sum()
+        })
+        .collect()
+}
+
+fn noise(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
+    move || {
+        let mut sum = 0.0;
+        for _ in 0..12 {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            sum += (state >> 11) as f64 / (1_u64 << 53) as f64;
+        }
+        sum - 6.0
+    }
+}
+
+fn record(rig: &Rig, seed: u64, changes: &[(&str, f64)]) -> Recorded {
+    let mut parameters = rig.parameters.clone();
+    for (name, value) in changes {
+        parameters[rig.plant.parameter(name).unwrap()] = *value;
+    }
+    let n = 6000;
+    let road = multisine(
+        n,
+        seed,
+        &[
+            (0.7, 6e-3),
+            (1.3, 5e-3),
+            (2.1, 3e-3),
+            (3.7, 2e-3),
+            (6.1, 1e-3),
+            (9.7, 8e-4),
+            (13.3, 5e-4),
+            (17.9, 3e-4),
+        ],
+    );
+    let force = multisine(
+        n,
+        seed + 1,
+        &[(0.9, 60.0), (1.9, 60.0), (3.1, 50.0), (5.3, 50.0), (8.9, 40.0), (15.1, 40.0)],
+    );
+    let velocity = strut_diagnosis::recorded::derivative(&road, STEP);
+    let input = |name: &str| match name {
+        "road.position" => Source::Measured(road.clone()),
+        "road.velocity" => Source::DerivativeOf(rig.plant.input("road.position").unwrap()),
+        _ => Source::Measured(force.clone()),
+    };
+    let inputs: Vec<Source> = rig.plant.inputs.iter().map(|it| input(&it.name)).collect();
+    let raw = rig.plant.inputs.iter().map(|it| match it.name.as_str() {
+        "road.position" => road.clone(),
+        "road.velocity" => velocity.clone(),
+        _ => force.clone(),
+    });
+    let drive = Drive { step: STEP, inputs: raw.collect() };
+    let dynamics = rig.plant.prepare(&rig.choices).unwrap();
+    let start = vec![0.0; rig.plant.states.len()];
+    let outputs = dynamics.outputs(&parameters, &start, &drive);
+    let mut noise = noise(seed + 5);
+    let measured = ["body.acceleration", "wheel.acceleration", "suspension.deflection", "wheel.force"];
+    let measured = measured.map(|name| {
+        let output = rig.plant.output(name).unwrap();
+        let signal = &outputs[output];
+        let floor = 0.01 * strut_diagnosis::screening::rms(signal);
+        let values = signal.iter().map(|y| y + floor * noise()).collect();
+        Measured { output, values, noise_floor: floor }
+    });
+    Recorded { name: format!("{seed}"), step: STEP, inputs, measured: measured.into(), sections: vec![0..n] }
+}
+
+fn run(changes: &[(&str, f64)]) {
+    let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
+    let (train, test) = ([record(&rig, 1, changes)], [record(&rig, 20, changes)]);
+    let clock = std::time::Instant::now();
+    let diagnosis = diagnose(&rig, &train, &test, Vec::new(), &|text| eprintln!("{text}")).unwrap();
+    let found = &diagnosis.found;
+    eprintln!("{:?}", clock.elapsed());
+    for (handle, value, half) in strut_diagnosis::diagnosis::intervals(&found.extended) {
+        let name = match handle {
+            strut_diagnosis::fit::Handle::Parameter(index) => rig.plant.parameters[index].name.clone(),
+            other => format!("{other:?}"),
+        };
+        eprintln!("{name} = {value:.4} ± {half:.2}");
+    }
+    for tried in &found.tried {
+        eprintln!("{:?} {:?} {:.1}", name(&tried.term), tried.evidence, tried.score);
+    }
+    for accepted in &found.accepted {
+        eprintln!(
+            "accepted {} rivals {:?}",
+            name(&accepted.term),
+            accepted.rivals.iter().map(name).collect::<Vec<_>>()
+        );
+    }
+    for (screened, _) in found.screened.iter().zip(0..8) {
+        eprintln!(
+            "screened {} {:.1} detectable {:.3}",
+            name(&screened.term),
+            screened.gain,
+            screened.detectable
+        );
+    }
+}
+
+fn name(term: &strut_diagnosis::hypothesis::Term) -> String {
+    use strut_diagnosis::hypothesis::Term;
+    match term {
+        Term::Cause(cause) => format!("{} {:?} {}", cause.id, cause.element, cause.name),
+        Term::Table(table) => format!("table {:?} {}", table.element, table.variable),
+        Term::Fault(handle) => format!("{handle:?}"),
+    }
+}
+
+#[test]
+fn nothing() {
+    run(&[]);
+}
+
+#[test]
+fn friction() {
+    run(&[("strut.coulomb.force", 60.0)]);
+}
+
+#[test]
+fn asymmetry_and_mismatch() {
+    run(&[("strut.asymmetry.ratio", 0.3), ("sprung_mass", 100.0), ("guide.coulomb.force", 20.0)]);
+}
