@@ -59,7 +59,9 @@ pub fn diagnose<'a>(
     progress("fitting the starting model's parameters");
     let mut reversed = Vec::new();
     let mut base = world.fitted(&[], &[start.clone()], Stop::NOISY)?;
-    for handle in signals(train) {
+    // A sign is doubted only where something does not fit at all.
+    let doubted = if fits(&world, &base) { Vec::new() } else { signals(train) };
+    for handle in doubted {
         let mut turned = start.clone();
         turned.set(handle, -2.0);
         let other = world.fitted(&[], &[turned.clone()], Stop { iterations: 8, ..Stop::NOISY });
@@ -81,6 +83,13 @@ pub fn diagnose<'a>(
     };
     let found = world.search(base, progress)?;
     Ok(Diagnosis { world, before, found, reversed })
+}
+
+/// Whether every signal is met at least roughly.
+fn fits(world: &World<'_>, fitted: &Fitted) -> bool {
+    let records = world.train.iter().zip(&fitted.train);
+    let mut signals = records.flat_map(|(record, left)| record.measured.iter().zip(left));
+    signals.all(|(measured, left)| phi(left, &measured.values) > 0.3)
 }
 
 /// Root mean square of what is left of each output, and not below its noise.
@@ -123,7 +132,7 @@ fn floors(train: &[Recorded]) -> Vec<f64> {
 }
 
 /// All outputs of the plant on the training records.
-fn outputs(world: &World<'_>, fitted: &Fitted) -> Vec<Vec<Vec<f64>>> {
+pub(crate) fn outputs(world: &World<'_>, fitted: &Fitted) -> Vec<Vec<Vec<f64>>> {
     let Ok(dynamics) = world.dynamics(&fitted.terms) else { return Vec::new() };
     let mut starts = fitted.point.starts.iter();
     world

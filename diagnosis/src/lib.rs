@@ -2,6 +2,7 @@
 //!
 //! [`data`] reads and checks records; [`findings`] is what comes out.
 
+pub mod assembly;
 pub mod catalogue;
 pub mod correction;
 pub mod data;
@@ -10,6 +11,7 @@ pub mod findings;
 pub mod fit;
 pub mod hypothesis;
 pub mod lsq;
+pub mod naming;
 pub mod plant;
 pub mod recorded;
 pub mod rig;

@@ -207,6 +207,10 @@ impl World<'_> {
         }
         found.extended = current;
         self.retest(&mut found)?;
+        if found.accepted.len() > 1 {
+            progress("trying rivals in the place of each cause");
+            self.swap(&mut found)?;
+        }
         Ok(found)
     }
 
@@ -261,6 +265,59 @@ impl World<'_> {
         passing.iter().filter(rival).map(|it| it.term).collect()
     }
 
+    /// The found terms without one of them, fitted.
+    fn without(&self, found: &Found, index: usize) -> Result<Fitted, String> {
+        let mut terms = found.extended.terms.clone();
+        terms.retain(|term| *term != found.accepted[index].term);
+        let mut start = found.extended.point.clone();
+        for coordinate in self.own_coordinates(found.accepted[index].term) {
+            let shared = terms.iter().any(|term| {
+                self.own_coordinates(*term).iter().any(|other| other.handle == coordinate.handle)
+            });
+            if !shared {
+                start.set(coordinate.handle, found.base.point.get(coordinate.handle));
+            }
+        }
+        self.fitted(&terms, &[start], Stop::NOISY)
+    }
+
+    /// Puts rivals in the place of each accepted term: one that does better takes it, one that does as well stays a
+    /// rival. What was a rival while another cause was still missing may be none any more.
+    fn swap(&self, found: &mut Found) -> Result<(), String> {
+        for index in 0..found.accepted.len() {
+            let accepted: Vec<Term> = found.accepted.iter().map(|it| it.term).collect();
+            let rivals: Vec<Term> = found.accepted[index]
+                .rivals
+                .iter()
+                .filter(|term| !accepted.contains(term))
+                .copied()
+                .collect();
+            found.accepted[index].rivals.clear();
+            if rivals.is_empty() {
+                continue;
+            }
+            let without = self.without(found, index)?;
+            let screened = self.screened(&without)?;
+            let candidates = screened.iter().filter(|it| rivals.contains(&it.term));
+            for tried in candidates.map(|it| self.tried(&without, it)) {
+                let Ok(fitted) = &tried.fitted else { continue };
+                if Gates::REQUIRED.refusal(&tried.evidence).is_some() {
+                    continue;
+                }
+                let behind = self.apart(&found.extended, fitted);
+                let here = &mut found.accepted[index];
+                if behind < -2.5 {
+                    here.rivals.clear();
+                    (here.term, here.evidence) = (tried.term, tried.evidence);
+                    found.extended = fitted.clone();
+                } else if behind < 2.5 {
+                    here.rivals.push(tried.term);
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Takes each accepted term away again, and drops it if nothing is lost.
     fn retest(&self, found: &mut Found) -> Result<(), String> {
         if found.accepted.len() < 2 {
@@ -268,18 +325,7 @@ impl World<'_> {
         }
         let mut index = 0;
         while index < found.accepted.len() && found.accepted.len() > 1 {
-            let mut terms = found.extended.terms.clone();
-            terms.retain(|term| *term != found.accepted[index].term);
-            let mut start = found.extended.point.clone();
-            for coordinate in self.own_coordinates(found.accepted[index].term) {
-                let shared = terms.iter().any(|term| {
-                    self.own_coordinates(*term).iter().any(|other| other.handle == coordinate.handle)
-                });
-                if !shared {
-                    start.set(coordinate.handle, found.base.point.get(coordinate.handle));
-                }
-            }
-            let without = self.fitted(&terms, &[start], Stop::NOISY)?;
+            let without = self.without(found, index)?;
             let evidence = self.evidence(&without, &found.extended);
             if Gates::REQUIRED.refusal(&evidence).is_some() {
                 found.accepted.remove(index);

@@ -1,0 +1,278 @@
+//! Findings from a diagnosis: verdict, words, tables and pictures.
+
+mod pictures;
+
+use crate::catalogue::Table;
+use crate::diagnosis::{Diagnosis, intervals, phi, root_mean_square};
+use crate::findings::{
+    BaseParameter, Candidate, Curve, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal, Verdict,
+};
+use crate::fit::Handle;
+use crate::hypothesis::{Fitted, POINTS, Term};
+use crate::naming::{self, name};
+use crate::search::{Accepted, Gates};
+
+/// Relative change of a base parameter that matters, if it is significant.
+const MISMATCH: f64 = 0.03;
+/// Φ of the best signal on held-out data below which nothing is to be believed.
+const INADEQUATE: f64 = 0.2;
+
+impl Diagnosis<'_> {
+    /// Everything that is told.
+    pub fn findings(&self, data_problems: Vec<DataProblem>, seconds: f64) -> Findings {
+        let world = &self.world;
+        let signals = self.signals();
+        let base_parameters = self.base_parameters();
+        let named: Vec<&Accepted> =
+            self.found.accepted.iter().filter(|it| !matches!(it.term, Term::Table(_))).collect();
+        let unnamed = self.found.accepted.iter().find_map(|it| match it.term {
+            Term::Table(table) => Some(self.curve(table)),
+            Term::Cause(_) | Term::Fault(_) => None,
+        });
+        let effects: Vec<Effect> = named.iter().map(|it| self.effect(it)).collect();
+        let sensors = named.iter().filter(|it| name(it.term, &world.rig.plant).sensor).count();
+        let best = signals.iter().map(|signal| signal.phi_after).fold(f64::NEG_INFINITY, f64::max);
+        let verdict = if best < INADEQUATE {
+            Verdict::ModelInadequate
+        } else if unnamed.is_some() {
+            Verdict::Unnamed
+        } else if effects.iter().any(|effect| !effect.ambiguous_with.is_empty()) {
+            Verdict::Ambiguous
+        } else if !effects.is_empty() && sensors == effects.len() {
+            Verdict::SensorFault
+        } else if !effects.is_empty() {
+            Verdict::Named
+        } else if base_parameters.iter().any(|it| it.mismatch) {
+            Verdict::ParameterMismatch
+        } else {
+            Verdict::NoEffect
+        };
+        let experiment = effects.iter().find_map(|effect| effect.experiment.clone());
+        Findings {
+            format: FORMAT,
+            rig: world.rig.name.clone(),
+            train: world.train.iter().map(|record| record.name.clone()).collect(),
+            test: world.test.iter().map(|record| record.name.clone()).collect(),
+            verdict,
+            summary: summary(verdict, &effects, &base_parameters, unnamed.as_ref(), &signals),
+            effects,
+            base_parameters,
+            pictures: self.pictures(),
+            signals,
+            unnamed,
+            experiment,
+            data_problems,
+            candidates: self.candidates(),
+            seconds,
+        }
+    }
+
+    fn base_parameters(&self) -> Vec<BaseParameter> {
+        let rig = self.world.rig;
+        let mut list: Vec<BaseParameter> = self
+            .reversed
+            .iter()
+            .map(|handle| BaseParameter {
+                name: format!("{}.sign", naming::handle(*handle, &rig.plant).0.trim_end_matches(".gain")),
+                unit: "1".into(),
+                before: 1.0,
+                after: -1.0,
+                low: -1.0,
+                high: -1.0,
+                mismatch: true,
+            })
+            .collect();
+        let base = rig.base();
+        for (handle, after, half) in intervals(&self.found.extended) {
+            if let Handle::Parameter(index) = handle
+                && base.contains(&index)
+            {
+                let (before, declared) = (rig.parameters[index], &rig.plant.parameters[index]);
+                let change = (after - before).abs();
+                list.push(BaseParameter {
+                    name: declared.name.clone(),
+                    unit: declared.unit.symbol.into(),
+                    before,
+                    after,
+                    low: after - half,
+                    high: after + half,
+                    mismatch: change > 1.5 * half && change > MISMATCH * before.abs(),
+                });
+            }
+        }
+        list
+    }
+
+    fn signals(&self) -> Vec<Signal> {
+        let world = &self.world;
+        let Some(first) = world.test.first() else { return Vec::new() };
+        let of = |row: usize| {
+            let declared = &world.rig.plant.outputs[first.measured[row].output];
+            let all = |residuals: &[Vec<Vec<f64>>]| -> Vec<f64> {
+                residuals.iter().flat_map(|record| record[row].clone()).collect()
+            };
+            let measured: Vec<f64> =
+                world.test.iter().flat_map(|it| it.measured[row].values.clone()).collect();
+            let (before, fitted) = (all(&self.before), all(&self.found.base.test));
+            let after = all(&self.found.extended.test);
+            Signal {
+                name: declared.name.clone(),
+                unit: declared.unit.symbol.into(),
+                phi_before: phi(&before, &measured),
+                phi_fitted: phi(&fitted, &measured),
+                phi_after: phi(&after, &measured),
+                rms_before: root_mean_square(&before),
+                rms_fitted: root_mean_square(&fitted),
+                rms_after: root_mean_square(&after),
+                noise_floor: first.measured[row].noise_floor,
+                repeatability: None,
+            }
+        };
+        (0..first.measured.len()).map(of).collect()
+    }
+
+    fn effect(&self, accepted: &Accepted) -> Effect {
+        let plant = &self.world.rig.plant;
+        let words = name(accepted.term, plant);
+        let own = self.world.own_coordinates(accepted.term);
+        let all = intervals(&self.found.extended);
+        let parameters = all.iter().filter(|(handle, _, _)| own.iter().any(|it| it.handle == *handle));
+        let parameters = parameters.map(|(handle, value, half)| {
+            let (name, unit) = naming::handle(*handle, plant);
+            EffectParameter { name, value: *value, unit, low: value - half, high: value + half }
+        });
+        let rivals: Vec<naming::Name> = accepted.rivals.iter().map(|term| name(*term, plant)).collect();
+        Effect {
+            id: words.id,
+            element: words.element,
+            name: words.name,
+            equation: words.equation,
+            parameters: parameters.collect(),
+            evidence: accepted.evidence,
+            experiment: rivals.first().map(|rival| match words.experiment == rival.experiment {
+                true => words.experiment.clone(),
+                false => format!("{}; or {}", words.experiment, rival.experiment),
+            }),
+            ambiguous_with: rivals.iter().map(naming::Name::short).collect(),
+        }
+    }
+
+    fn curve(&self, table: &Table) -> Curve {
+        let plant = &self.world.rig.plant;
+        let fitted: &Fitted = &self.found.extended;
+        let range = plant.parameter(table.range).map_or(0.0, |index| fitted.point.parameters[index]);
+        let all = intervals(fitted);
+        let mut curve = Curve {
+            location: table.element.name().into(),
+            variable: table.variable.into(),
+            variable_unit: if table.variable == "velocity" { "m/s" } else { "m" }.into(),
+            unit: "N".into(),
+            x: Vec::new(),
+            y: Vec::new(),
+            low: Vec::new(),
+            high: Vec::new(),
+        };
+        for number in 1..=POINTS {
+            let index = plant.parameter(&format!("{}[{number}]", table.points));
+            let found = all.iter().find(|(handle, _, _)| index.map(Handle::Parameter) == Some(*handle));
+            let Some((_, value, half)) = found else { continue };
+            // A point whose force is not determined is not covered by the data.
+            if *half < self.world.typical(table.element).force {
+                curve.x.push(range * (2.0 * (number - 1) as f64 / (POINTS - 1) as f64 - 1.0));
+                curve.y.push(*value);
+                curve.low.push(value - half);
+                curve.high.push(value + half);
+            }
+        }
+        curve
+    }
+
+    fn candidates(&self) -> Vec<Candidate> {
+        let plant = &self.world.rig.plant;
+        let accepted = |term: Term| self.found.accepted.iter().any(|it| it.term == term);
+        let screened = self.found.screened.iter().map(|it| {
+            let words = name(it.term, plant);
+            let own = self.world.own_coordinates(it.term);
+            let tried = self.found.tried.iter().find(|tried| tried.term == it.term);
+            let outcome = match tried {
+                _ if accepted(it.term) => "accepted".into(),
+                None => "not seen in what the model misses".into(),
+                Some(tried) => match (&tried.fitted, Gates::REQUIRED.refusal(&tried.evidence)) {
+                    (Err(error), _) => error.clone(),
+                    (Ok(_), Some(refusal)) => refusal,
+                    (Ok(_), None) => "another cause explains it better".into(),
+                },
+            };
+            Candidate {
+                id: words.id,
+                element: words.element,
+                name: words.name,
+                fitted: tried.is_some_and(|tried| tried.fitted.is_ok()),
+                evidence: tried.map(|tried| tried.evidence),
+                detectable: Some(it.detectable).filter(|size| size.is_finite()),
+                unit: own.first().map_or_else(String::new, |it| naming::handle(it.handle, plant).1),
+                outcome,
+            }
+        });
+        screened.collect()
+    }
+}
+
+fn summary(
+    verdict: Verdict,
+    effects: &[Effect],
+    base: &[BaseParameter],
+    unnamed: Option<&Curve>,
+    signals: &[Signal],
+) -> String {
+    let changed: Vec<String> = base
+        .iter()
+        .filter(|it| it.mismatch)
+        .map(|it| format!("{} is {:.4} {} instead of {:.4}", it.name, it.after, it.unit, it.before))
+        .collect();
+    let list = |effects: &[Effect]| {
+        let named = effects.iter().map(|effect| match effect.parameters.first() {
+            Some(it) => {
+                format!("{} at {} ({} = {:.4} {})", effect.name, effect.element, it.name, it.value, it.unit)
+            }
+            None => format!("{} at {}", effect.name, effect.element),
+        });
+        named.collect::<Vec<_>>().join("; ")
+    };
+    let gain = |signal: &Signal| signal.phi_after - signal.phi_fitted;
+    let most = signals.iter().max_by(|a, b| gain(a).total_cmp(&gain(b)));
+    let gained = most.filter(|it| gain(it) > 0.0).map_or_else(String::new, |it| {
+        format!(" On held-out data Φ of {} rises from {:.3} to {:.3}.", it.name, it.phi_fitted, it.phi_after)
+    });
+    let first =
+        if changed.is_empty() { String::new() } else { format!("Parameters: {}. ", changed.join("; ")) };
+    let text = match verdict {
+        Verdict::NoEffect => "Nothing is wrong that these records could show.".to_owned(),
+        Verdict::ParameterMismatch => "Nothing beyond parameters is wrong.".to_owned(),
+        Verdict::Named => format!("The model lacks: {}.", list(effects)),
+        Verdict::SensorFault => format!("The measurement is wrong, not the plant: {}.", list(effects)),
+        Verdict::Ambiguous => {
+            let rivals: Vec<&str> =
+                effects.iter().flat_map(|effect| &effect.ambiguous_with).map(String::as_str).collect();
+            format!(
+                "The model lacks: {}; these records cannot tell it from {}.",
+                list(effects),
+                rivals.join(", ")
+            )
+        }
+        Verdict::Unnamed => {
+            let place = unnamed.map_or_else(String::new, |curve| {
+                format!(" in the {} over {}", curve.location, curve.variable)
+            });
+            let others = if effects.is_empty() { String::new() } else { format!(" Besides: {}.", list(effects)) };
+            format!("The model lacks a force{place} that has no name in the catalogue; its curve is given.{others}")
+        }
+        Verdict::ModelInadequate => {
+            "The model explains too little of the held-out data for a cause to be looked for: check the rig, the \
+             signals' names, units and signs."
+                .to_owned()
+        }
+        Verdict::BadData => "The data cannot be used.".to_owned(),
+    };
+    format!("{first}{text}{gained}")
+}

@@ -1,0 +1,107 @@
+//! What terms are called, by the catalogue's numbers.
+
+use crate::correction::Fault;
+use crate::fit::Handle;
+use crate::hypothesis::Term;
+use crate::plant::Plant;
+
+/// A term in words.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Name {
+    /// Number in the catalogue.
+    pub id: String,
+    /// Where it acts.
+    pub element: String,
+    /// What it is called.
+    pub name: String,
+    /// Its law.
+    pub equation: String,
+    /// What separates it from others.
+    pub experiment: String,
+    /// Whether it is a measurement that is wrong rather than the plant.
+    pub sensor: bool,
+}
+
+impl Name {
+    /// Number and place, as rivals are listed.
+    pub fn short(&self) -> String {
+        format!("{} {}", self.id, self.element)
+    }
+}
+
+/// What a term is called.
+pub fn name(term: Term, plant: &Plant) -> Name {
+    match term {
+        Term::Cause(cause) => Name {
+            id: cause.id.into(),
+            element: cause.element.name().into(),
+            name: cause.name.into(),
+            equation: cause.equation.into(),
+            experiment: cause.experiment.into(),
+            sensor: false,
+        },
+        Term::Table(table) => Name {
+            id: table.id.into(),
+            element: table.element.name().into(),
+            name: format!("unnamed force over {}", table.variable),
+            equation: format!("a table over {}", table.variable),
+            experiment: "sweep the variable slowly through the covered range and beyond".into(),
+            sensor: false,
+        },
+        Term::Fault(handle) => of_fault(handle, plant),
+    }
+}
+
+fn of_fault(handle: Handle, plant: &Plant) -> Name {
+    let (signal, fault, input) = match handle {
+        Handle::Input(index, fault) => (plant.inputs[index].name.clone(), fault, true),
+        Handle::Output(index, fault) => (plant.outputs[index].name.clone(), fault, false),
+        Handle::Parameter(index) => (plant.parameters[index].name.clone(), Fault::Gain, false),
+    };
+    let actuator = input && signal.starts_with("actuator");
+    let id = match (fault, input, actuator) {
+        (Fault::Gain, true, true) => "25",
+        (Fault::Delay, true, true) => "23",
+        (Fault::Lag, true, true) => "24",
+        (Fault::Offset | Fault::Drift, true, true) => "41",
+        (Fault::Offset | Fault::Drift, _, _) => "33",
+        (_, true, false) => "42",
+        (Fault::Gain, _, _) => "34",
+        (Fault::Lag, _, _) => "35",
+        (Fault::Delay, _, _) => "36",
+        (Fault::Quadratic | Fault::Cubic, _, _) => "39",
+    };
+    let (what, equation, experiment) = match fault {
+        Fault::Gain => ("gain", "(1 + gain) y", "weigh the masses, or turn the sensor over"),
+        Fault::Offset => ("offset", "y + offset", "record a standstill"),
+        Fault::Drift => ("drift", "y + drift t", "record a standstill of the same length"),
+        Fault::Lag => ("lag", "lag y' + y = y_true", "sweep to high frequencies"),
+        Fault::Delay => ("delay", "y(t - delay)", "strike once and compare the signals' onsets"),
+        Fault::Quadratic => ("curvature", "y + quadratic y^2", "calibrate with gauge blocks"),
+        Fault::Cubic => ("curvature", "y + cubic y^3", "calibrate with gauge blocks"),
+    };
+    Name {
+        id: id.into(),
+        name: format!("{what} of {} {signal}", if actuator { "the actuator's" } else { "the signal" }),
+        element: signal,
+        equation: equation.into(),
+        experiment: experiment.into(),
+        sensor: !actuator,
+    }
+}
+
+/// Name and unit of what a fit changes.
+pub fn handle(handle: Handle, plant: &Plant) -> (String, String) {
+    match handle {
+        Handle::Parameter(index) => {
+            let declared = &plant.parameters[index];
+            (declared.name.clone(), declared.unit.symbol.to_owned())
+        }
+        Handle::Input(index, fault) => of_signal(&plant.inputs[index], fault),
+        Handle::Output(index, fault) => of_signal(&plant.outputs[index], fault),
+    }
+}
+
+fn of_signal(declared: &strut_model::Declaration, fault: Fault) -> (String, String) {
+    (format!("{}.{}", declared.name, fault.name()), fault.unit(declared.unit.symbol))
+}
