@@ -5,6 +5,8 @@
 
 pub mod csv;
 pub mod error;
+mod interpolate;
+pub mod map;
 pub mod table;
 pub mod units;
 
