@@ -1,4 +1,20 @@
-//! Measured records: reading, mapping to the model's names and units, checking.
+//! Measured records: reading, mapping to the model's names and units, checking, even sampling.
+//!
+//! A record goes through [`read`] (CSV, MDF4, MATLAB), [`map::Map::apply`] (the model's names, SI units),
+//! [`check::check`] (what is wrong with it) and [`uniform::uniform`] (evenly spaced times).
+
+pub mod csv;
+pub mod error;
+mod interpolate;
+pub mod map;
+pub mod table;
+pub mod units;
+
+use std::fs;
+use std::path::Path;
+
+pub use error::DataError;
+pub use table::TimeColumn;
 
 /// A measurement: channels over common times.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,4 +36,31 @@ pub struct Channel {
     pub unit: String,
     /// One value for each time; NaN where the sample is missing.
     pub values: Vec<f64>,
+}
+
+/// Reads a record: CSV, ASAM MDF 4 or MATLAB 5 to 7, told apart by the first bytes.
+///
+/// # Errors
+/// The file cannot be read, is damaged, or has no column of time: the message says what to do.
+pub fn read(path: &Path) -> Result<Record, DataError> {
+    read_with(path, None)
+}
+
+/// Like [`read`], with the column that holds the time if the file does not name it so.
+///
+/// # Errors
+/// As [`read`]; and the column does not exist, or its unit is not one of time.
+pub fn read_with(path: &Path, time: Option<&TimeColumn>) -> Result<Record, DataError> {
+    let shown = path.display().to_string();
+    let bytes = fs::read(path).map_err(|source| DataError::Io { file: shown.clone(), source })?;
+    let name = path.file_name().map_or(shown, |name| name.to_string_lossy().into_owned());
+    parse(&name, &bytes, time)
+}
+
+/// Reads a record from a file's contents; `name` is the file's.
+///
+/// # Errors
+/// As [`read_with`].
+pub fn parse(name: &str, bytes: &[u8], time: Option<&TimeColumn>) -> Result<Record, DataError> {
+    csv::parse(name, bytes)?.into_record(time)
 }

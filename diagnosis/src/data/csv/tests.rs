@@ -1,0 +1,130 @@
+use crate::data::csv::write;
+use crate::data::{Channel, Record, TimeColumn, parse};
+use proptest::prelude::*;
+
+fn read(text: &str) -> Record {
+    parse("run.csv", text.as_bytes(), None).unwrap()
+}
+
+fn error(text: &str) -> String {
+    parse("run.csv", text.as_bytes(), None).unwrap_err().to_string()
+}
+
+#[test]
+fn names_units_and_values() {
+    let record = read("time [ms],deflection [mm],u (V),plain\n0,1,2,3\n1,-4,5e-1,6\n");
+    assert_eq!(record.name, "run.csv");
+    assert_eq!(record.time, [0.0, 0.001]);
+    let titles: Vec<_> = record.channels.iter().map(|c| (c.name.as_str(), c.unit.as_str())).collect();
+    assert_eq!(titles, [("deflection", "mm"), ("u", "V"), ("plain", "")]);
+    assert_eq!(record.channels[1].values, [2.0, 0.5]);
+}
+
+#[test]
+fn german_export_with_mark_comments_and_units_row() {
+    let text =
+        "\u{FEFF}# rig 3\r\nZeit;Kraft;Weg;\r\ns;N;mm;\r\n0,000;1,5;-2;\r\n# pause\r\n0,001;1,25e1;;\r\n";
+    let record = read(text);
+    assert_eq!(record.time, [0.0, 0.001]);
+    assert_eq!(record.channels[0].unit, "N");
+    assert_eq!(record.channels[0].values, [1.5, 12.5]);
+    assert_eq!(record.channels[1].values[0], -2.0);
+    assert!(record.channels[1].values[1].is_nan());
+}
+
+#[test]
+fn tabs_and_missing_samples() {
+    let record = read("a\tt\n1\t0\nnan\t0.5\nNaN\t1\nNA\t1.5\ninf\t2\n");
+    assert_eq!(record.time, [0.0, 0.5, 1.0, 1.5, 2.0]);
+    assert_eq!(record.channels[0].values[0], 1.0);
+    assert!(record.channels[0].values[1..].iter().all(|v| v.is_nan()));
+}
+
+#[test]
+fn latin_1_units() {
+    let record = parse("run.csv", b"t [s],a [m/s\xB2]\n0,1\n", None).unwrap();
+    assert_eq!(record.channels[0].unit, "m/s²");
+}
+
+#[test]
+fn errors_say_where() {
+    assert_eq!(
+        error("t,F\n0,1\n1,1.2.3\n"),
+        "run.csv, line 3, column 2: `1.2.3` in `F` is not a number: leave missing samples empty"
+    );
+    assert!(
+        error("t,F\n0,1\n1\n").starts_with("run.csv, line 3, column 1: the row has 1 cells, the header 2")
+    );
+    assert!(error("t,F\n0,1,2\n").starts_with("run.csv, line 2, column 2: the row has 3 cells"));
+    assert!(error("0,1\n1,2\n").contains("has to name the columns"));
+    assert!(error("t F\n0 1\n").contains("only one column"));
+    assert!(error("t,F,F\n0,1,2\n").starts_with("run.csv, line 1, column 3: a second column `F`"));
+    assert!(error("t,,F\n0,1,2\n").starts_with("run.csv, line 1, column 2: the column has no name"));
+    assert!(error("").contains("is empty"));
+    assert!(error("t,F\n").contains("no samples"));
+    assert!(error("t [V],F\n0,1\n").contains("this is the time, but"));
+    assert!(parse("run.csv", &[0xFF, 0xFE, 65, 0], None).unwrap_err().to_string().contains("UTF-16"));
+}
+
+#[test]
+fn a_file_without_time_says_how_to_map_it() {
+    let text = "index,F [N]\n0,1\n1,2\n";
+    let message = error(text);
+    assert!(message.contains("no column of time among index, F"), "{message}");
+    assert!(message.contains("time = { column = \"…\", unit = \"s\" }"), "{message}");
+
+    let time = TimeColumn { column: "index".into(), unit: Some("ms".into()) };
+    assert_eq!(parse("run.csv", text.as_bytes(), Some(&time)).unwrap().time, [0.0, 0.001]);
+    let time = TimeColumn { column: "indx".into(), unit: None };
+    let message = parse("run.csv", text.as_bytes(), Some(&time)).unwrap_err().to_string();
+    assert!(message.contains("did you mean `index`?"), "{message}");
+}
+
+#[test]
+fn a_first_column_with_a_unit_of_time_is_the_time() {
+    assert_eq!(read("X [min],F\n0,1\n20,1\n").time[1], 1200.0);
+}
+
+proptest! {
+    #[test]
+    fn round_trip(
+        rows in prop::collection::vec((any::<f64>(), any::<f64>(), prop::option::of(any::<f64>())), 1..40)
+    ) {
+        let finite = |v: f64| if v.is_finite() { v } else { 0.25 };
+        let record = Record {
+            name: "run.csv".into(),
+            time: rows.iter().map(|r| finite(r.0)).collect(),
+            channels: vec![
+                Channel { name: "a.b".into(), unit: "m/s2".into(), values: rows.iter().map(|r| finite(r.1)).collect() },
+                Channel {
+                    name: "c, \"d\"".into(),
+                    unit: String::new(),
+                    values: rows.iter().map(|r| r.2.filter(|v| v.is_finite()).unwrap_or(f64::NAN)).collect(),
+                },
+            ],
+        };
+        let mut bytes = Vec::new();
+        write(&record, &mut bytes).unwrap();
+        let back = parse("run.csv", &bytes, None).unwrap();
+        // NaN differs from itself: their bits are compared through the text.
+        prop_assert_eq!(format!("{back:?}"), format!("{record:?}"));
+    }
+
+    #[test]
+    fn damaged_files_are_refused_without_panic(
+        cut in 0_usize..60, at in 0_usize..60, byte in any::<u8>()
+    ) {
+        let mut bytes = b"time [s];F [N];\"x;y\" (mm)\n0;1,5;2\n0,1;;-3\n# end\n0,2;1;2\n".to_vec();
+        let last = bytes.len() - 1;
+        bytes[at.min(last)] = byte;
+        bytes.truncate(cut);
+        if let Ok(record) = parse("run.csv", &bytes, None) {
+            prop_assert!(record.channels.iter().all(|c| c.values.len() == record.time.len()));
+        }
+    }
+
+    #[test]
+    fn noise_is_no_panic(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
+        let _ = parse("run.csv", &bytes, None);
+    }
+}

@@ -1,0 +1,272 @@
+//! From a file's columns to the model's signals: names, units, signs, delays.
+//!
+//! ```toml
+//! time = { column = "Timestamp", unit = "ms" }
+//!
+//! [signals]
+//! deflection = { column = "Weg_FL", unit = "mm", scale = -1.0, offset = 0.01, delay = 0.002 }
+//! command = "U_act"
+//! ```
+//! A signal is `scale` times the column in the model's unit plus `offset` in the model's unit; a column that
+//! comes `delay` seconds late is moved earlier by as much.
+
+use super::interpolate::linear;
+use super::table::did_you_mean;
+use super::{Channel, DataError, Record, TimeColumn, units};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// What the user says about the columns of the files.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Map {
+    /// The column of time, for [`super::read_with`].
+    pub time: Option<TimeColumn>,
+    /// Where the signals come from, by the model's names.
+    pub signals: BTreeMap<String, Source>,
+}
+
+/// Where a signal comes from.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Source {
+    /// The column's name in the file.
+    pub column: String,
+    /// Its unit instead of the file's.
+    pub unit: Option<String>,
+    /// Factor; −1 turns the sign.
+    #[serde(default = "one")]
+    pub scale: f64,
+    /// Added after the factor, in the model's unit.
+    #[serde(default)]
+    pub offset: f64,
+    /// By how much the column comes late, in seconds.
+    #[serde(default)]
+    pub delay: f64,
+}
+
+/// A signal that the model knows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Wanted {
+    /// The model's name.
+    pub name: String,
+    /// The model's unit, SI.
+    pub unit: String,
+    /// Other names that a column may have; with a leading `-` the column is its negative.
+    pub aliases: Vec<String>,
+}
+
+/// A record with the model's names and units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mapped {
+    /// The signals that were found, in the order in which they were wanted.
+    pub record: Record,
+    /// Columns of the file that no signal comes from.
+    pub unused: Vec<String>,
+    /// Signals that were wanted, but are not in the file.
+    pub missing: Vec<String>,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl Map {
+    /// Reads a map from TOML.
+    ///
+    /// # Errors
+    /// It is not TOML, has keys that are not known, or numbers that are not finite.
+    pub fn parse(text: &str) -> Result<Self, DataError> {
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct File {
+            time: Option<TimeColumn>,
+            #[serde(default)]
+            signals: BTreeMap<String, toml::Value>,
+        }
+        let file: File = toml::from_str(text).map_err(|e| DataError::Map(e.to_string()))?;
+        let mut signals = BTreeMap::new();
+        for (name, value) in file.signals {
+            let source = match value {
+                toml::Value::String(column) => {
+                    Source { column, unit: None, scale: 1.0, offset: 0.0, delay: 0.0 }
+                }
+                table => table.try_into().map_err(|e| DataError::Map(format!("`{name}`: {e}")))?,
+            };
+            let sound = source.scale != 0.0
+                && [source.scale, source.offset, source.delay].iter().all(|v| v.is_finite());
+            if !sound {
+                let text =
+                    format!("`{name}`: scale must not be 0; scale, offset and delay have to be finite");
+                return Err(DataError::Map(text));
+            }
+            signals.insert(name, source);
+        }
+        Ok(Self { time: file.time, signals })
+    }
+
+    /// Takes the wanted signals out of a record. What the map does not mention is found by its name or an alias,
+    /// whatever their case and whether the parts are joined by `.` or `_`.
+    ///
+    /// # Errors
+    /// The map names a column or a signal that does not exist; a unit is unknown or does not fit.
+    pub fn apply(&self, record: Record, wanted: &[Wanted]) -> Result<Mapped, DataError> {
+        for name in self.signals.keys() {
+            if !wanted.iter().any(|wanted| wanted.name == *name) {
+                let hint = did_you_mean(name, wanted.iter().map(|wanted| wanted.name.as_str()));
+                return Err(DataError::Map(format!("the model has no signal `{name}`{hint}")));
+            }
+        }
+        let mut used = vec![false; record.channels.len()];
+        let mut channels = Vec::new();
+        let mut missing = Vec::new();
+        for wanted in wanted {
+            let Some((index, source)) = self.source(&record, wanted)? else {
+                missing.push(wanted.name.clone());
+                continue;
+            };
+            used[index] = true;
+            channels.push(take(&record, index, &source, wanted)?);
+        }
+        let names = record.channels.iter().zip(used).filter(|(_, used)| !used);
+        let unused = names.map(|(channel, _)| channel.name.clone()).collect();
+        if channels.is_empty() {
+            let text = format!(
+                "none of the model's signals is among its columns; name the columns in a map: `[signals]`, `{} = \"…\"`",
+                wanted.first().map_or("signal", |wanted| &wanted.name)
+            );
+            return Err(DataError::file(&record.name, text));
+        }
+        Ok(Mapped { record: Record { channels, ..record }, unused, missing })
+    }
+
+    /// The column of a signal and what to do with it; none if the file does not have it.
+    fn source(&self, record: &Record, wanted: &Wanted) -> Result<Option<(usize, Source)>, DataError> {
+        let columns = &record.channels;
+        if let Some(source) = self.signals.get(&wanted.name) {
+            let index = columns.iter().position(|column| column.name == source.column).ok_or_else(|| {
+                let hint = did_you_mean(&source.column, columns.iter().map(|column| column.name.as_str()));
+                let text =
+                    format!("the map takes `{}` from it, but there is no such column{hint}", wanted.name);
+                DataError::signal(&record.name, &source.column, text)
+            })?;
+            return Ok(Some((index, source.clone())));
+        }
+        let names = std::iter::once(&wanted.name).chain(&wanted.aliases);
+        Ok(names.into_iter().find_map(|name| {
+            let (name, scale) = name.strip_prefix('-').map_or((name.as_str(), 1.0), |name| (name, -1.0));
+            let index = columns.iter().position(|column| plain(&column.name) == plain(name))?;
+            let column = columns[index].name.clone();
+            Some((index, Source { column, unit: None, scale, offset: 0.0, delay: 0.0 }))
+        }))
+    }
+}
+
+/// A name without what does not tell names apart.
+fn plain(name: &str) -> String {
+    name.trim().to_lowercase().replace(['.', ' '], "_")
+}
+
+/// A column as the model's signal. A column without a unit is in the model's.
+fn take(record: &Record, index: usize, source: &Source, wanted: &Wanted) -> Result<Channel, DataError> {
+    let column = &record.channels[index];
+    let unit = source.unit.as_ref().unwrap_or(&column.unit);
+    let unit = if unit.trim().is_empty() { &wanted.unit } else { unit };
+    let conversion = units::conversion(unit, &wanted.unit).map_err(|problem| {
+        let text = format!(
+            "{problem}: `{}` is wanted in {}; correct the header, or give the column's unit in the map",
+            wanted.name, wanted.unit
+        );
+        DataError::signal(&record.name, &column.name, text)
+    })?;
+    let value = |v: f64| source.scale * conversion.apply(v) + source.offset;
+    let mut values: Vec<f64> = column.values.iter().map(|&v| value(v)).collect();
+    if source.delay != 0.0 {
+        values = record.time.iter().map(|t| linear(&record.time, &values, t + source.delay)).collect();
+    }
+    Ok(Channel { name: wanted.name.clone(), unit: wanted.unit.clone(), values })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(columns: &[(&str, &str, [f64; 4])]) -> Record {
+        let channel = |(name, unit, values): &(&str, &str, [f64; 4])| Channel {
+            name: (*name).into(),
+            unit: (*unit).into(),
+            values: values.to_vec(),
+        };
+        let time = vec![0.0, 0.5, 1.0, 1.5];
+        Record { name: "run.csv".into(), time, channels: columns.iter().map(channel).collect() }
+    }
+
+    fn wanted(name: &str, unit: &str, aliases: &[&str]) -> Wanted {
+        let aliases = aliases.iter().map(|&alias| alias.into()).collect();
+        Wanted { name: name.into(), unit: unit.into(), aliases }
+    }
+
+    const RAMP: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
+
+    fn error(map: &str, record: Record, wanted: &[Wanted]) -> String {
+        Map::parse(map).and_then(|map| map.apply(record, wanted)).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn names_and_aliases_without_a_map() {
+        let file = record(&[("Body.Acceleration", "g", RAMP), ("travel", "mm", RAMP), ("spare", "", RAMP)]);
+        let signals = [
+            wanted("body_acceleration", "m/s2", &[]),
+            wanted("deflection", "m", &["-compression", "-travel"]),
+            wanted("force", "N", &[]),
+        ];
+        let mapped = Map::default().apply(file, &signals).unwrap();
+        assert_eq!(mapped.unused, ["spare"]);
+        assert_eq!(mapped.missing, ["force"]);
+        let [acceleration, deflection] = &mapped.record.channels[..] else { panic!() };
+        assert_eq!((acceleration.name.as_str(), acceleration.unit.as_str()), ("body_acceleration", "m/s2"));
+        assert_eq!(acceleration.values[1], 9.80665);
+        assert_eq!(deflection.values, [0.0, -0.001, -0.002, -0.003]);
+    }
+
+    #[test]
+    fn scale_offset_unit_and_delay() {
+        let map = "[signals]\nx = { column = \"Weg\", unit = \"mm\", scale = -1.0, offset = 0.5, delay = 0.25 }\n\
+                   u = \"U\"\n";
+        let file = record(&[("Weg", "V", [0.0, 1000.0, 2000.0, 3000.0]), ("U", "", RAMP)]);
+        let mapped =
+            Map::parse(map).unwrap().apply(file, &[wanted("x", "m", &[]), wanted("u", "V", &[])]).unwrap();
+        let x = &mapped.record.channels[0].values;
+        assert_eq!(x[..3], [0.0, -1.0, -2.0]);
+        assert!(x[3].is_nan());
+        assert_eq!(mapped.record.channels[1].values, RAMP);
+    }
+
+    #[test]
+    fn the_column_of_time() {
+        let map = Map::parse("time = { column = \"Stamp\", unit = \"ms\" }").unwrap();
+        let record = crate::data::parse("run.csv", b"Stamp,x\n0,1\n5,2\n", map.time.as_ref()).unwrap();
+        assert_eq!(record.time, [0.0, 0.005]);
+    }
+
+    #[test]
+    fn errors_say_what_to_do() {
+        let file = || record(&[("deflection", "mm", RAMP), ("force", "V", RAMP)]);
+        let signals = [wanted("strut_force", "N", &["force"]), wanted("x", "m", &[])];
+        let message = error("", file(), &signals);
+        assert!(message.starts_with("run.csv, force: `V` does not measure the same as `N`"), "{message}");
+        let message = error("[signals]\nx = \"deflexion\"", file(), &signals[1..]);
+        assert!(message.contains("did you mean `deflection`?"), "{message}");
+        let message = error("[signals]\nstrut_forse = \"force\"", file(), &signals);
+        assert!(message.contains("did you mean `strut_force`?"), "{message}");
+        let message = error("", file(), &[wanted("y", "m", &[])]);
+        assert!(message.contains("none of the model's signals"), "{message}");
+        let message = error("[signals]\nx = { column = \"deflection\", units = \"mm\" }", file(), &signals);
+        assert!(message.contains("units"), "{message}");
+        let message = error("[signals]\nx = { column = \"deflection\", scale = 0.0 }", file(), &signals);
+        assert!(message.contains("scale must not be 0"), "{message}");
+        assert!(error("signal = 3", file(), &signals).contains("signal"));
+        let message =
+            error("[signals]\nx = { column = \"deflection\", unit = \"furlong\" }", file(), &signals[1..]);
+        assert!(message.contains("`furlong` is not a unit known here"), "{message}");
+    }
+}
