@@ -47,6 +47,8 @@ mod run;
 mod system;
 mod table;
 
+#[cfg(feature = "strut")]
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -82,6 +84,37 @@ pub enum Source<'a> {
         /// Its name.
         name: &'a str,
     },
+}
+
+/// Strut's own models.
+#[cfg(feature = "strut")]
+pub fn strut() -> Project<'static> {
+    Project {
+        catalogue: strut_physics::CATALOGUE,
+        parameter_sets: strut_physics::PARAMETER_SETS,
+        systems: strut_physics::SYSTEMS,
+        source: Source::Workspace { files: "fmu-src/physics/parameters/resources" },
+        license: include_str!("../../LICENSE"),
+    }
+}
+
+/// Packs the FMU of a parameter set of one of Strut's models into a folder.
+///
+/// # Errors
+/// If the set does not fit its model, or cargo cannot build the model's library: what to do.
+#[cfg(feature = "strut")]
+pub fn pack(project: &Project, parameters: &Path, out: &Path) -> Result<(), String> {
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.toml");
+    let arguments = cli::Arguments {
+        names: Vec::new(),
+        out: out.into(),
+        targets: Vec::new(),
+        parameters: vec![parameters.into()],
+        systems: Vec::new(),
+        manifest_path: Some(workspace),
+        list: false,
+    };
+    run::build(project, &arguments).map(|_| ()).map_err(|failure| failure.to_string())
 }
 
 /// Builds what the command line asks for; failures are told on stderr.

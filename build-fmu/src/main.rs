@@ -2,14 +2,6 @@
 
 use std::process::ExitCode;
 
-use build_fmu::{Project, Source};
-
 fn main() -> ExitCode {
-    build_fmu::main(&Project {
-        catalogue: strut_physics::CATALOGUE,
-        parameter_sets: strut_physics::PARAMETER_SETS,
-        systems: strut_physics::SYSTEMS,
-        source: Source::Workspace { files: "fmu-src/physics/parameters/resources" },
-        license: include_str!("../../LICENSE"),
-    })
+    build_fmu::main(&build_fmu::strut())
 }

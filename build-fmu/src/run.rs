@@ -27,6 +27,15 @@ pub fn run(project: &Project, arguments: &Arguments) -> Result<ExitCode> {
     {
         return package.run();
     }
+    print(&build(project, arguments)?);
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Builds what the arguments ask for from the project's own models; returns what is to be told.
+///
+/// # Errors
+/// Whatever goes wrong first.
+pub fn build(project: &Project, arguments: &Arguments) -> Result<String> {
     let manifest = match project.source {
         Source::Package { manifest, .. } => Some(PathBuf::from(manifest)),
         Source::Workspace { .. } => arguments.manifest_path.clone().or_else(cargo::workspace_manifest),
@@ -38,8 +47,7 @@ pub fn run(project: &Project, arguments: &Arguments) -> Result<ExitCode> {
     };
     let plan = Plan::new(project, arguments, &files)?;
     if arguments.list {
-        print(&listing(&plan)?);
-        return Ok(ExitCode::SUCCESS);
+        return listing(&plan);
     }
     let platforms = platforms(&arguments.targets)?;
     // Mistakes in systems come to light before minutes of compiling.
@@ -103,8 +111,7 @@ pub fn run(project: &Project, arguments: &Arguments) -> Result<ExitCode> {
         progress.inc(1);
     }
     progress.finish_and_clear();
-    print(&table::aligned(&["NAME", "KIND", "IN → OUT", "PARAMETERS", "SIZE", "PATH"], &[4], &rows));
-    Ok(ExitCode::SUCCESS)
+    Ok(table::aligned(&["NAME", "KIND", "IN → OUT", "PARAMETERS", "SIZE", "PATH"], &[4], &rows))
 }
 
 /// The platforms to build for, and whether they were asked for by name.

@@ -24,7 +24,8 @@ pub struct Diagnosis<'a> {
     pub reversed: Vec<Handle>,
 }
 
-/// Diagnoses a rig from records.
+/// Diagnoses a rig from records. `known` are parameters' indices with a value and its standard deviation that were
+/// measured otherwise; `only`, unless empty, the numbers of the causes that are looked at.
 ///
 /// # Errors
 /// If the model refuses its parameters or diverges on the records.
@@ -33,6 +34,7 @@ pub fn diagnose<'a>(
     train: &'a [Recorded],
     test: &'a [Recorded],
     known: Vec<(usize, f64, f64)>,
+    only: &[String],
     progress: &(dyn Fn(&str) + Sync),
 ) -> Result<Diagnosis<'a>, String> {
     let mut world = World {
@@ -41,6 +43,7 @@ pub fn diagnose<'a>(
         test,
         typical: Vec::new(),
         known,
+        only: only.to_vec(),
         sigma: vec![1.0; rig.plant.outputs.len()],
         floor: Vec::new(),
     };

@@ -40,6 +40,31 @@ pub struct Findings {
     pub seconds: f64,
 }
 
+impl Findings {
+    /// That the data cannot be used.
+    pub fn of_bad_data(rig: &str, train: Vec<String>, test: Vec<String>, problems: Vec<DataProblem>) -> Self {
+        let texts =
+            problems.iter().filter(|problem| problem.fatal).map(|it| format!("{}: {}", it.record, it.text));
+        Self {
+            format: FORMAT,
+            rig: rig.into(),
+            train,
+            test,
+            verdict: Verdict::BadData,
+            summary: format!("The data cannot be used. {}", texts.collect::<Vec<_>>().join(" ")),
+            effects: Vec::new(),
+            base_parameters: Vec::new(),
+            signals: Vec::new(),
+            unnamed: None,
+            experiment: None,
+            data_problems: problems,
+            candidates: Vec::new(),
+            pictures: Pictures::default(),
+            seconds: 0.0,
+        }
+    }
+}
+
 /// What is the matter with the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]

@@ -48,6 +48,8 @@ pub struct World<'a> {
     pub typical: Vec<(Element, Typical)>,
     /// What was known of parameters before: index, value, standard deviation.
     pub known: Vec<(usize, f64, f64)>,
+    /// Numbers of the causes that are looked at; none: all.
+    pub only: Vec<String>,
     /// Standard deviation of each output's residuals.
     pub sigma: Vec<f64>,
     /// Noise of each measured output, in the order of a record's.

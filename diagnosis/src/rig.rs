@@ -162,14 +162,16 @@ impl Rig {
                 return Self::of(&set);
             }
         }
-        let mut names: Vec<String> = PARAMETER_SETS
-            .iter()
-            .filter_map(|(_, text)| ParameterSet::parse(text).ok())
-            .filter(|set| KINDS.iter().any(|kind| kind.model == set.model))
-            .map(|set| kebab(&set.fmu))
-            .collect();
+        Err(format!("there is no rig `{name}`; there are {}", Self::names().join(", ")))
+    }
+
+    /// Names of all published rigs.
+    pub fn names() -> Vec<String> {
+        let sets = PARAMETER_SETS.iter().filter_map(|(_, text)| ParameterSet::parse(text).ok());
+        let rigs = sets.filter(|set| KINDS.iter().any(|kind| kind.model == set.model));
+        let mut names: Vec<String> = rigs.map(|set| kebab(&set.fmu)).collect();
         names.sort();
-        Err(format!("there is no rig `{name}`; there are {}", names.join(", ")))
+        names
     }
 
     /// The rig of a parameter set.

@@ -7,6 +7,7 @@ use crate::catalogue::{self, Cause, Element, Table};
 use crate::correction::Fault;
 use crate::fit::{Handle, Point, Residuals};
 use crate::hypothesis::{Fitted, POINTS, Term, World};
+use crate::naming::name;
 use crate::recorded::{Recorded, Source};
 
 /// A term that may explain something.
@@ -63,6 +64,7 @@ impl World<'_> {
                 }
             }
         }
+        terms.retain(|term| self.only.is_empty() || self.only.contains(&name(*term, plant).id));
         terms
     }
 

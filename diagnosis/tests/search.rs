@@ -94,7 +94,7 @@ fn run(changes: &[(&str, f64)]) {
     let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
     let (train, test) = ([record(&rig, 1, changes)], [record(&rig, 20, changes)]);
     let clock = std::time::Instant::now();
-    let diagnosis = diagnose(&rig, &train, &test, Vec::new(), &|text| eprintln!("{text}")).unwrap();
+    let diagnosis = diagnose(&rig, &train, &test, Vec::new(), &[], &|text| eprintln!("{text}")).unwrap();
     let found = &diagnosis.found;
     eprintln!("{:?}", clock.elapsed());
     for (handle, value, half) in strut_diagnosis::diagnosis::intervals(&found.extended) {

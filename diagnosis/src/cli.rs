@@ -1,0 +1,103 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+const EXAMPLES: &str = "\
+Examples:
+  diagnose simulate --hide strut.coulomb.force=60 --out records
+                                      records of a virtual rig with friction hidden in it
+  diagnose --rig tum-linear-measured-quarter-car --train records/train.csv --test records/test.csv --out report
+                                      what the model gets wrong, why, and by how much it can gain
+
+In the workspace, write `cargo run --release --package strut-diagnosis --` for `diagnose`.";
+
+/// Finds out what a simulation gets wrong, from measured data
+#[derive(Parser, Debug)]
+#[command(name = "diagnose", version, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
+pub struct Arguments {
+    /// Something else than a diagnosis.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// The diagnosis.
+    #[command(flatten)]
+    pub diagnosis: Option<DiagnosisArguments>,
+}
+
+/// What else there is to do.
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// Makes records of a virtual rig, to try the diagnosis with
+    Simulate(SimulateArguments),
+    /// Lists the rigs
+    Rigs,
+}
+
+/// A diagnosis.
+#[derive(Args, Debug)]
+pub struct DiagnosisArguments {
+    /// The rig, e.g. tum-quarter-vehicle; `diagnose rigs` lists them
+    #[arg(long)]
+    pub rig: Option<String>,
+
+    /// Parameter set (TOML) of the starting model, in place of a rig's
+    #[arg(long, value_name = "FILE")]
+    pub parameters: Option<PathBuf>,
+
+    /// Record to learn from; several times for several
+    #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
+    pub train: Vec<PathBuf>,
+
+    /// Record of another excitation, to judge by; several times for several
+    #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
+    pub test: Vec<PathBuf>,
+
+    /// Names, units, signs and delays of the records' columns (TOML)
+    #[arg(long, value_name = "FILE")]
+    pub map: Option<PathBuf>,
+
+    /// A value that was measured otherwise, with its standard deviation: sprung_mass=94.4±0.5
+    #[arg(long, value_name = "NAME=VALUE±DEVIATION")]
+    pub known: Vec<String>,
+
+    /// Only these effects, by their numbers in the catalogue: 01,04
+    #[arg(long, value_delimiter = ',', value_name = "NUMBER")]
+    pub effects: Vec<String>,
+
+    /// Folder for the report and the extended model; made if it is missing
+    #[arg(long, value_name = "DIR", default_value = "report")]
+    pub out: PathBuf,
+
+    /// Threads [default: one for each core]
+    #[arg(long, value_name = "N")]
+    pub jobs: Option<usize>,
+
+    /// Do not build extended.fmu
+    #[arg(long)]
+    pub no_fmu: bool,
+}
+
+/// A virtual rig.
+#[derive(Args, Debug)]
+pub struct SimulateArguments {
+    /// The rig
+    #[arg(long, default_value = "tum-linear-measured-quarter-car")]
+    pub rig: String,
+
+    /// A parameter that differs from the rig's: strut.coulomb.force=60
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub hide: Vec<String>,
+
+    /// Standard deviation of the noise, over the root mean square of each signal
+    #[arg(long, default_value_t = 0.01)]
+    pub noise: f64,
+
+    /// For phases and noise
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+
+    /// Folder for train.csv and test.csv; made if it is missing
+    #[arg(long, value_name = "DIR", default_value = "records")]
+    pub out: PathBuf,
+}

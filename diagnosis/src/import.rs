@@ -1,0 +1,154 @@
+//! Files of records on a rig's inputs and outputs.
+
+use std::ops::Range;
+use std::path::Path;
+
+use crate::data::{self, Map, Wanted};
+use crate::findings::DataProblem;
+use crate::recorded::{Measured, Recorded, Source};
+use crate::rig::Rig;
+
+/// Longest section that is simulated in one go, in seconds: it bounds the memory, and how far a simulation may drift.
+const SECTION: f64 = 60.0;
+/// Samples that a record needs.
+const FEWEST: usize = 100;
+
+/// A record on a rig, with what is to be said about the data.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// The record; none if it cannot be used.
+    pub recorded: Option<Recorded>,
+    /// What is wrong with the data.
+    pub problems: Vec<DataProblem>,
+}
+
+/// Reads a file and finds the rig's signals in it.
+///
+/// # Errors
+/// If the file cannot be read, or has not the signals that the rig needs: what to do.
+pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
+    let record = data::read_with(path, map.time.as_ref()).map_err(|error| error.to_string())?;
+    let mapped = map.apply(record, &wanted(rig)).map_err(|error| error.to_string())?;
+    let name = mapped.record.name.clone();
+    missing(rig, &mapped.record, &name, &mapped.unused)?;
+    let mut problems = data::check(&mapped.record);
+    if !mapped.unused.is_empty() {
+        problems.push(DataProblem {
+            record: name.clone(),
+            signal: mapped.unused.join(", "),
+            text: "no signal of the rig has this name: not used; a map (--map) can tell what it is".into(),
+            fatal: false,
+        });
+    }
+    if problems.iter().any(|problem| problem.fatal) {
+        return Ok(Imported { recorded: None, problems });
+    }
+    let (uniform, resampled) = data::uniform(&mapped.record).map_err(|error| error.to_string())?;
+    problems.extend(resampled);
+    let values = |name: &str| {
+        let channel = uniform.channels.iter().find(|channel| channel.name == name);
+        channel.map(|channel| channel.values.clone())
+    };
+    let mut inputs: Vec<Source> = Vec::new();
+    for declared in &rig.plant.inputs {
+        inputs.push(match values(&declared.name) {
+            Some(values) => Source::Measured(values),
+            None => rate_of(rig, &declared.name)
+                .filter(|other| values(&rig.plant.inputs[*other].name).is_some())
+                .map_or(Source::Constant(declared.start), Source::DerivativeOf),
+        });
+    }
+    let measured = rig.plant.outputs.iter().enumerate().filter_map(|(output, declared)| {
+        let values = values(&declared.name)?;
+        let noise_floor = data::noise_floor(&values, uniform.step);
+        Some(Measured { output, values, noise_floor })
+    });
+    let measured: Vec<Measured> = measured.collect();
+    let sections = sections(&uniform.segments, uniform.step);
+    Ok(Imported {
+        recorded: Some(Recorded { name, step: uniform.step, inputs, measured, sections }),
+        problems,
+    })
+}
+
+/// Every signal of a rig with the names that it may have.
+fn wanted(rig: &Rig) -> Vec<Wanted> {
+    let declared = rig.plant.inputs.iter().chain(&rig.plant.outputs);
+    declared
+        .map(|declared| {
+            let aliases = rig.kind.aliases.iter().filter(|(name, _)| *name == declared.name);
+            Wanted {
+                name: declared.name.clone(),
+                unit: declared.unit.symbol.into(),
+                aliases: aliases.map(|(_, alias)| (*alias).to_owned()).collect(),
+            }
+        })
+        .collect()
+}
+
+/// The input that one is the rate of: `road.velocity` is that of `road.position`.
+fn rate_of(rig: &Rig, name: &str) -> Option<usize> {
+    let group = name.strip_suffix("velocity")?;
+    rig.plant.input(&format!("{group}position"))
+}
+
+/// Refuses a record that does not tell what drove the rig, or nothing of what it did.
+fn missing(rig: &Rig, record: &data::Record, name: &str, unused: &[String]) -> Result<(), String> {
+    let has = |declared: &str| record.channels.iter().any(|channel| channel.name == declared);
+    let hint = if unused.is_empty() {
+        String::new()
+    } else {
+        format!("; the columns {} are not used: name them in a map (--map)", unused.join(", "))
+    };
+    if !rig.plant.inputs.iter().any(|declared| has(&declared.name)) {
+        let inputs: Vec<&str> = rig.plant.inputs.iter().map(|declared| declared.name.as_str()).collect();
+        return Err(format!(
+            "{name}: no column says what drove the rig; one of {} is needed{hint}",
+            inputs.join(", ")
+        ));
+    }
+    if !rig.plant.outputs.iter().any(|declared| has(&declared.name)) {
+        let outputs: Vec<&str> = rig.plant.outputs.iter().map(|declared| declared.name.as_str()).collect();
+        return Err(format!(
+            "{name}: no column says what the rig did; one of {} is needed{hint}",
+            outputs.join(", ")
+        ));
+    }
+    Ok(())
+}
+
+/// Ranges of at most [`SECTION`] seconds and about equal length.
+fn sections(segments: &[Range<usize>], step: f64) -> Vec<Range<usize>> {
+    let longest = (SECTION / step).max(FEWEST as f64);
+    let mut sections = Vec::new();
+    for segment in segments.iter().filter(|segment| segment.len() >= FEWEST) {
+        let parts = (segment.len() as f64 / longest).ceil() as usize;
+        for part in 0..parts {
+            let at = |part: usize| segment.start + segment.len() * part / parts;
+            sections.push(at(part)..at(part + 1));
+        }
+    }
+    sections
+}
+
+/// Keeps the outputs that all records have, so that they can be compared.
+///
+/// # Errors
+/// If there are none.
+pub fn align(records: &mut [Recorded]) -> Result<(), String> {
+    let Some(first) = records.first() else { return Err("there is no record".into()) };
+    let mut common: Vec<usize> = first.measured.iter().map(|measured| measured.output).collect();
+    for record in records.iter() {
+        common.retain(|output| record.measured.iter().any(|measured| measured.output == *output));
+    }
+    if common.is_empty() {
+        return Err("the records have no output in common: give records of the same signals".into());
+    }
+    for record in records.iter_mut() {
+        record.measured.retain(|measured| common.contains(&measured.output));
+        if record.sections.is_empty() {
+            return Err(format!("{}: no stretch of {FEWEST} samples without a gap", record.name));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,88 @@
+//! The gates that an effect has to pass, and what they say in words.
+
+use super::words::{number, percent};
+use crate::findings::Evidence;
+
+/// What the evidence for an effect has to exceed, in each of its gates.
+///
+/// 2.33 is Student's t of a one-sided error of 1 % with many blocks. The information criterion alone is
+/// never the verdict: small unmodelled effects pass it on every record.
+pub const REQUIRED: Evidence = Evidence { delta_bic: 20.0, block_t: 2.33, held_out_t: 2.33, explained: 0.01 };
+
+/// One gate.
+pub struct Gate {
+    /// What is looked at.
+    pub name: &'static str,
+    /// What it says.
+    pub meaning: &'static str,
+    /// What was found.
+    pub found: String,
+    /// What is required.
+    pub required: String,
+    /// Whether that is exceeded.
+    pub passed: bool,
+}
+
+/// All gates.
+pub fn gates(evidence: &Evidence) -> [Gate; 4] {
+    let gate = |name, meaning, found: f64, required: f64, print: fn(f64) -> String| Gate {
+        name,
+        meaning,
+        found: print(found),
+        required: format!("> {}", print(required)),
+        passed: found > required,
+    };
+    [
+        gate(
+            "Held-out data",
+            "t of the gain over blocks of another excitation",
+            evidence.held_out_t,
+            REQUIRED.held_out_t,
+            number,
+        ),
+        gate(
+            "Training data",
+            "t of the gain over blocks of what was learnt from",
+            evidence.block_t,
+            REQUIRED.block_t,
+            number,
+        ),
+        gate(
+            "Parsimony",
+            "fall of the Bayesian information criterion",
+            evidence.delta_bic,
+            REQUIRED.delta_bic,
+            number,
+        ),
+        gate(
+            "Size",
+            "share of the residual’s power it explains",
+            evidence.explained,
+            REQUIRED.explained,
+            percent,
+        ),
+    ]
+}
+
+/// Why the effect is believed, in sentences.
+pub fn sentences(evidence: &Evidence) -> Vec<String> {
+    let strength = |t: f64| match t {
+        t if t > 5.0 => "far beyond chance",
+        t if t > 3.0 => "clearly beyond chance",
+        t if t > REQUIRED.held_out_t => "beyond chance",
+        _ => "which chance can do as well",
+    };
+    let t = |t: f64| format!("t = {}, {}", number(t), strength(t));
+    vec![
+        format!(
+            "With it, the model fits data that it was not fitted to better, block by block: {}.",
+            t(evidence.held_out_t)
+        ),
+        format!("It explains {} of the power of the error there.", percent(evidence.explained)),
+        format!("On the data that it was learnt from, the gain is as steady: {}.", t(evidence.block_t)),
+        format!(
+            "The gain outweighs its additional parameters: the Bayesian information criterion falls by {}.",
+            number(evidence.delta_bic)
+        ),
+    ]
+}

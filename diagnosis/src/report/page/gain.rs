@@ -1,0 +1,169 @@
+//! What it gained: Φ and errors per signal, and where the residual power went.
+
+use maud::{Markup, html};
+
+use crate::findings::{Findings, Signal};
+use crate::report::plot::px;
+use crate::report::words::{digits, number, percent, unit};
+
+/// The most important numbers beside the headline.
+pub fn facts(findings: &Findings) -> Markup {
+    let power = |rms: f64| rms * rms;
+    let fall = |signal: &Signal| 1.0 - power(signal.rms_after) / power(signal.rms_before);
+    let best = findings.signals.iter().filter(|signal| fall(signal).is_finite());
+    let best = best.max_by(|a, b| fall(a).total_cmp(&fall(b)));
+    html! {
+        @if let Some(signal) = best {
+            dl.facts {
+                div {
+                    dt { "Fit Φ of " code { (signal.name) } }
+                    dd { (digits(signal.phi_before, 2)) span.arrow { " → " } (digits(signal.phi_after, 2)) }
+                }
+                div {
+                    dt { "Its error’s power, held-out" }
+                    dd { @if fall(signal) >= 0.0 { "−" } @else { "+" } (percent(fall(signal).abs())) }
+                }
+                @if let Some(effect) = findings.effects.first() {
+                    div { dt { "Held-out evidence" } dd { "t = " (number(effect.evidence.held_out_t)) } }
+                }
+            }
+        }
+    }
+}
+
+/// Table and waterfalls of all signals.
+pub fn section(findings: &Findings) -> Markup {
+    if findings.signals.is_empty() {
+        return html! {};
+    }
+    let repeated = findings.signals.iter().any(|signal| signal.repeatability.is_some());
+    html! {
+        section {
+            h2 { "What it gained" }
+            p.note {
+                "On held-out data. Φ = 1 − rms(error)/rms(measured): 1 is perfect. “Start” is the model as it came, "
+                "“fitted” the same equations with fitted parameters, “extended” the model with what was found."
+            }
+            div.scroll { table {
+                thead {
+                    tr {
+                        th rowspan="2" { "Signal" }
+                        th.group colspan="3" { "Fit Φ" }
+                        th.group colspan="3" { "rms error" }
+                        th rowspan="2" {}
+                        th.number rowspan="2" { "Noise floor" }
+                        @if repeated { th.number rowspan="2" { "Repeatability" } }
+                        th rowspan="2" { "Unit" }
+                    }
+                    tr { @for _ in 0..2 { th.number { "start" } th.number { "fitted" } th.number { "extended" } } }
+                }
+                tbody { @for signal in &findings.signals { (row(signal, repeated)) } }
+            } }
+            h3 { "Where the error’s power went" }
+            div.waterfalls { @for signal in findings.signals.iter().take(8) { (waterfall(signal)) } }
+            @if findings.signals.len() > 8 {
+                details {
+                    summary { "The other " (findings.signals.len() - 8) " signals" }
+                    div.waterfalls { @for signal in &findings.signals[8..] { (waterfall(signal)) } }
+                }
+            }
+        }
+    }
+}
+
+fn row(signal: &Signal, repeated: bool) -> Markup {
+    html! {
+        tr {
+            td { code { (signal.name) } }
+            td.number { (digits(signal.phi_before, 3)) }
+            td.number { (digits(signal.phi_fitted, 3)) }
+            td.number { strong { (digits(signal.phi_after, 3)) } }
+            td.number { (number(signal.rms_before)) }
+            td.number { (number(signal.rms_fitted)) }
+            td.number { strong { (number(signal.rms_after)) } }
+            td.bars { (bars(signal)) }
+            td.number { (number(signal.noise_floor)) }
+            @if repeated { td.number { (signal.repeatability.map_or("–".into(), number)) } }
+            td.unit { (unit(&signal.unit)) }
+        }
+    }
+}
+
+/// Errors before, fitted and after as bars, with a mark at the noise floor.
+fn bars(signal: &Signal) -> Markup {
+    let errors = [(signal.rms_before, "start"), (signal.rms_fitted, "before"), (signal.rms_after, "after")];
+    let largest = errors.iter().map(|(rms, _)| *rms).filter(|rms| rms.is_finite()).fold(0.0, f64::max);
+    let length =
+        |rms: f64| Some(110.0 * (rms / largest)).filter(|length| length.is_finite() && *length >= 0.0);
+    html! {
+        svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 114 25" width="114" height="25" class="plot" {
+            title { "rms error: start, fitted, extended; the line is the noise floor" }
+            @for (index, (rms, class)) in errors.iter().enumerate() {
+                @if let Some(length) = length(*rms) {
+                    rect class=(format!("bar {class}")) x="1" y=(index * 8 + 1) width=(px(length.max(0.5))) height="6" {}
+                }
+            }
+            @if let Some(floor) = length(signal.noise_floor).filter(|floor| *floor <= 110.0) {
+                line class="floor" x1=(px(floor + 1.0)) x2=(px(floor + 1.0)) y1="0" y2="25" {}
+            }
+        }
+    }
+}
+
+/// One step of a waterfall: from and to which share of the starting model's error power.
+struct Step {
+    label: &'static str,
+    class: &'static str,
+    from: f64,
+    to: f64,
+}
+
+/// How the error's power falls, from the starting model to the noise floor.
+fn waterfall(signal: &Signal) -> Markup {
+    let share = |rms: f64| (rms / signal.rms_before).powi(2);
+    let (fitted, after, floor) =
+        (share(signal.rms_fitted), share(signal.rms_after), share(signal.noise_floor));
+    let floor = floor.min(after);
+    let steps = [
+        Step { label: "start", class: "start", from: 0.0, to: 1.0 },
+        Step { label: "fitted", class: "before", from: fitted, to: 1.0 },
+        Step { label: "added", class: "after", from: after, to: fitted },
+        Step { label: "left over", class: "left", from: floor, to: after },
+        Step { label: "noise", class: "noise", from: 0.0, to: floor },
+    ];
+    let top = [1.0, fitted, after].into_iter().filter(|share| share.is_finite()).fold(1.0, f64::max);
+    let y = |share: f64| 118.0 - 92.0 * (share / top);
+    let known = |step: &Step| step.from.is_finite() && step.to.is_finite();
+    html! {
+        figure {
+            figcaption { code { (signal.name) } }
+            svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 250 140" role="img" class="plot" {
+                title { "Power of the error of " (signal.name) ", start = 100 %" }
+                line class="frame" x1="4" x2="246" y1="118" y2="118" {}
+                @for (index, step) in steps.iter().enumerate() {
+                    @let x = 7.0 + 48.0 * index as f64;
+                    text x=(px(x + 20.0)) y="133" text-anchor="middle" { (step.label) }
+                    @if known(step) {
+                        @let (high, low) = (y(step.from.max(step.to)), y(step.from.min(step.to)));
+                        rect class=(format!("bar {}", step.class)) x=(px(x)) y=(px(high)) width="40" height=(px((low - high).max(0.8))) {}
+                        text class="value" x=(px(x + 20.0)) y=(px(high - 5.0)) text-anchor="middle" { (change(step)) }
+                        @if steps.get(index + 1).is_some_and(known) {
+                            @let level = y(if index == 0 { step.to } else { step.from });
+                            line class="link" x1=(px(x)) x2=(px(x + 88.0)) y1=(px(level)) y2=(px(level)) {}
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A step's size; changes by fit and extension with their sign.
+fn change(step: &Step) -> String {
+    let size = step.to - step.from;
+    match step.class {
+        "before" | "after" if size > 0.0 => format!("−{}", percent(size)),
+        "before" | "after" if size < 0.0 => format!("+{}", percent(-size)),
+        _ => percent(size),
+    }
+}

@@ -1,0 +1,224 @@
+//! The pictures: traces, spectra, binned scatter and the curve without a name.
+
+use maud::{Markup, html};
+
+use crate::findings::{Binned, Curve, Findings, Spectrum, Trace};
+use crate::report::plot::{Axis, Plot, Shape};
+use crate::report::words::{digits, labelled, unit};
+
+/// Width and height of a picture over the whole page, in pixels.
+const WIDE: (f64, f64) = (1000.0, 250.0);
+const STRIP: (f64, f64) = (1000.0, 150.0);
+/// The same of one of two beside each other.
+const HALF: (f64, f64) = (490.0, 300.0);
+
+/// A longer trace than this, in seconds, gets a picture of a part.
+const WHOLE: f64 = 6.0;
+/// Length of that part in seconds.
+const PART: f64 = 4.0;
+
+/// Pictures that are shown before the rest is folded away.
+const OPEN_TRACES: usize = 2;
+const OPEN_PLOTS: usize = 6;
+
+/// All pictures that the findings have data for.
+pub fn section(findings: &Findings) -> Markup {
+    let pictures = &findings.pictures;
+    html! {
+        @if !pictures.scatters.is_empty() {
+            section {
+                h2 { "What the error depends on" }
+                p.note {
+                    "Mean of the error of the model with fitted parameters, over bins, with a band of two standard "
+                    "errors. Where rising and falling differ, there is hysteresis or friction; a curve away from zero "
+                    "is a law that is missing."
+                }
+                ul.legend { li.rising { "▲ rising" } li.falling { "▼ falling" } }
+                (folded(&pictures.scatters, OPEN_PLOTS, "pairs", scatter))
+            }
+        }
+        @if !pictures.traces.is_empty() {
+            section {
+                h2 { "Measured and simulated" }
+                ul.legend { li.measured { "measured" } li.before { "fitted" } li.after { "extended" } }
+                (folded(&pictures.traces, OPEN_TRACES, "signals", trace))
+            }
+        }
+        @if !pictures.spectra.is_empty() {
+            section {
+                h2 { "Where in frequency the error lies" }
+                ul.legend {
+                    li.measured { "measured signal" } li.before { "error, fitted" } li.after { "error, extended" }
+                }
+                (folded(&pictures.spectra, OPEN_PLOTS, "signals", spectrum))
+            }
+        }
+    }
+}
+
+fn folded<T>(all: &[T], open: usize, noun: &str, figure: impl Fn(&T) -> Markup) -> Markup {
+    let open = if all.len() > open + 1 { open } else { all.len() };
+    html! {
+        div.plots { @for one in &all[..open] { (figure(one)) } }
+        @if open < all.len() {
+            details {
+                summary { "The other " (all.len() - open) " " (noun) }
+                div.plots { @for one in &all[open..] { (figure(one)) } }
+            }
+        }
+    }
+}
+
+fn scatter(binned: &Binned) -> Markup {
+    let value = |values: &[Option<f64>]| -> Vec<f64> {
+        values.iter().map(|value| value.unwrap_or(f64::NAN)).collect()
+    };
+    let (rising, falling, sigma) = (value(&binned.rising), value(&binned.falling), value(&binned.two_sigma));
+    let edge = |values: &[f64], sign: f64| -> Vec<f64> {
+        // A bin without a standard error has a mean all the same.
+        let width = |index: usize| sigma.get(index).copied().filter(|width| width.is_finite()).unwrap_or(0.0);
+        values.iter().enumerate().map(|(index, value)| value + sign * width(index)).collect()
+    };
+    let curves = [("falling", Shape::Down, &falling), ("rising", Shape::Up, &rising)];
+    let bands: Vec<(Vec<f64>, Vec<f64>)> =
+        curves.iter().map(|(.., values)| (edge(values, -1.0), edge(values, 1.0))).collect();
+    let all = bands.iter().flat_map(|(low, high)| low.iter().chain(high).copied());
+    let x = Axis::linear(&labelled(&binned.variable, &binned.variable_unit), binned.x.iter().copied(), 6);
+    let y = Axis::linear(unit_or_none(&binned.unit).as_str(), all.chain([0.0]), 5);
+    let title = format!("{} over {}", binned.quantity, binned.variable);
+    let mut plot = Plot::new(title.clone(), HALF, x, y).zero();
+    for ((class, ..), (low, high)) in curves.iter().zip(&bands) {
+        plot = plot.band(class, &binned.x, low, high);
+    }
+    for (class, shape, values) in curves {
+        plot = plot.curve(class, &binned.x, values).points(class, shape, &binned.x, values);
+    }
+    html! { figure { figcaption { (title) } (plot.svg()) } }
+}
+
+/// Values on an axis need a word even if they have no unit.
+fn unit_or_none(symbol: &str) -> String {
+    let unit = unit(symbol);
+    if unit.is_empty() { "–".into() } else { unit }
+}
+
+fn spectrum(spectrum: &Spectrum) -> Markup {
+    // The mean of a signal is not a vibration: frequency zero stays out of a logarithmic axis.
+    let x = Axis::logarithmic("frequency / Hz", spectrum.frequency.iter().copied());
+    let curves = [("measured", &spectrum.measured), ("before", &spectrum.before), ("after", &spectrum.after)];
+    let all = curves.iter().flat_map(|(_, values)| values.iter().copied());
+    let unit = unit(&spectrum.unit);
+    let label = if unit.is_empty() { "1/Hz".into() } else { format!("({unit})²/Hz") };
+    let title = format!("Power spectral density of {}", spectrum.signal);
+    let mut plot = Plot::new(title, HALF, x, Axis::logarithmic(&label, all));
+    for (class, values) in curves {
+        plot = plot.curve(class, &spectrum.frequency, values);
+    }
+    html! { figure { figcaption { code { (spectrum.signal) } } (plot.svg()) } }
+}
+
+fn trace(trace: &Trace) -> Markup {
+    let (from, to) = part(trace);
+    let within = |(time, value): (&f64, &f64)| (from <= *time && *time <= to).then_some(*value);
+    let error = |simulated: &[f64]| -> Vec<f64> {
+        trace.measured.iter().zip(simulated).map(|(measured, simulated)| measured - simulated).collect()
+    };
+    let (before, after) = (error(&trace.before), error(&trace.after));
+    let curves = [("measured", &trace.measured), ("before", &trace.before), ("after", &trace.after)];
+    let seen = curves.iter().flat_map(|(_, values)| trace.time.iter().zip(*values).filter_map(within));
+    let unit = unit_or_none(&trace.unit);
+    let time = Axis::tight("time / s", trace.time.iter().copied().filter(|t| (from..=to).contains(t)), 10);
+    let mut signals = Plot::new(
+        format!("{}, measured and simulated", trace.signal),
+        WIDE,
+        time,
+        Axis::linear(&unit, seen, 5),
+    );
+    for (class, values) in curves {
+        signals = signals.curve(class, &trace.time, values);
+    }
+    let whole = Axis::tight("time / s", trace.time.iter().copied(), 10);
+    let both = Axis::linear(&format!("error / {unit}"), before.iter().chain(&after).copied(), 3);
+    let mut errors = Plot::new(format!("Error of {}", trace.signal), STRIP, whole, both).zero();
+    let is_part = to - from < duration(trace) * 0.999;
+    if is_part {
+        errors = errors.window(from, to);
+    }
+    let errors = errors.curve("before", &trace.time, &before).curve("after", &trace.time, &after);
+    html! {
+        figure.wide {
+            figcaption {
+                code { (trace.signal) }
+                @if is_part {
+                    " from " (digits(from, 4)) " to " (digits(to, 4)) " s, where the fitted model’s error is largest; "
+                    "below, the error over the whole record"
+                }
+            }
+            (signals.svg())
+            (errors.svg())
+        }
+    }
+}
+
+fn duration(trace: &Trace) -> f64 {
+    match (trace.time.first(), trace.time.last()) {
+        (Some(first), Some(last)) => last - first,
+        _ => 0.0,
+    }
+}
+
+/// The part of a long trace in which the error before is largest; a short one as a whole.
+fn part(trace: &Trace) -> (f64, f64) {
+    let (first, last) = (trace.time.first().copied(), trace.time.last().copied());
+    let (Some(first), Some(last)) = (first, last) else { return (0.0, 0.0) };
+    // Also taken if times are not finite.
+    if !(duration(trace) > WHOLE && duration(trace).is_finite()) {
+        return (first, last);
+    }
+    let parts = (duration(trace) / PART).ceil().min(10_000.0);
+    let length = duration(trace) / parts;
+    let mut power = vec![0.0; parts as usize];
+    for ((time, measured), before) in trace.time.iter().zip(&trace.measured).zip(&trace.before) {
+        let error = (measured - before).powi(2);
+        if error.is_finite() {
+            // Out of order times land at an end.
+            let index = (((time - first) / length) as usize).min(power.len() - 1);
+            power[index] += error;
+        }
+    }
+    let largest = (0..power.len()).rev().max_by(|a, b| power[*a].total_cmp(&power[*b])).unwrap_or(0);
+    let from = first + length * largest as f64;
+    (from, (from + length).min(last))
+}
+
+/// The curve without a name and its band.
+pub fn unnamed(curve: &Curve) -> Markup {
+    let all = curve.y.iter().chain(&curve.low).chain(&curve.high).copied();
+    let x = Axis::linear(&labelled(&curve.variable, &curve.variable_unit), curve.x.iter().copied(), 8);
+    let y = Axis::linear(unit_or_none(&curve.unit).as_str(), all.chain([0.0]), 5);
+    let plot = Plot::new(format!("What is missing over {}", curve.variable), (760.0, 320.0), x, y).zero();
+    plot.band("after", &curve.x, &curve.low, &curve.high).curve("after", &curve.x, &curve.y).svg()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_trace_is_shown_where_its_error_is_largest() {
+        let time: Vec<f64> = (0..6000).map(|index| f64::from(index) * 0.01).collect();
+        let measured: Vec<f64> =
+            time.iter().map(|t| if (33.0..34.0).contains(t) { 2.0 } else { 1.0 }).collect();
+        let one = vec![1.0; time.len()];
+        let signal = |time| Trace {
+            signal: "a".into(),
+            unit: "m".into(),
+            time,
+            measured,
+            before: one.clone(),
+            after: one.clone(),
+        };
+        let (from, to) = part(&signal(time));
+        assert!(from <= 33.0 && to >= 33.9 && to - from <= PART, "{from} … {to}");
+    }
+}

@@ -1,0 +1,184 @@
+//! Tables: parameters of the starting model, candidates, problems of the data.
+
+use maud::{Markup, html};
+
+use crate::findings::{BaseParameter, Candidate, DataProblem, Findings, Verdict};
+use crate::report::words::{count, digits, interval, number, percent, place, quantity, unit};
+
+/// Rows that a table shows before the rest is folded away.
+const OPEN_ROWS: usize = 12;
+
+/// What makes the data unusable comes first.
+pub fn fatal_problems(findings: &Findings) -> Markup {
+    problems(findings, true, "What is wrong with the data")
+}
+
+/// What is only worth knowing comes last.
+pub fn other_problems(findings: &Findings) -> Markup {
+    problems(findings, false, "Remarks on the data")
+}
+
+fn problems(findings: &Findings, fatal: bool, title: &str) -> Markup {
+    let chosen: Vec<_> = findings.data_problems.iter().filter(|problem| problem.fatal == fatal).collect();
+    let table = |problems: &[&DataProblem]| {
+        html! {
+            table {
+                thead { tr { th { "Record" } th { "Signal" } th { "What is wrong, and what to do" } } }
+                tbody {
+                    @for problem in problems {
+                        tr { td { code { (problem.record) } } td { code { (problem.signal) } } td { (problem.text) } }
+                    }
+                }
+            }
+        }
+    };
+    html! {
+        @if !chosen.is_empty() {
+            section class=(if fatal { "fatal" } else { "" }) { h2 { (title) } (folded(&chosen, "problems", table)) }
+        }
+    }
+}
+
+/// The first rows as a table, the others behind a line to click on.
+fn folded<'a, T>(rows: &[&'a T], noun: &str, table: impl Fn(&[&'a T]) -> Markup) -> Markup {
+    let open = if rows.len() > OPEN_ROWS + 2 { OPEN_ROWS } else { rows.len() };
+    html! {
+        div.scroll { (table(&rows[..open])) }
+        @if open < rows.len() {
+            details { summary { "The other " (rows.len() - open) " " (noun) } div.scroll { (table(&rows[open..])) } }
+        }
+    }
+}
+
+/// What the model started with and what the data say.
+pub fn base_parameters(findings: &Findings) -> Markup {
+    // What does not fit comes first; otherwise the order stays.
+    let mut all: Vec<&BaseParameter> = findings.base_parameters.iter().collect();
+    all.sort_by_key(|parameter| !parameter.mismatch);
+    let table = |parameters: &[&BaseParameter]| {
+        html! {
+            table {
+                thead { tr {
+                    th { "Parameter" } th.number { "Before" } th.number { "After" } th.number { "95 % interval" }
+                    th { "Unit" } th.number { "Change" } th {}
+                } }
+                tbody { @for parameter in parameters {
+                    @let [after, low, high] = interval(parameter.after, parameter.low, parameter.high);
+                    tr class=(if parameter.mismatch { "mismatch" } else { "" }) {
+                        td { code { (parameter.name) } }
+                        td.number { (digits(parameter.before, 4)) }
+                        td.number { strong { (after) } }
+                        td.number { (low) " … " (high) }
+                        td.unit { (unit(&parameter.unit)) }
+                        td.number { (change(parameter)) }
+                        td { @if parameter.mismatch { span.no { "mismatch" } } }
+                    }
+                } }
+            }
+        }
+    };
+    html! {
+        @if !all.is_empty() {
+            section {
+                h2 { "Parameters of the starting model" }
+                p.note { "“Mismatch” marks a difference that is both significant and large enough to matter." }
+                (folded(&all, "parameters", table))
+            }
+        }
+    }
+}
+
+fn change(parameter: &BaseParameter) -> String {
+    let change = parameter.after / parameter.before - 1.0;
+    let sign = if change > 0.0 { "+" } else { "" };
+    format!("{sign}{}", percent(change))
+}
+
+/// Without an effect, the sizes that would have been seen are the result.
+pub fn detectable(findings: &Findings) -> Markup {
+    if findings.verdict != Verdict::NoEffect {
+        return html! {};
+    }
+    let seen: Vec<_> =
+        findings.candidates.iter().filter(|candidate| candidate.detectable.is_some()).collect();
+    let blind: Vec<_> =
+        findings.candidates.iter().filter(|candidate| candidate.detectable.is_none()).collect();
+    let table = |candidates: &[&Candidate]| {
+        html! {
+            table {
+                thead { tr { th { "Effect" } th { "Where" } th.number { "Seen for certain from" } } }
+                tbody { @for candidate in candidates {
+                    tr {
+                        td { (candidate.name) }
+                        td { (place(&candidate.element)) }
+                        td.number { strong { (size(candidate)) } }
+                    }
+                } }
+            }
+        }
+    };
+    html! {
+        @if !seen.is_empty() {
+            section {
+                h2 { "What would have been seen" }
+                p.note {
+                    "An effect of at least this size would have been found with these records. Smaller ones may be there."
+                }
+                (folded(&seen, "effects", table))
+            }
+        }
+        @if !blind.is_empty() {
+            section {
+                h2 { "What these records cannot judge" }
+                ul.compact { @for candidate in blind {
+                    li { (candidate.name) " " (place(&candidate.element)) ": " (candidate.outcome) }
+                } }
+            }
+        }
+    }
+}
+
+fn size(candidate: &Candidate) -> String {
+    candidate.detectable.map_or("–".into(), |size| quantity(size, &candidate.unit))
+}
+
+/// Everything that was looked at.
+pub fn candidates(findings: &Findings) -> Markup {
+    let all = &findings.candidates;
+    if all.is_empty() {
+        return html! {};
+    }
+    let fitted = all.iter().filter(|candidate| candidate.fitted).count();
+    html! {
+        section {
+            h2 { "All candidates" }
+            details {
+                summary {
+                    (count(all.len(), "candidate")) ": " (fitted) " fitted, " (all.len() - fitted) " screened only"
+                }
+                div.scroll { table {
+                    thead { tr {
+                        th { "No." } th { "Effect" } th { "Where" } th { "Outcome" } th.number { "Held-out t" }
+                        th.number { "Training t" } th.number { "ΔBIC" } th.number { "Explains" }
+                        th.number { "Seen from" }
+                    } }
+                    tbody { @for candidate in all {
+                        tr class=(if candidate.outcome == "accepted" { "accepted" } else { "" }) {
+                            td { (candidate.id) }
+                            td { (candidate.name) }
+                            td { (place(&candidate.element).trim_start_matches("in the ")) }
+                            td { (candidate.outcome) @if !candidate.fitted { span.small { " (screened)" } } }
+                            @if let Some(evidence) = candidate.evidence {
+                                td.number { (number(evidence.held_out_t)) }
+                                td.number { (number(evidence.block_t)) }
+                                td.number { (number(evidence.delta_bic)) }
+                                td.number { (percent(evidence.explained)) }
+                            } @else { td.number {} td.number {} td.number {} td.number {} }
+                            td.number { (size(candidate)) }
+                        }
+                    } }
+                } }
+            }
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! Numbers, units and places in words that an engineer reads.
+
+use crate::findings::{Effect, Findings, Verdict};
+
+/// A number with a few significant digits: `57.3`, `−0.0042`, `1.2e7`; a dash if there is none.
+pub fn number(value: f64) -> String {
+    digits(value, 3)
+}
+
+/// The same with the number of significant digits.
+pub fn digits(value: f64, significant: usize) -> String {
+    if value.is_nan() {
+        return "–".into();
+    }
+    if value.is_infinite() {
+        return if value > 0.0 { "∞".into() } else { "−∞".into() };
+    }
+    if value == 0.0 {
+        return "0".into();
+    }
+    let exact = format!("{value:.*e}", significant.saturating_sub(1));
+    let exponent: i32 = exact.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0);
+    let text = if (-4..6).contains(&exponent) {
+        decimals(value, (significant as i32 - 1 - exponent).max(0) as usize)
+    } else {
+        let (mantissa, exponent) = exact.split_once('e').unwrap_or((&exact, "0"));
+        let mantissa = if mantissa.contains('.') { mantissa.trim_end_matches('0') } else { mantissa };
+        format!("{}e{exponent}", mantissa.trim_end_matches('.'))
+    };
+    text.replace('-', "−")
+}
+
+fn decimals(value: f64, places: usize) -> String {
+    let text = format!("{value:.places$}").replace('-', "−");
+    if text.trim_start_matches('−').chars().all(|c| c == '0' || c == '.') {
+        text.replace('−', "")
+    } else {
+        text
+    }
+}
+
+/// A value with the ends of its interval, to the digits that the interval's width gives meaning to.
+pub fn interval(value: f64, low: f64, high: f64) -> [String; 3] {
+    let width = (high - low).abs();
+    let largest = value.abs().max(low.abs()).max(high.abs());
+    if !(width > 0.0 && width.is_finite() && (1e-4..1e6).contains(&largest)) {
+        return [digits(value, 4), digits(low, 4), digits(high, 4)];
+    }
+    let places = (1.0 - (width / 2.0).log10().floor()).clamp(0.0, 8.0) as usize;
+    [value, low, high]
+        .map(|number| if number.is_finite() { decimals(number, places) } else { self::number(number) })
+}
+
+/// A share of one in per cent: `83 %`.
+pub fn percent(share: f64) -> String {
+    if !share.is_finite() {
+        return "–".into();
+    }
+    let value = 100.0 * share;
+    let places = usize::from(value.abs() < 9.95 && value != 0.0);
+    if value.abs() < 1e6 {
+        format!("{} %", decimals(value, places))
+    } else {
+        format!("{} %", digits(value, 2))
+    }
+}
+
+/// A unit as it is printed: `N·s/m`, `m/s²`; nothing for a plain number.
+pub fn unit(symbol: &str) -> String {
+    if symbol == "1" || symbol == "-" {
+        return String::new();
+    }
+    let mut text = String::new();
+    let mut after_letter = false;
+    for c in symbol.chars() {
+        text.push(match c {
+            '.' => '·',
+            '2' if after_letter => '²',
+            '3' if after_letter => '³',
+            '4' if after_letter => '⁴',
+            other => other,
+        });
+        after_letter = c.is_alphabetic();
+    }
+    text
+}
+
+/// A number with its unit.
+pub fn quantity(value: f64, symbol: &str) -> String {
+    format!("{} {}", number(value), unit(symbol)).trim_end().to_owned()
+}
+
+/// `name / unit`, for axes.
+pub fn labelled(name: &str, symbol: &str) -> String {
+    let unit = unit(symbol);
+    if unit.is_empty() { name.to_owned() } else { format!("{name} / {unit}") }
+}
+
+/// A part of the rig.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The body's mass.
+    Body,
+    /// The body's or the wheel's guide.
+    Guide,
+    /// Spring and damper between body and wheel.
+    Strut,
+    /// The actuator.
+    Actuator,
+    /// The wheel's mass.
+    Wheel,
+    /// The tyre.
+    Tire,
+    /// The road.
+    Road,
+}
+
+/// The part that an element's name means; none for a sensor.
+pub fn part(element: &str) -> Option<Part> {
+    Some(match element {
+        "body" => Part::Body,
+        "guide" | "body_guide" | "wheel_guide" => Part::Guide,
+        "strut" => Part::Strut,
+        "actuator" => Part::Actuator,
+        "wheel" => Part::Wheel,
+        "tire" => Part::Tire,
+        "road" => Part::Road,
+        _ => return None,
+    })
+}
+
+/// An element as a place: `in the strut`, `in the measurement of body.acceleration`.
+pub fn place(element: &str) -> String {
+    match (part(element), element) {
+        (Some(Part::Tire), _) => "in the tyre".into(),
+        (Some(_), "body_guide") => "in the body’s guide".into(),
+        (Some(_), "wheel_guide") => "in the wheel’s guide".into(),
+        (Some(_), _) => format!("in the {element}"),
+        (None, _) => format!("in the measurement of {element}"),
+    }
+}
+
+/// `a, b and c`.
+pub fn list(items: &[String], last: &str) -> String {
+    match items {
+        [] => String::new(),
+        [one] => one.clone(),
+        [rest @ .., end] => format!("{} {last} {end}", rest.join(", ")),
+    }
+}
+
+/// `3 records`, `1 record`.
+pub fn count(number: usize, noun: &str) -> String {
+    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+}
+
+/// The name of a cause that is given by number and place, as `01 strut`, if the catalogue's list has it.
+pub fn cause(findings: &Findings, key: &str) -> String {
+    let (id, element) = key.trim().split_once([' ', '@', ':', '/']).unwrap_or((key.trim(), ""));
+    let element = element.trim();
+    let known = findings
+        .candidates
+        .iter()
+        .find(|candidate| candidate.id == id && (element.is_empty() || candidate.element == element));
+    match known {
+        Some(known) => format!("{} {}", known.name, place(&known.element)),
+        None => key.to_owned(),
+    }
+}
+
+/// The verdict as one sentence.
+pub fn headline(findings: &Findings) -> String {
+    let named = |effect: &Effect| format!("{} {}", effect.name, place(&effect.element));
+    let effects: Vec<String> = findings.effects.iter().map(named).collect();
+    match findings.verdict {
+        Verdict::NoEffect => "The model lacks nothing that these records could show.".into(),
+        Verdict::ParameterMismatch => {
+            let wrong: Vec<_> =
+                findings.base_parameters.iter().filter(|parameter| parameter.mismatch).collect();
+            let names: Vec<String> = wrong.iter().map(|parameter| parameter.name.clone()).collect();
+            match names.len() {
+                0 => "The model’s parameters do not fit the rig; its equations do.".into(),
+                1..=3 => format!("The model’s equations fit the rig, but not its {}.", list(&names, "and")),
+                more => format!("The model’s equations fit the rig, but {more} of its parameters do not."),
+            }
+        }
+        Verdict::Named if effects.is_empty() => "The cause is named.".into(),
+        Verdict::Named => format!("The model lacks {}.", list(&effects, "and")),
+        Verdict::Ambiguous => {
+            let others = findings.effects.iter().flat_map(|effect| &effect.ambiguous_with);
+            let mut causes = effects;
+            for other in others.map(|key| cause(findings, key)) {
+                if !causes.contains(&other) {
+                    causes.push(other);
+                }
+            }
+            match causes.len() {
+                0 | 1 => "Several causes explain the data equally well.".into(),
+                _ => format!("The model lacks {}: these data cannot tell which.", list(&causes, "or")),
+            }
+        }
+        Verdict::Unnamed => match &findings.unnamed {
+            Some(curve) => format!(
+                "The model lacks something {}, over {}, that has no name in the catalogue.",
+                place(&curve.location),
+                curve.variable
+            ),
+            None => "The model lacks something that has no name in the catalogue.".into(),
+        },
+        Verdict::SensorFault if effects.is_empty() => "A sensor is at fault, not the plant.".into(),
+        Verdict::SensorFault => format!("A sensor is at fault, not the plant: {}.", list(&effects, "and")),
+        Verdict::ModelInadequate => "The model explains too little of the data to look for a cause.".into(),
+        Verdict::BadData => "The data cannot be used as they are.".into(),
+    }
+}
+
+/// The verdict in a word or two, with its style's class.
+pub fn badge(verdict: Verdict) -> (&'static str, &'static str) {
+    match verdict {
+        Verdict::NoEffect => ("no effect", "good"),
+        Verdict::ParameterMismatch => ("parameter mismatch", "found"),
+        Verdict::Named => ("named", "found"),
+        Verdict::Ambiguous => ("ambiguous", "doubt"),
+        Verdict::Unnamed => ("unnamed", "doubt"),
+        Verdict::SensorFault => ("sensor fault", "found"),
+        Verdict::ModelInadequate => ("model inadequate", "bad"),
+        Verdict::BadData => ("bad data", "bad"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_that_mean_something() {
+        let texts = [57.34, -0.00423, 1.234e7, 0.0, f64::NAN, f64::NEG_INFINITY, 123_456.0].map(number);
+        assert_eq!(texts, ["57.3", "−0.00423", "1.23e7", "0", "–", "−∞", "123456"]);
+        assert_eq!(interval(57.34, 55.1, 59.4), ["57.3", "55.1", "59.4"]);
+        assert_eq!(interval(0.01, f64::NAN, 0.02), ["0.01000", "–", "0.02000"]);
+        assert_eq!(interval(2.0e7, 1.9e7, 2.1e7), ["2e7", "1.9e7", "2.1e7"]);
+        assert_eq!([0.834, 0.012, f64::NAN, -0.0].map(percent), ["83 %", "1.2 %", "–", "0 %"]);
+    }
+
+    #[test]
+    fn units_are_printed_with_raised_digits() {
+        assert_eq!(["m/s2", "N.s/m", "1", "m3"].map(unit), ["m/s²", "N·s/m", "", "m³"]);
+    }
+
+    #[test]
+    fn lists_are_read_aloud() {
+        let items = ["a".to_owned(), "b".to_owned(), "c".to_owned()];
+        assert_eq!(list(&items, "or"), "a, b or c");
+        assert_eq!((list(&items[..1], "or"), list(&[], "or")), ("a".into(), String::new()));
+    }
+}

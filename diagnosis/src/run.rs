@@ -1,0 +1,159 @@
+//! From the command line to the report.
+
+use std::fs;
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use clap::Parser;
+use indicatif::{ProgressBar, ProgressStyle};
+use strut_model::ParameterSet;
+
+use crate::cli::{Arguments, Command, DiagnosisArguments, SimulateArguments};
+use crate::data::Map;
+use crate::diagnosis::diagnose;
+use crate::extend::replace;
+use crate::findings::{DataProblem, Findings};
+use crate::import::{align, import};
+use crate::recorded::Recorded;
+use crate::report;
+use crate::rig::Rig;
+use crate::virtual_rig::{self, Experiment};
+
+/// Does what the command line says; failures are told on stderr.
+///
+/// The exit code is 0, 1 after a failure, and 2 if the command line was not understood.
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let done = match (&arguments.command, &arguments.diagnosis) {
+        (Some(Command::Simulate(arguments)), _) => simulate(arguments),
+        (Some(Command::Rigs), _) => {
+            println!("{}", Rig::names().join("\n"));
+            Ok(())
+        }
+        (None, Some(arguments)) => run(arguments),
+        (None, None) => Err("nothing to do: run with --help".into()),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
+    let clock = Instant::now();
+    if let Some(jobs) = arguments.jobs {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs.max(1)).build_global();
+        pool.map_err(|error| format!("cannot start {jobs} threads: {error}"))?;
+    }
+    let rig = rig(arguments)?;
+    let known = arguments.known.iter().map(|text| known(&rig, text)).collect::<Result<Vec<_>, _>>()?;
+    let map = match &arguments.map {
+        None => Map::default(),
+        Some(path) => Map::parse(&read(path)?).map_err(|error| format!("{}: {error}", path.display()))?,
+    };
+    let mut problems: Vec<DataProblem> = Vec::new();
+    let mut records = Vec::new();
+    for path in arguments.train.iter().chain(&arguments.test) {
+        let imported = import(&rig, path, &map)?;
+        problems.extend(imported.problems);
+        records.extend(imported.recorded);
+    }
+    if problems.iter().any(|problem| problem.fatal) {
+        let findings =
+            Findings::of_bad_data(&rig.name, names(&arguments.train), names(&arguments.test), problems);
+        report::write(&findings, &arguments.out).map_err(|error| error.to_string())?;
+        print!("{}", report::terminal(&findings));
+        return Err(format!("the data cannot be used; see {}", arguments.out.join("report.html").display()));
+    }
+    align(&mut records)?;
+    let test: Vec<Recorded> = records.split_off(arguments.train.len());
+    let bar = ProgressBar::new_spinner()
+        .with_style(ProgressStyle::with_template("{spinner} {elapsed}  {msg}").expect("a valid template"));
+    bar.enable_steady_tick(Duration::from_millis(100));
+    let progress = |text: &str| bar.set_message(text.to_owned());
+    let diagnosis = diagnose(&rig, &records, &test, known, &arguments.effects, &progress)?;
+    bar.set_message("writing the report");
+    let findings = diagnosis.findings(problems, clock.elapsed().as_secs_f64());
+    report::write(&findings, &arguments.out).map_err(|error| error.to_string())?;
+    bar.set_message("building the extended model");
+    diagnosis.write_extended(&arguments.out, !arguments.no_fmu)?;
+    bar.finish_and_clear();
+    print!("{}", report::terminal(&findings));
+    println!("\nreport: {}", arguments.out.join("report.html").display());
+    Ok(())
+}
+
+fn rig(arguments: &DiagnosisArguments) -> Result<Rig, String> {
+    match (&arguments.parameters, &arguments.rig) {
+        (Some(path), name) => {
+            let set =
+                ParameterSet::parse(&read(path)?).map_err(|error| format!("{}: {error}", path.display()))?;
+            let mut rig = Rig::of(&set).map_err(|error| format!("{}: {error}", path.display()))?;
+            if let Some(name) = name {
+                let named = Rig::published(name)?;
+                if named.plant.name != rig.plant.name {
+                    return Err(format!(
+                        "`{}` is a set for a {}, and the rig {name} is a {}",
+                        path.display(),
+                        rig.plant.name,
+                        named.plant.name
+                    ));
+                }
+                rig.name.clone_from(name);
+            }
+            Ok(rig)
+        }
+        (None, Some(name)) => Rig::published(name),
+        (None, None) => Err(format!("which rig? Give --rig with one of {}", Rig::names().join(", "))),
+    }
+}
+
+/// `sprung_mass=94.4±0.5`, or with `+-`.
+fn known(rig: &Rig, text: &str) -> Result<(usize, f64, f64), String> {
+    let wrong = || format!("--known {text}: write NAME=VALUE±DEVIATION, as in sprung_mass=94.4±0.5");
+    let (name, value) = text.split_once('=').ok_or_else(wrong)?;
+    let (value, deviation) = value.split_once('±').or_else(|| value.split_once("+-")).ok_or_else(wrong)?;
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| wrong());
+    let (value, deviation) = (number(value)?, number(deviation)?);
+    let index = rig
+        .base()
+        .into_iter()
+        .find(|index| rig.plant.parameters[*index].name == name.trim())
+        .ok_or_else(|| format!("--known {text}: {} has no base parameter `{}`", rig.name, name.trim()))?;
+    if deviation.is_nan() || deviation <= 0.0 {
+        return Err(format!("--known {text}: the deviation has to be positive"));
+    }
+    Ok((index, value, deviation))
+}
+
+fn simulate(arguments: &SimulateArguments) -> Result<(), String> {
+    let rig = Rig::published(&arguments.rig)?;
+    let hidden = arguments.hide.iter().map(|text| {
+        let wrong = || format!("--hide {text}: write NAME=VALUE, as in strut.coulomb.force=60");
+        let (name, value) = text.split_once('=').ok_or_else(wrong)?;
+        Ok((name.trim().to_owned(), value.trim().parse::<f64>().map_err(|_| wrong())?))
+    });
+    let hidden = hidden.collect::<Result<Vec<_>, String>>()?;
+    let experiment = Experiment { hidden, noise: arguments.noise, seed: arguments.seed };
+    fs::create_dir_all(&arguments.out)
+        .map_err(|error| format!("cannot make `{}`: {error}", arguments.out.display()))?;
+    for (number, name) in [(1, "train.csv"), (2, "test.csv")] {
+        let path = arguments.out.join(name);
+        let text = virtual_rig::record(&rig, &experiment, number)?;
+        replace(&path, &text).map_err(|error| format!("cannot write `{}`: {error}", path.display()))?;
+        println!("{}", path.display());
+    }
+    Ok(())
+}
+
+fn read(path: &Path) -> Result<String, String> {
+    fs::read_to_string(path).map_err(|error| format!("cannot read `{}`: {error}", path.display()))
+}
+
+fn names(paths: &[std::path::PathBuf]) -> Vec<String> {
+    paths.iter().map(|path| path.file_name().unwrap_or_default().to_string_lossy().into_owned()).collect()
+}

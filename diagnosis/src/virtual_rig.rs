@@ -1,0 +1,126 @@
+//! A virtual rig: records of a model with something hidden in it, to try the diagnosis with.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+use crate::plant::Drive;
+use crate::recorded::derivative;
+use crate::rig::Rig;
+use crate::screening::rms;
+
+/// Time between two samples in seconds.
+const STEP: f64 = 1e-3;
+/// Length of a record in seconds.
+const LENGTH: f64 = 20.0;
+
+/// What is recorded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Experiment {
+    /// Parameters that differ from the rig's, with their values.
+    pub hidden: Vec<(String, f64)>,
+    /// Standard deviation of the noise over the root mean square of each signal.
+    pub noise: f64,
+    /// For phases and noise.
+    pub seed: u64,
+}
+
+/// A record as CSV; `number` tells its excitation: one for each.
+///
+/// # Errors
+/// If the rig has no parameter of a name, or refuses the values.
+pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String, String> {
+    let mut parameters = rig.parameters.clone();
+    for (name, value) in &experiment.hidden {
+        let index = rig.plant.parameter(name).ok_or_else(|| {
+            let names: Vec<&str> = rig.plant.parameters.iter().map(|it| it.name.as_str()).collect();
+            format!("{} has no parameter `{name}`; it has {}", rig.name, names.join(", "))
+        })?;
+        parameters[index] = *value;
+    }
+    let dynamics = rig.plant.prepare(&rig.choices)?;
+    dynamics.check(&parameters)?;
+    let mut random =
+        Random(experiment.seed.wrapping_mul(1000).wrapping_add(number).wrapping_mul(0x9E37_79B9) | 1);
+    let count = (LENGTH / STEP) as usize;
+    let mut inputs: Vec<Vec<f64>> = rig
+        .plant
+        .inputs
+        .iter()
+        .map(|declared| match declared.unit.symbol {
+            "N" => multisine(count, 100.0, (0.5, 18.0), &mut random),
+            "V" => multisine(count, 2.0, (0.5, 18.0), &mut random),
+            _ => multisine(count, 8e-3, (0.3, 15.0), &mut random),
+        })
+        .collect();
+    for (index, declared) in rig.plant.inputs.iter().enumerate() {
+        if let Some(group) = declared.name.strip_suffix("velocity")
+            && let Some(position) = rig.plant.input(&format!("{group}position"))
+        {
+            inputs[index] = derivative(&inputs[position], STEP);
+        }
+    }
+    let start: Vec<f64> = rig.plant.states.iter().map(|state| state.start).collect();
+    let drive = Drive { step: STEP, inputs };
+    let outputs = dynamics.outputs(&parameters, &start, &drive);
+    let declared = rig.plant.inputs.iter().chain(&rig.plant.outputs);
+    let signals: Vec<(String, Vec<f64>)> = declared
+        .zip(drive.inputs.iter().chain(&outputs))
+        .filter(|(declared, _)| {
+            !declared.name.ends_with("velocity") && !declared.name.ends_with("body.position")
+        })
+        .map(|(declared, signal)| {
+            let deviation = experiment.noise * rms(signal);
+            let noisy = signal.iter().map(|value| value + deviation * random.normal()).collect();
+            (format!("{} [{}]", declared.name, declared.unit.symbol), noisy)
+        })
+        .collect();
+    let mut text = String::from("time [s]");
+    for (title, _) in &signals {
+        let _ = write!(text, ",{title}");
+    }
+    text.push('\n');
+    for sample in 0..count {
+        let _ = write!(text, "{:.4}", sample as f64 * STEP);
+        for (_, signal) in &signals {
+            let _ = write!(text, ",{:.7e}", signal[sample]);
+        }
+        text.push('\n');
+    }
+    Ok(text)
+}
+
+/// Sines at a third of an octave with random phases; large slow, small fast; about `amplitude` in all.
+fn multisine(count: usize, amplitude: f64, (low, high): (f64, f64), random: &mut Random) -> Vec<f64> {
+    let mut lines = Vec::new();
+    let mut frequency = low * (1.0 + 0.2 * random.uniform());
+    while frequency < high {
+        lines.push((frequency, amplitude * (low / frequency).sqrt(), TAU * random.uniform()));
+        frequency *= 1.26;
+    }
+    let scale = (lines.iter().map(|(_, a, _)| a * a).sum::<f64>()).sqrt() / amplitude;
+    (0..count)
+        .map(|k| {
+            let t = k as f64 * STEP;
+            // From rest: the plant starts in its equilibrium.
+            let grown = (t / 0.5).min(1.0);
+            let sum: f64 = lines.iter().map(|(f, a, phase)| a * (TAU * f * t + phase).sin()).sum();
+            grown * grown * (3.0 - 2.0 * grown) * sum / scale
+        })
+        .collect()
+}
+
+/// Marsaglia's xorshift.
+struct Random(u64);
+
+impl Random {
+    fn uniform(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn normal(&mut self) -> f64 {
+        (-2.0 * self.uniform().max(1e-300).ln()).sqrt() * (TAU * self.uniform()).cos()
+    }
+}

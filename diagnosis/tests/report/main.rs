@@ -1,0 +1,249 @@
+//! The report: whole pages of every verdict.
+
+mod samples;
+mod simulation;
+
+use std::path::Path;
+
+use proptest::prelude::*;
+use strut_diagnosis::findings::{Findings, Verdict};
+use strut_diagnosis::report;
+use unicode_width::UnicodeWidthStr;
+
+use samples::{VERDICTS, empty, sample};
+
+/// The page as XML; the void elements of HTML are closed for that.
+fn parsed(page: &str) -> Result<(), String> {
+    let open = page.split('<').filter(|tag| tag.starts_with("meta"));
+    let mut text = page.to_owned();
+    for tag in open.collect::<Vec<_>>() {
+        let tag = tag.split('>').next().unwrap_or_default();
+        text = text.replace(&format!("<{tag}>"), &format!("<{tag}/>"));
+    }
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+    roxmltree::Document::parse_with_options(&text, options)
+        .map(drop)
+        .map_err(|error| format!("{error}\n{page}"))
+}
+
+fn check(findings: &Findings) -> Result<(), String> {
+    let page = report::html(findings);
+    parsed(&page)?;
+    for odd in ["NaN", "=\"inf", "-inf"] {
+        if page.contains(odd) {
+            return Err(format!("the page contains {odd}"));
+        }
+    }
+    serde_json::from_str::<serde_json::Value>(&report::json(findings)).map_err(|error| error.to_string())?;
+    match report::terminal(findings).lines().find(|line| line.width() > 100) {
+        Some(line) => Err(format!("wider than the terminal: {line}")),
+        None => Ok(()),
+    }
+}
+
+#[test]
+fn every_verdict_gives_a_page_that_is_well_formed_small_and_needs_no_other() {
+    for verdict in VERDICTS {
+        let findings = sample(verdict);
+        check(&findings).unwrap();
+        let page = report::html(&findings);
+        assert!(page.len() < 2_000_000, "{verdict:?}: {} bytes", page.len());
+        for outside in ["<script", "<link", "<img", "src=", "url(", "@import"] {
+            assert!(!page.contains(outside), "{verdict:?}: {outside}");
+        }
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("report-{verdict:?}"));
+        report::write(&findings, &folder).unwrap();
+        assert_eq!(std::fs::read_to_string(folder.join("report.html")).unwrap(), page);
+        let summary = report::terminal(&findings);
+        std::fs::write(folder.join("terminal.txt"), &summary).unwrap();
+        assert!(summary.lines().count() <= 32, "{summary}");
+    }
+}
+
+#[test]
+fn empty_findings_give_a_page() {
+    for verdict in VERDICTS {
+        check(&empty(verdict)).unwrap();
+    }
+}
+
+#[test]
+fn names_are_text_and_not_markup() {
+    let odd = "<b>&\"'\u{1b}[2J\u{0}名前".to_owned();
+    let mut findings = sample(Verdict::Named);
+    findings.rig.clone_from(&odd);
+    findings.test = vec![odd.clone()];
+    findings.effects[0].name.clone_from(&odd);
+    findings.effects[0].element.clone_from(&odd);
+    findings.effects[0].ambiguous_with = vec![odd.clone()];
+    findings.effects[0].equation.clone_from(&odd);
+    findings.signals[0].name = odd.repeat(20);
+    findings.pictures.traces[0].signal.clone_from(&odd);
+    findings.pictures.scatters[0].variable.clone_from(&odd);
+    findings.data_problems[0].text = odd.repeat(30);
+    findings.candidates[0].outcome = odd;
+    check(&findings).unwrap();
+    let page = report::html(&findings);
+    assert!(!page.contains("<b>") && page.contains("&lt;b&gt;&amp;"));
+    assert!(!report::terminal(&findings).contains(['\u{1b}', '\u{0}']));
+}
+
+#[test]
+fn the_page_says_what_the_findings_say() {
+    let named = report::html(&sample(Verdict::Named));
+    for text in ["Coulomb friction in the strut", "t = 7.31", "56.2", "54.8 … 57.6", "F_c tanh"] {
+        assert!(named.contains(text), "{text}");
+    }
+    let ambiguous = report::html(&sample(Verdict::Ambiguous));
+    for text in ["Guide friction in the body’s guide", "Stribeck friction", "Lock the wheel"] {
+        assert!(ambiguous.contains(text), "{text}");
+    }
+    let nothing = report::html(&sample(Verdict::NoEffect));
+    for text in ["Seen for certain from", "3.10 N", "Bump stop in the strut: not excited"] {
+        assert!(nothing.contains(text), "{text}");
+    }
+}
+
+#[test]
+fn a_gate_that_is_not_passed_is_marked() {
+    let mut findings = sample(Verdict::Named);
+    assert!(!report::html(&findings).contains("not passed"));
+    findings.effects[0].evidence.held_out_t = report::REQUIRED.held_out_t;
+    assert!(report::html(&findings).contains("not passed"));
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_an_error_with_advice() {
+    let file = tempfile::NamedTempFile::new().unwrap();
+    let error = report::write(&empty(Verdict::NoEffect), &file.path().join("report")).unwrap_err();
+    assert!(error.to_string().contains("choose another with --out"), "{error}");
+}
+
+#[test]
+fn a_report_replaces_an_older_one_and_leaves_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    for verdict in [Verdict::NoEffect, Verdict::BadData] {
+        report::write(&empty(verdict), folder.path()).unwrap();
+    }
+    let mut names: Vec<_> =
+        std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["report.html", "report.json"]);
+    let json = std::fs::read_to_string(folder.path().join("report.json")).unwrap();
+    assert!(json.contains("\"bad_data\""));
+}
+
+/// Every key of an object, with those of the objects within.
+fn keys(value: &serde_json::Value, found: &mut std::collections::BTreeSet<String>) {
+    match value {
+        serde_json::Value::Object(fields) => {
+            for (key, value) in fields {
+                found.insert(key.clone());
+                keys(value, found);
+            }
+        }
+        serde_json::Value::Array(items) => items.iter().for_each(|item| keys(item, found)),
+        _ => {}
+    }
+}
+
+#[test]
+fn every_field_and_verdict_is_described_in_the_readme() {
+    let readme = include_str!("../../README.md");
+    let section = readme.split("## report.json, version 1").nth(1).expect("the section on report.json");
+    let mut found = std::collections::BTreeSet::new();
+    for verdict in VERDICTS {
+        let value: serde_json::Value = serde_json::from_str(&report::json(&sample(verdict))).unwrap();
+        assert_eq!(value["format"], 1);
+        assert!(
+            section.contains(&format!("`{}`", value["verdict"].as_str().unwrap())),
+            "{}",
+            value["verdict"]
+        );
+        keys(&value, &mut found);
+    }
+    assert!(found.len() > 60, "{found:?}");
+    for key in found {
+        assert!(section.contains(&format!("`{key}`")), "{key} is not described");
+    }
+}
+
+fn number() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        any::<f64>(),
+        Just(f64::NAN),
+        Just(f64::INFINITY),
+        Just(f64::NEG_INFINITY),
+        Just(0.0),
+        Just(f64::MAX),
+        Just(f64::MIN_POSITIVE),
+        -10.0..10.0,
+    ]
+}
+
+/// The findings with each of their numbers replaced.
+fn with_numbers(mut findings: Findings, numbers: &[f64]) -> Findings {
+    let mut cycle = numbers.iter().copied().cycle();
+    let mut next = || cycle.next().unwrap_or_default();
+    for effect in &mut findings.effects {
+        for parameter in &mut effect.parameters {
+            (parameter.value, parameter.low, parameter.high) = (next(), next(), next());
+        }
+        let evidence = &mut effect.evidence;
+        (evidence.delta_bic, evidence.block_t, evidence.held_out_t) = (next(), next(), next());
+        evidence.explained = next();
+    }
+    for parameter in &mut findings.base_parameters {
+        (parameter.before, parameter.after, parameter.low, parameter.high) = (next(), next(), next(), next());
+    }
+    for signal in &mut findings.signals {
+        (signal.phi_before, signal.phi_fitted, signal.phi_after) = (next(), next(), next());
+        (signal.rms_before, signal.rms_fitted, signal.rms_after) = (next(), next(), next());
+        (signal.noise_floor, signal.repeatability) = (next(), Some(next()));
+    }
+    for candidate in &mut findings.candidates {
+        candidate.detectable = Some(next());
+    }
+    let mut fill = |values: &mut Vec<f64>, count: usize| {
+        values.clear();
+        values.extend((0..count).map(|_| next()));
+    };
+    // Lists of unequal lengths must not panic either.
+    if let Some(curve) = &mut findings.unnamed {
+        let lists = [&mut curve.x, &mut curve.y, &mut curve.low, &mut curve.high];
+        lists.into_iter().zip([9, 9, 9, 4]).for_each(|(list, count)| fill(list, count));
+    }
+    for trace in &mut findings.pictures.traces {
+        let lists = [&mut trace.time, &mut trace.measured, &mut trace.before, &mut trace.after];
+        lists.into_iter().zip([30, 31, 30, 7]).for_each(|(list, count)| fill(list, count));
+    }
+    for spectrum in &mut findings.pictures.spectra {
+        let lists =
+            [&mut spectrum.frequency, &mut spectrum.measured, &mut spectrum.before, &mut spectrum.after];
+        lists.into_iter().zip([20, 20, 3, 0]).for_each(|(list, count)| fill(list, count));
+    }
+    for scatter in &mut findings.pictures.scatters {
+        fill(&mut scatter.x, 31);
+        let mut list = Vec::new();
+        fill(&mut list, 93);
+        scatter.rising = list[..31].iter().copied().map(Some).collect();
+        scatter.falling = list[31..62].iter().copied().map(Some).collect();
+        scatter.two_sigma = list[62..80].iter().copied().map(Some).collect();
+    }
+    findings.seconds = numbers.first().copied().unwrap_or_default();
+    findings
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(96))]
+
+    #[test]
+    fn no_number_breaks_a_report(numbers in prop::collection::vec(number(), 1..40)) {
+        static SAMPLES: std::sync::LazyLock<[Findings; 2]> =
+            std::sync::LazyLock::new(|| [sample(Verdict::Named), sample(Verdict::Unnamed)]);
+        for findings in SAMPLES.iter() {
+            let findings = with_numbers(findings.clone(), &numbers);
+            check(&findings).map_err(TestCaseError::fail)?;
+        }
+    }
+}
