@@ -3,11 +3,14 @@
 //! A record goes through [`read`] (CSV, MDF4, MATLAB), [`map::Map::apply`] (the model's names, SI units),
 //! [`check::check`] (what is wrong with it) and [`uniform::uniform`] (evenly spaced times).
 
+pub mod check;
 pub mod csv;
 pub mod error;
 mod interpolate;
 pub mod map;
+mod noise;
 pub mod table;
+pub mod uniform;
 pub mod units;
 
 use std::fs;

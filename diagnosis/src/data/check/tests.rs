@@ -1,0 +1,263 @@
+use super::*;
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+
+/// White noise with unit variance: sums of uniform numbers from a linear congruential generator (Knuth's MMIX).
+pub(crate) fn noise(seed: u64, n: usize) -> Vec<f64> {
+    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0x5DEE_CE66;
+    let mut uniform = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    (0..n).map(|_| (0..12).map(|_| uniform()).sum::<f64>() - 6.0).collect()
+}
+
+/// A signal with unit rms and frequencies up to a twentieth of the sampling rate.
+pub(crate) fn multisine(seed: u64, n: usize) -> Vec<f64> {
+    let phases = noise(seed.wrapping_add(77), 25);
+    let wave =
+        |i: usize, (k, phase): (usize, &f64)| (TAU * ((k + 1) as f64 * 0.002 * i as f64 + phase)).sin();
+    (0..n).map(|i| phases.iter().enumerate().map(|p| wave(i, p)).sum::<f64>() / 12.5_f64.sqrt()).collect()
+}
+
+const N: usize = 3000;
+
+/// Three clean noisy signals at 1 kHz.
+fn clean(seed: u64, sigma: f64) -> Record {
+    let channel = |k: u64, name: &str, scale: f64| {
+        let noise = noise(seed ^ (k << 32), N);
+        let values = multisine(seed + k, N).iter().zip(noise).map(|(s, n)| scale * (s + sigma * n)).collect();
+        Channel { name: name.into(), unit: "m".into(), values }
+    };
+    let time = (0..N).map(|i| 1e-3 * i as f64).collect();
+    Record {
+        name: "run.csv".into(),
+        time,
+        channels: vec![channel(1, "x", 1.0), channel(2, "y", 40.0), channel(3, "z", 1e-3)],
+    }
+}
+
+/// The only problem of a record: its signal, text and whether it is fatal.
+fn only(record: &Record) -> (String, String, bool) {
+    let found = check(record);
+    let [problem] = &found[..] else { panic!("{found:#?}") };
+    assert_eq!(problem.record, "run.csv");
+    (problem.signal.clone(), problem.text.clone(), problem.fatal)
+}
+
+proptest! {
+    #[test]
+    fn clean_records_have_no_problems(seed in 0_u64..1_000_000, sigma in 1e-4..0.5_f64) {
+        prop_assert_eq!(check(&clean(seed, sigma)), []);
+    }
+
+    #[test]
+    fn clean_records_on_a_lattice_have_no_problems(seed in 0_u64..1_000_000, levels in 100.0..5000.0_f64) {
+        let mut record = clean(seed, 0.01);
+        for value in &mut record.channels[0].values {
+            *value = (*value * levels / 4.0).round() / levels * 4.0;
+        }
+        prop_assert_eq!(check(&record), []);
+    }
+
+    #[test]
+    fn nothing_makes_it_panic(
+        time in prop::collection::vec(any::<f64>(), 200..260), step in any::<bool>(),
+        values in prop::collection::vec(prop_oneof![any::<f64>(), Just(0.0), Just(1.0), Just(f64::NAN)], 260)
+    ) {
+        let n = time.len();
+        let time = if step { (0..n).map(|i| i as f64).collect() } else { time };
+        let channel = Channel { name: "x".into(), unit: String::new(), values: values[..n].to_vec() };
+        let _ = check(&Record { name: "run.csv".into(), time, channels: vec![channel] });
+    }
+}
+
+#[test]
+fn switched_commands_are_no_faults() {
+    let mut record = clean(5, 0.01);
+    for (i, value) in record.channels[0].values.iter_mut().enumerate() {
+        *value = if (i / 37) % 3 == 0 { 5.0 } else { -5.0 };
+    }
+    for (i, value) in record.channels[1].values.iter_mut().enumerate() {
+        *value = [0.0, 3.0, 1.0, 6.0, 2.0, 5.0][i / 500];
+    }
+    assert_eq!(check(&record), []);
+}
+
+#[test]
+fn too_short() {
+    let mut record = clean(1, 0.01);
+    record.time.truncate(150);
+    let (signal, text, fatal) = only(&record);
+    assert_eq!((signal.as_str(), fatal), ("time", true));
+    assert!(text.starts_with("only 150 samples"));
+}
+
+#[test]
+fn broken_times_are_fatal() {
+    for (sample, value, word) in [
+        (
+            700,
+            clean(1, 0.01).time[699],
+            "1 samples have the time of the sample before, the first is sample 701 at 0.699 s",
+        ),
+        (700, 0.1, "the time goes back at 1 samples, first at sample 701 to 0.1 s"),
+        (700, f64::NAN, "1 samples have no time, the first is sample 701"),
+    ] {
+        let mut record = clean(1, 0.01);
+        record.time[sample] = value;
+        let (signal, text, fatal) = only(&record);
+        assert_eq!((signal.as_str(), fatal), ("time", true));
+        assert!(text.starts_with(word), "{text}");
+    }
+}
+
+#[test]
+fn jitter() {
+    let mut record = clean(1, 0.01);
+    for (t, n) in record.time.iter_mut().zip(noise(4, N)) {
+        *t += 2e-5 * n;
+    }
+    record.time[900] += 3e-4;
+    let (signal, text, fatal) = only(&record);
+    assert_eq!((signal.as_str(), fatal), ("time", false));
+    assert!(text.contains("after 0.9003 s"), "{text}");
+    assert!(text.starts_with("the time stamps jitter"), "{text}");
+}
+
+fn without(record: &mut Record, gap: Range<usize>) {
+    record.time.drain(gap.clone());
+    for channel in &mut record.channels {
+        channel.values.drain(gap.clone());
+    }
+}
+
+#[test]
+fn gaps() {
+    let mut record = clean(1, 0.01);
+    without(&mut record, 1501..1551);
+    without(&mut record, 501..503);
+    let (signal, text, fatal) = only(&record);
+    assert_eq!((signal.as_str(), fatal), ("time", false));
+    assert_eq!(
+        text,
+        "2 gaps in the time, after 0.5 s, 1.5 s; the longest lasts 0.051 s; 1.73 % of the samples are missing"
+    );
+    without(&mut record, 1600..2000);
+    let (_, text, fatal) = only(&record);
+    assert!(fatal && text.ends_with("record again"), "{text}");
+}
+
+#[test]
+fn missing_samples() {
+    let mut record = clean(1, 0.01);
+    record.channels[1].values[200] = f64::NAN;
+    record.channels[1].values[1000..1010].fill(f64::NAN);
+    let (signal, text, fatal) = only(&record);
+    assert_eq!((signal.as_str(), fatal), ("y", false));
+    assert_eq!(text, "11 samples are missing (0.37 %), the first at 0.2 s, at most 10 in a row at 1 s");
+    record.channels[1].values[1000..1400].fill(f64::NAN);
+    assert!(only(&record).2);
+    record.channels[1].values.fill(f64::NAN);
+    assert_eq!(only(&record), ("y".into(), "has no samples: leave it out".into(), true));
+}
+
+#[test]
+fn saturation() {
+    for (limit, word) in [(1.5, "highest"), (-1.5, "lowest")] {
+        let mut record = clean(1, 0.001);
+        for value in &mut record.channels[0].values {
+            *value = if limit > 0.0 { value.min(limit) } else { value.max(limit) };
+        }
+        let (signal, text, fatal) = only(&record);
+        assert_eq!((signal.as_str(), fatal), ("x", false));
+        assert!(text.starts_with(&format!("is flat at its {word} value {limit} m for ")), "{text}");
+    }
+    // On a lattice, as a converter has it.
+    let mut record = clean(1, 0.001);
+    for value in &mut record.channels[0].values {
+        *value = (value.clamp(-1.5, 1.5) * 1000.0).round() / 1000.0;
+    }
+    assert_eq!(check(&record).len(), 2);
+}
+
+#[test]
+fn stuck() {
+    let mut record = clean(1, 0.01);
+    let value = record.channels[2].values[1000];
+    record.channels[2].values[1000..1700].fill(value);
+    let (signal, text, fatal) = only(&record);
+    assert_eq!((signal.as_str(), fatal), ("z", false));
+    assert!(text.starts_with("is stuck at ") && text.contains("from 1 to 1.699 s"), "{text}");
+}
+
+#[test]
+fn constant() {
+    let mut record = clean(1, 0.01);
+    record.channels[2].values.fill(0.0);
+    let (signal, text, fatal) = only(&record);
+    assert_eq!((signal.as_str(), fatal), ("z", false));
+    assert!(text.starts_with("is 0 m all the time"), "{text}");
+}
+
+#[test]
+fn dropouts() {
+    let mut record = clean(1, 0.001);
+    for value in &mut record.channels[1].values {
+        *value += 200.0;
+    }
+    record.channels[1].values[700] = 0.0;
+    record.channels[1].values[1200..1204].fill(0.0);
+    record.channels[1].values[2100] = 1e4;
+    let (signal, text, fatal) = only(&record);
+    assert_eq!((signal.as_str(), fatal), ("y", false));
+    assert!(text.contains("3 times, at 0.7 s, 1.2 s, 2.1 s"), "{text}");
+}
+
+#[test]
+fn coarse_quantisation() {
+    let mut record = clean(1, 0.01);
+    for value in &mut record.channels[0].values {
+        *value = (*value * 4.0).round() / 4.0;
+    }
+    let (signal, text, fatal) = only(&record);
+    assert_eq!((signal.as_str(), fatal), ("x", false));
+    assert!(text.contains("0.25 m apart, which is a noise of 0.07217 m"), "{text}");
+}
+
+#[test]
+fn offset_at_rest() {
+    let mut record = clean(1, 0.01);
+    for channel in &mut record.channels {
+        let whole = spread(&channel.values).1;
+        for (value, n) in channel.values.iter_mut().zip(noise(9, 1200)) {
+            *value = whole * 0.01 * n;
+        }
+    }
+    assert_eq!(standstill(&record), Some(0..1200));
+    assert_eq!(check(&record), []);
+    for value in &mut record.channels[1].values {
+        *value += 7.5;
+    }
+    let (signal, text, fatal) = only(&record);
+    assert_eq!((signal.as_str(), fatal), ("y", false));
+    assert!(text.starts_with("shows 7.5") && text.contains("at rest until 1.199 s"), "{text}");
+    assert_eq!(standstill(&clean(1, 0.01)), None);
+}
+
+#[test]
+fn numbers_for_people() {
+    for (value, text) in [
+        (0.0, "0"),
+        (1.5, "1.5"),
+        (-0.0012345, "-0.001234"),
+        (123_456.0, "123456"),
+        (1e-9, "1.000e-9"),
+        (0.1, "0.1"),
+        (2.0, "2"),
+        (100.0, "100"),
+        (1e9, "1.000e9"),
+    ] {
+        assert_eq!(number(value), text);
+    }
+}

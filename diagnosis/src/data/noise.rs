@@ -1,0 +1,125 @@
+//! Measurement noise and the steps of the converter.
+
+/// Differences of this order leave next to nothing of a signal that is sampled ten times in its period.
+const ORDER: usize = 5;
+/// Rms of these differences over that of white noise: the root of the binomial coefficient 10 over 5.
+const GAIN: f64 = 15.874_507_866_387_544;
+/// Median of the magnitude of a normal variable with unit variance.
+const MEDIAN: f64 = 0.674_489_750_196_081_7;
+/// A signal with fewer values than this is a switched command rather than a coarse measurement.
+const SWITCHED: usize = 4;
+
+/// The lattice that the values of a converter or of a printed number lie on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lattice {
+    /// Distance of neighbouring values, q.
+    pub step: f64,
+    /// How many different values are used.
+    pub levels: usize,
+}
+
+impl Lattice {
+    /// Rms of the rounding error, q/√12.
+    #[must_use]
+    pub fn noise(self) -> f64 {
+        self.step / 12.0_f64.sqrt()
+    }
+}
+
+/// The lattice of a signal: the largest q of which all differences of values are multiples. None if the values are
+/// finer than 2⁻¹⁸ of their range, or constant.
+#[must_use]
+pub fn lattice(values: &[f64]) -> Option<Lattice> {
+    let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let (&first, &last) = (sorted.first()?, sorted.last()?);
+    let range = last - first;
+    let (finest, rounding) = (range * 2.0_f64.powi(-18), range * 2.0_f64.powi(-25));
+    sorted.dedup_by(|a, b| (*a - *b).abs() <= rounding);
+    let mut q = range;
+    // Euclid's algorithm; a remainder that is nearly nothing, or nearly the divisor, is rounding.
+    for value in &sorted {
+        let (mut a, mut b) = (value - first, q);
+        while b > rounding {
+            let rest = a % b;
+            (a, b) = (b, if b - rest <= rounding { 0.0 } else { rest });
+        }
+        q = a;
+        if q <= finest {
+            return None;
+        }
+    }
+    (sorted.len() > 1).then_some(Lattice { step: q, levels: sorted.len() })
+}
+
+/// Standard deviation of the white noise on a signal, from its fifth differences: their median is moved neither by
+/// the slow signal nor by rare impacts. Never less than the rounding error. Signals with missing samples are judged
+/// where six in a row are there; 0 if there is no such place.
+#[must_use]
+pub fn noise_floor(values: &[f64]) -> f64 {
+    const BINOMIAL: [f64; ORDER + 1] = [-1.0, 5.0, -10.0, 10.0, -5.0, 1.0];
+    let difference = |window: &[f64]| window.iter().zip(BINOMIAL).map(|(v, b)| v * b).sum::<f64>().abs();
+    let mut differences: Vec<f64> =
+        values.windows(ORDER + 1).map(difference).filter(|difference| difference.is_finite()).collect();
+    let white = median(&mut differences).map_or(0.0, |median| median / (MEDIAN * GAIN));
+    let rounding = lattice(values).filter(|lattice| lattice.levels >= SWITCHED).map_or(0.0, Lattice::noise);
+    white.max(rounding)
+}
+
+/// The middle of the values, which are reordered; none if there are none.
+pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
+    let middle = values.len() / 2;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::check::tests::{multisine, noise};
+
+    #[test]
+    fn known_noise_is_found() {
+        for sigma in [1e-3, 0.01, 0.3] {
+            for seed in 0..10 {
+                let white = noise(seed, 4000);
+                let values: Vec<f64> =
+                    multisine(seed, 4000).iter().zip(white).map(|(s, n)| s + sigma * n).collect();
+                let found = noise_floor(&values);
+                assert!((found / sigma - 1.0).abs() < 0.1, "{sigma}: {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn impacts_and_missing_samples_do_not_count() {
+        let mut values: Vec<f64> = noise(3, 4000).iter().map(|n| 0.01 * n).collect();
+        for i in (0..4000).step_by(200) {
+            values[i] = if i % 400 == 0 { f64::NAN } else { 50.0 };
+        }
+        assert!((noise_floor(&values) / 0.01 - 1.0).abs() < 0.15);
+        assert_eq!(noise_floor(&[f64::NAN; 20]), 0.0);
+        assert_eq!(noise_floor(&[1.0, 2.0]), 0.0);
+    }
+
+    #[test]
+    fn rounding_is_the_least_noise() {
+        let slow: Vec<f64> =
+            (0..4000).map(|i| (f64::from(i) * 1e-3).sin()).map(|v| (v * 50.0).round() / 50.0).collect();
+        assert!((noise_floor(&slow) - 0.02 / 12.0_f64.sqrt()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn lattices() {
+        let values: Vec<f64> = [7, -3, 12, 0, 5, 40].iter().map(|&k| 0.1 + 0.0123 * f64::from(k)).collect();
+        let found = lattice(&values).unwrap();
+        assert!((found.step - 0.0123).abs() < 1e-9, "{found:?}");
+        assert_eq!(found.levels, 6);
+        // A common divisor that is no difference of neighbours.
+        assert!((lattice(&[0.0, 2.0, 5.0, 9.0]).unwrap().step - 1.0).abs() < 1e-9);
+        let fine: Vec<f64> = multisine(1, 500).iter().map(|v| (v * 1e4).round() / 1e4).collect();
+        assert!((lattice(&fine).unwrap().step - 1e-4).abs() < 1e-8);
+        assert_eq!(lattice(&multisine(1, 500)), None);
+        assert_eq!(lattice(&[3.0; 9]), None);
+        assert_eq!(lattice(&[]), None);
+    }
+}
