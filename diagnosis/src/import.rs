@@ -3,7 +3,9 @@
 use std::ops::Range;
 use std::path::Path;
 
-use crate::data::{self, Map, Wanted};
+use crate::data::check::{check, noise_floor};
+use crate::data::map::{Map, Wanted};
+use crate::data::{self, uniform::uniform};
 use crate::findings::DataProblem;
 use crate::recorded::{Measured, Recorded, Source};
 use crate::rig::Rig;
@@ -31,7 +33,7 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
     let mapped = map.apply(record, &wanted(rig)).map_err(|error| error.to_string())?;
     let name = mapped.record.name.clone();
     missing(rig, &mapped.record, &name, &mapped.unused)?;
-    let mut problems = data::check(&mapped.record);
+    let mut problems = check(&mapped.record);
     if !mapped.unused.is_empty() {
         problems.push(DataProblem {
             record: name.clone(),
@@ -43,7 +45,7 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
     if problems.iter().any(|problem| problem.fatal) {
         return Ok(Imported { recorded: None, problems });
     }
-    let (uniform, resampled) = data::uniform(&mapped.record).map_err(|error| error.to_string())?;
+    let (uniform, resampled) = uniform(&mapped.record).map_err(|error| error.to_string())?;
     problems.extend(resampled);
     let values = |name: &str| {
         let channel = uniform.channels.iter().find(|channel| channel.name == name);
@@ -60,7 +62,7 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
     }
     let measured = rig.plant.outputs.iter().enumerate().filter_map(|(output, declared)| {
         let values = values(&declared.name)?;
-        let noise_floor = data::noise_floor(&values, uniform.step);
+        let noise_floor = noise_floor(&values);
         Some(Measured { output, values, noise_floor })
     });
     let measured: Vec<Measured> = measured.collect();

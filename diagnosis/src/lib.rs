@@ -8,6 +8,7 @@
 pub mod assembly;
 pub mod catalogue;
 pub mod cli;
+pub mod conditioning;
 pub mod correction;
 pub mod data;
 pub mod diagnosis;

@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use strut_model::ParameterSet;
 
 use crate::cli::{Arguments, Command, DiagnosisArguments, SimulateArguments};
-use crate::data::Map;
+use crate::data::map::Map;
 use crate::diagnosis::diagnose;
 use crate::extend::replace;
 use crate::findings::{DataProblem, Findings};
@@ -75,7 +75,10 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
         .with_style(ProgressStyle::with_template("{spinner} {elapsed}  {msg}").expect("a valid template"));
     bar.enable_steady_tick(Duration::from_millis(100));
     let progress = |text: &str| bar.set_message(text.to_owned());
-    let diagnosis = diagnose(&rig, &records, &test, known, &arguments.effects, &progress)?;
+    bar.set_message("taking the noise off the inputs");
+    let conditioned = |records: &[Recorded]| records.iter().map(Recorded::conditioned).collect::<Vec<_>>();
+    let (train, judging) = (conditioned(&records), conditioned(&test));
+    let diagnosis = diagnose(&rig, &train, &judging, known, &arguments.effects, &progress)?;
     bar.set_message("writing the report");
     let findings = diagnosis.findings(problems, clock.elapsed().as_secs_f64());
     report::write(&findings, &arguments.out).map_err(|error| error.to_string())?;

@@ -7,7 +7,7 @@ use strut_model::{Bundle, Declarations, Model, Now, Real};
 use super::{DIRECTIONS, Drive, Seed, Signals, outputs_of};
 
 /// Longest step of the integration in seconds, whatever the record's sampling.
-const LONGEST_STEP: f64 = 1e-3;
+const LONGEST_STEP: f64 = 4e-3;
 /// Largest product of the step and the fastest rate of change; the method is stable up to 2.78.
 const STABLE: f64 = 1.2;
 /// Steps between two samples beyond which a model is too stiff for this method.
