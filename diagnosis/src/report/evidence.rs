@@ -72,7 +72,7 @@ pub fn sentences(evidence: &Evidence) -> Vec<String> {
         t if t > REQUIRED.held_out_t => "beyond chance",
         _ => "which chance can do as well",
     };
-    let t = |t: f64| format!("t = {}, {}", number(t), strength(t));
+    let t = |t: f64| format!("t\u{a0}=\u{a0}{}, {}", number(t), strength(t));
     vec![
         format!(
             "With it, the model fits data that it was not fitted to better, block by block: {}.",

@@ -3,7 +3,7 @@
 use textwrap::Options;
 use unicode_width::UnicodeWidthStr;
 
-use super::words::{badge, cause, digits, headline, interval, number, percent, place, unit};
+use super::words::{badge, capitalised, cause, digits, headline, interval, number, percent, place, unit};
 use crate::findings::{Effect, Findings, Verdict};
 
 /// Columns that a line has at most.
@@ -75,7 +75,7 @@ impl Lines {
 
     fn effect(&mut self, findings: &Findings, effect: &Effect) {
         let evidence = effect.evidence;
-        self.wrapped("", &format!("{} {} {}", effect.id, effect.name, place(&effect.element)));
+        self.wrapped("", &format!("{} {} {}", effect.id, capitalised(&effect.name), place(&effect.element)));
         for parameter in &effect.parameters {
             let [value, low, high] = interval(parameter.value, parameter.low, parameter.high);
             let unit = unit(&parameter.unit);
@@ -167,7 +167,10 @@ impl Lines {
         for candidate in seen.iter().take(SHOWN) {
             let size = number(candidate.detectable.unwrap_or(f64::NAN));
             let place = place(&candidate.element);
-            self.wrapped("  ", &format!("{} {place} from {size} {}", candidate.name, unit(&candidate.unit)));
+            self.wrapped(
+                "  ",
+                &format!("{} {place} from {size} {}", capitalised(&candidate.name), unit(&candidate.unit)),
+            );
         }
         self.more(seen.len());
     }

@@ -57,7 +57,14 @@ pub fn percent(share: f64) -> String {
         return "–".into();
     }
     let value = 100.0 * share;
-    let places = usize::from(value.abs() < 9.95 && value != 0.0);
+    let sign = if value < 0.0 { "−" } else { "" };
+    match value.abs() {
+        size if size > 0.0 && size < 0.05 => return format!("{sign}<\u{2009}0.1 %"),
+        size if size > 99.95 && size < 100.0 => return format!("{sign}>\u{2009}99.9 %"),
+        _ => {}
+    }
+    let fine = value.abs() < 9.95 || (99.0..100.0).contains(&value.abs());
+    let places = usize::from(fine && value != 0.0);
     if value.abs() < 1e6 {
         format!("{} %", decimals(value, places))
     } else {
@@ -147,6 +154,12 @@ pub fn list(items: &[String], last: &str) -> String {
         [one] => one.clone(),
         [rest @ .., end] => format!("{} {last} {end}", rest.join(", ")),
     }
+}
+
+/// The text with a capital at its start.
+pub fn capitalised(text: &str) -> String {
+    let mut rest = text.chars();
+    rest.next().map_or(String::new(), |first| first.to_uppercase().chain(rest).collect())
 }
 
 /// `3 records`, `1 record`.
@@ -239,7 +252,10 @@ mod tests {
         assert_eq!(interval(57.34, 55.1, 59.4), ["57.3", "55.1", "59.4"]);
         assert_eq!(interval(0.01, f64::NAN, 0.02), ["0.01000", "–", "0.02000"]);
         assert_eq!(interval(2.0e7, 1.9e7, 2.1e7), ["2e7", "1.9e7", "2.1e7"]);
-        assert_eq!([0.834, 0.012, f64::NAN, -0.0].map(percent), ["83 %", "1.2 %", "–", "0 %"]);
+        assert_eq!(
+            [0.834, 0.012, f64::NAN, -0.0, 0.9999, 1.0].map(percent),
+            ["83 %", "1.2 %", "–", "0 %", ">\u{2009}99.9 %", "100 %"]
+        );
     }
 
     #[test]

@@ -78,6 +78,11 @@ fn files(names: &[String]) -> Markup {
     }
 }
 
+/// Whether anything was added to the starting model.
+fn extended(findings: &Findings) -> bool {
+    !findings.effects.is_empty() || findings.unnamed.is_some()
+}
+
 /// What is known of a cause without a name.
 fn unnamed(curve: Option<&Curve>) -> Markup {
     let Some(curve) = curve else {

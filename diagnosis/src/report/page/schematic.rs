@@ -65,7 +65,7 @@ pub fn figure(findings: &Findings) -> Markup {
     let height = if drawing.tire { 372 } else { 270 };
     html! {
         figure.schematic {
-            svg xmlns="http://www.w3.org/2000/svg" viewBox=(format!("0 0 400 {height}")) role="img" class="plot" {
+            svg xmlns="http://www.w3.org/2000/svg" viewBox=(format!("0 0 424 {height}")) role="img" class="plot" {
                 title { (alt) }
                 @if drawing.guide {
                     g class=(class(Part::Guide)) {
@@ -82,19 +82,19 @@ pub fn figure(findings: &Findings) -> Markup {
                 (mass(class(Part::Body), hot(Part::Body), 40.0, drawing.upper))
                 @if drawing.strut {
                     g class=(class(Part::Strut)) {
-                        (halo(hot(Part::Strut), 60.0, 94.0, 84.0, 106.0))
+                        (halo(hot(Part::Strut), 36.0, 94.0, 100.0, 106.0))
                         (spring(84.0, 90.0, 204.0))
                         (damper(118.0, 90.0, 204.0))
-                        text x="101" y="109" text-anchor="middle" { "strut" }
+                        text x="70" y="151" text-anchor="end" { "strut" }
                     }
                 }
                 @if drawing.actuator {
                     g class=(class(Part::Actuator)) {
-                        (halo(hot(Part::Actuator), 150.0, 94.0, 66.0, 106.0))
+                        (halo(hot(Part::Actuator), 152.0, 94.0, 104.0, 106.0))
                         path d="M182 90V128M182 166V204" {}
                         rect class="solid" x="164" y="128" width="36" height="38" rx="3" {}
                         path d="M182 135V159M178 141L182 135L186 141M178 153L182 159L186 153" {}
-                        text x="183" y="109" text-anchor="middle" class="behind" { "actuator" }
+                        text x="206" y="136" { "actuator" }
                     }
                 }
                 (mass(class(Part::Wheel), hot(Part::Wheel), 204.0, drawing.lower))
@@ -103,7 +103,7 @@ pub fn figure(findings: &Findings) -> Markup {
                         (halo(hot(Part::Tire), 88.0, 257.0, 100.0, 68.0))
                         (spring(110.0, 254.0, 326.0))
                         (damper(146.0, 254.0, 326.0))
-                        text x="160" y="294" { "tyre" }
+                        text x="162" y="294" { "tyre" }
                     }
                     g class=(class(Part::Road)) {
                         (halo(hot(Part::Road), 28.0, 320.0, 206.0, 46.0))
@@ -175,7 +175,7 @@ fn station(name: &str) -> (f64, f64) {
     } else if has(&["suspension", "strut", "deflection", "travel"]) {
         (142.0, 184.0)
     } else if has(&["force", "voltage", "current", "actuator", "motor", "pressure"]) {
-        (200.0, 147.0)
+        (200.0, 156.0)
     } else {
         (208.0, 65.0)
     }
@@ -202,8 +202,8 @@ fn sensors(findings: &Findings, marked: &[&str]) -> Markup {
             @let (x, y) = station(name);
             g class=(if marked.contains(name) { "sensor hot" } else { "sensor" }) {
                 circle cx=(x) cy=(y) r="4" {}
-                path d=(format!("M{} {y}L238 {}H244", x + 4.0, px(level))) {}
-                text x="248" y=(px(level + 4.0)) { (shortened(name)) }
+                path d=(format!("M{} {y}L262 {}H268", x + 4.0, px(level))) {}
+                text x="272" y=(px(level + 4.0)) { (shortened(name)) }
             }
         }
     }

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::findings::{BaseParameter, Candidate, DataProblem, Findings, Verdict};
-use crate::report::words::{count, digits, interval, number, percent, place, quantity, unit};
+use crate::report::words::{capitalised, count, digits, interval, number, percent, place, quantity, unit};
 
 /// Rows that a table shows before the rest is folded away.
 const OPEN_ROWS: usize = 12;
@@ -109,7 +109,7 @@ pub fn detectable(findings: &Findings) -> Markup {
                 thead { tr { th { "Effect" } th { "Where" } th.number { "Seen for certain from" } } }
                 tbody { @for candidate in candidates {
                     tr {
-                        td { (candidate.name) }
+                        td { (capitalised(&candidate.name)) }
                         td { (place(&candidate.element)) }
                         td.number { strong { (size(candidate)) } }
                     }
@@ -131,7 +131,7 @@ pub fn detectable(findings: &Findings) -> Markup {
             section {
                 h2 { "What these records cannot judge" }
                 ul.compact { @for candidate in blind {
-                    li { (candidate.name) " " (place(&candidate.element)) ": " (candidate.outcome) }
+                    li { (capitalised(&candidate.name)) " " (place(&candidate.element)) ": " (candidate.outcome) }
                 } }
             }
         }
@@ -165,7 +165,7 @@ pub fn candidates(findings: &Findings) -> Markup {
                     tbody { @for candidate in all {
                         tr class=(if candidate.outcome == "accepted" { "accepted" } else { "" }) {
                             td { (candidate.id) }
-                            td { (candidate.name) }
+                            td { (capitalised(&candidate.name)) }
                             td { (place(&candidate.element).trim_start_matches("in the ")) }
                             td { (candidate.outcome) @if !candidate.fitted { span.small { " (screened)" } } }
                             @if let Some(evidence) = candidate.evidence {
