@@ -3,7 +3,9 @@
 use textwrap::Options;
 use unicode_width::UnicodeWidthStr;
 
-use super::words::{badge, capitalised, cause, digits, headline, interval, number, percent, place, unit};
+use super::words::{
+    badge, capitalised, cause, count, digits, headline, interval, number, percent, place, unit,
+};
 use crate::findings::{Effect, Findings, Verdict};
 
 /// Columns that a line has at most.
@@ -47,7 +49,15 @@ pub fn terminal(findings: &Findings) -> String {
         lines.more(findings.data_problems.len());
     }
     lines.blank();
-    lines.wrapped("", &format!("{} s", digits(findings.seconds, 2)));
+    lines.wrapped(
+        "",
+        &format!(
+            "Diagnosed in {} s from {} and {}.",
+            digits(findings.seconds, 2),
+            count(findings.train.len(), "training record"),
+            count(findings.test.len(), "held-out record")
+        ),
+    );
     lines.0.join("\n") + "\n"
 }
 

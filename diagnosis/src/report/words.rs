@@ -167,10 +167,21 @@ pub fn count(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }
 
+/// Number and element of a cause that is given as `01 strut`.
+fn split(key: &str) -> (&str, &str) {
+    let key = key.trim();
+    let (id, element) = key.split_once([' ', '@', ':', '/']).unwrap_or((key, ""));
+    (id, element.trim())
+}
+
+/// The element of a cause that is given as `01 strut`.
+pub fn element(key: &str) -> &str {
+    split(key).1
+}
+
 /// The name of a cause that is given by number and place, as `01 strut`, if the catalogue's list has it.
 pub fn cause(findings: &Findings, key: &str) -> String {
-    let (id, element) = key.trim().split_once([' ', '@', ':', '/']).unwrap_or((key.trim(), ""));
-    let element = element.trim();
+    let (id, element) = split(key);
     let known = findings
         .candidates
         .iter()

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use strut_diagnosis::findings::{
     BaseParameter, Candidate, Curve, DataProblem, Effect, EffectParameter, Evidence, FORMAT, Findings,
-    Pictures, Verdict,
+    Pictures, Signal, Verdict,
 };
 
 use crate::simulation::{self, Comparison, binned, comparisons};

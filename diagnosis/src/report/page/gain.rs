@@ -24,8 +24,12 @@ pub fn facts(findings: &Findings) -> Markup {
                     dd { (digits(signal.phi_before, 2)) span.arrow { " → " } (digits(signal.phi_after, 2)) }
                 }
                 div {
-                    dt { "Its error’s power, held-out" }
+                    dt { "Its error’s power" }
                     dd { (fallen(fall(signal))) }
+                }
+                div {
+                    dt { "Its rms error" }
+                    dd { (number(signal.rms_after / signal.noise_floor)) span.arrow { " × noise" } }
                 }
                 @if let Some(effect) = findings.effects.first() {
                     div { dt { "Held-out evidence" } dd { "t = " (number(effect.evidence.held_out_t)) } }
@@ -54,7 +58,7 @@ pub fn section(findings: &Findings) -> Markup {
     let repeated = findings.signals.iter().any(|signal| signal.repeatability.is_some());
     html! {
         section {
-            h2 { "What it gained" }
+            h2 { @if extended { "What it gained" } @else { "How well the model fits" } }
             p.note {
                 "On held-out data. Φ = 1 − rms(error)/rms(measured): 1 is perfect. “Start” is the model as it came, "
                 "“fitted” the same equations with fitted parameters"
