@@ -4,7 +4,7 @@ use textwrap::Options;
 use unicode_width::UnicodeWidthStr;
 
 use super::words::{
-    badge, capitalised, cause, count, digits, headline, interval, number, percent, place, unit,
+    badge, capitalised, cause, count, digits, fit, headline, interval, number, percent, place, unit,
 };
 use crate::findings::{Effect, Findings, Verdict};
 
@@ -139,7 +139,7 @@ impl Lines {
             let unit = unit(&signal.unit);
             let name =
                 if unit.is_empty() { signal.name.clone() } else { format!("{} [{unit}]", signal.name) };
-            let phi = |value: f64| digits(value, 3);
+            let phi = |value: f64| fit(value, 3);
             [
                 shortened(&name, 32),
                 phi(signal.phi_before),

@@ -51,6 +51,11 @@ pub fn interval(value: f64, low: f64, high: f64) -> [String; 3] {
         .map(|number| if number.is_finite() { decimals(number, places) } else { self::number(number) })
 }
 
+/// A fit Φ to so many decimals: `0.08`, `−0.40`.
+pub fn fit(phi: f64, places: usize) -> String {
+    if phi.is_finite() && phi.abs() < 1e3 { decimals(phi, places) } else { number(phi) }
+}
+
 /// A share of one in per cent: `83 %`.
 pub fn percent(share: f64) -> String {
     if !share.is_finite() {
@@ -267,6 +272,11 @@ mod tests {
             [0.834, 0.012, f64::NAN, -0.0, 0.9999, 1.0].map(percent),
             ["83 %", "1.2 %", "–", "0 %", ">\u{2009}99.9 %", "100 %"]
         );
+    }
+
+    #[test]
+    fn fits_have_decimals() {
+        assert_eq!([0.08, -0.4, f64::NAN, -1e7].map(|phi| fit(phi, 2)), ["0.08", "−0.40", "–", "−1e7"]);
     }
 
     #[test]

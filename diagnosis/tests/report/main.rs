@@ -105,6 +105,32 @@ fn the_page_says_what_the_findings_say() {
 }
 
 #[test]
+fn the_schematic_shows_the_rig_at_hand() {
+    let of = |elements: &[&str]| {
+        let mut findings = sample(Verdict::Named);
+        findings.candidates.retain(|candidate| elements.contains(&candidate.element.as_str()));
+        findings.effects.retain(|effect| elements.contains(&effect.element.as_str()));
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("report-{}", elements[0]));
+        report::write(&findings, &folder).unwrap();
+        report::html(&findings)
+    };
+    for (elements, shown) in [
+        (&["tire", "strut"][..], &["body", "wheel", "tyre", "strut"][..]),
+        (&["strut"], &["crosshead", "shaker", "strut"]),
+        (&["actuator"], &["carriage", "frame", "actuator"]),
+    ] {
+        let page = of(elements);
+        for label in
+            ["body", "wheel", "tyre", "strut", "actuator", "crosshead", "shaker", "carriage", "frame"]
+        {
+            let drawn = page.contains(&format!(">{label}</text>"));
+            let expected = shown.contains(&label) || (label == "actuator" && elements[0] == "tire");
+            assert_eq!(drawn, expected, "{label} for {elements:?}");
+        }
+    }
+}
+
+#[test]
 fn a_gate_that_is_not_passed_is_marked() {
     let mut findings = sample(Verdict::Named);
     assert!(!report::html(&findings).contains("not passed"));

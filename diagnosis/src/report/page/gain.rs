@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::extended;
 use crate::findings::{Findings, Signal};
 use crate::report::plot::px;
-use crate::report::words::{digits, number, percent, unit};
+use crate::report::words::{fit, number, percent, unit};
 
 /// The models in the order of their making: style class and name.
 const MODELS: [(&str, &str); 3] = [("start", "start"), ("before", "fitted"), ("after", "extended")];
@@ -21,7 +21,7 @@ pub fn facts(findings: &Findings) -> Markup {
             dl.facts {
                 div {
                     dt { "Fit Φ of " code { (signal.name) } }
-                    dd { (digits(signal.phi_before, 2)) span.arrow { " → " } (digits(signal.phi_after, 2)) }
+                    dd { (fit(signal.phi_before, 2)) span.arrow { " → " } (fit(signal.phi_after, 2)) }
                 }
                 div {
                     dt { "Its error’s power" }
@@ -92,14 +92,14 @@ pub fn section(findings: &Findings) -> Markup {
 }
 
 fn row(signal: &Signal, models: usize, repeated: bool) -> Markup {
-    let phi = [signal.phi_before, signal.phi_fitted, signal.phi_after];
-    let rms = [signal.rms_before, signal.rms_fitted, signal.rms_after];
+    let phi = [signal.phi_before, signal.phi_fitted, signal.phi_after].map(|phi| fit(phi, 3));
+    let rms = [signal.rms_before, signal.rms_fitted, signal.rms_after].map(number);
     html! {
         tr {
             td { code { (signal.name) } }
             @for values in [phi, rms] {
                 @for (index, value) in values[..models].iter().enumerate() {
-                    td.number { @if index + 1 == models { strong { (number(*value)) } } @else { (number(*value)) } }
+                    td.number { @if index + 1 == models { strong { (value) } } @else { (value) } }
                 }
             }
             td.bars { (bars(signal, models)) }

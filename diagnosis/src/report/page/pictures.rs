@@ -106,14 +106,18 @@ fn unit_or_none(symbol: &str) -> String {
 
 fn spectrum(spectrum: &Spectrum, extended: bool) -> Markup {
     // The mean of a signal is not a vibration: frequency zero stays out of a logarithmic axis.
-    let x = Axis::logarithmic("frequency / Hz", spectrum.frequency.iter().copied());
+    let x = Axis::logarithmic("frequency / Hz", spectrum.frequency.iter().copied(), 0.0);
     let curves = [("measured", &spectrum.measured), ("before", &spectrum.before), ("after", &spectrum.after)];
     let curves = if extended { &curves[..] } else { &curves[..2] };
     let all = curves.iter().flat_map(|(_, values)| values.iter().copied());
     let unit = unit(&spectrum.unit);
-    let label = if unit.is_empty() { "1/Hz".into() } else { format!("({unit})²/Hz") };
+    let label = match unit.as_str() {
+        "" => "1/Hz".to_owned(),
+        plain if plain.chars().all(char::is_alphabetic) => format!("{plain}²/Hz"),
+        composed => format!("({composed})²/Hz"),
+    };
     let title = format!("Power spectral density of {}", spectrum.signal);
-    let mut plot = Plot::new(title, HALF, x, Axis::logarithmic(&label, all));
+    let mut plot = Plot::new(title, HALF, x, Axis::logarithmic(&label, all, 0.05));
     for (class, values) in curves {
         plot = plot.curve(class, &spectrum.frequency, values);
     }
@@ -206,7 +210,7 @@ pub fn unnamed(curve: &Curve) -> Markup {
     let all = curve.y.iter().chain(&curve.low).chain(&curve.high).copied();
     let x = Axis::linear(&labelled(&curve.variable, &curve.variable_unit), curve.x.iter().copied(), 8);
     let y = Axis::linear(unit_or_none(&curve.unit).as_str(), all.chain([0.0]), 5);
-    let plot = Plot::new(format!("What is missing over {}", curve.variable), (760.0, 320.0), x, y).zero();
+    let plot = Plot::new(format!("What is missing over {}", curve.variable), (1000.0, 330.0), x, y).zero();
     plot.band("after", &curve.x, &curve.low, &curve.high).curve("after", &curve.x, &curve.y).svg()
 }
 
