@@ -51,6 +51,7 @@ fn every_verdict_gives_a_page_that_is_well_formed_small_and_needs_no_other() {
         for outside in ["<script", "<link", "<img", "src=", "url(", "@import"] {
             assert!(!page.contains(outside), "{verdict:?}: {outside}");
         }
+        // The pages stay there to be looked at.
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("report-{verdict:?}"));
         report::write(&findings, &folder).unwrap();
         assert_eq!(std::fs::read_to_string(folder.join("report.html")).unwrap(), page);
@@ -187,6 +188,15 @@ fn every_field_and_verdict_is_described_in_the_readme() {
             value["verdict"]
         );
         keys(&value, &mut found);
+    }
+    let required = report::REQUIRED;
+    for (gate, limit) in [
+        ("delta_bic", required.delta_bic),
+        ("block_t", required.block_t),
+        ("held_out_t", required.held_out_t),
+        ("explained", required.explained),
+    ] {
+        assert!(section.contains(&format!("| `{gate}` | 1 | {limit} |")), "the limit of {gate}");
     }
     assert!(found.len() > 60, "{found:?}");
     for key in found {

@@ -79,7 +79,7 @@ fn added(effect: &Effect) -> Markup {
                 h4 { "What was added to the model" }
                 @if !effect.equation.is_empty() { pre { (effect.equation) } }
                 @if !effect.parameters.is_empty() {
-                    table.tight {
+                    div.scroll { table.tight {
                         thead { tr { th { "Parameter" } th.number { "Value" } th.number { "95 % interval" } th { "Unit" } } }
                         tbody {
                             @for parameter in &effect.parameters {
@@ -92,7 +92,7 @@ fn added(effect: &Effect) -> Markup {
                                 }
                             }
                         }
-                    }
+                    } }
                 }
             }
         }

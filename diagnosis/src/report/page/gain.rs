@@ -20,7 +20,7 @@ pub fn facts(findings: &Findings) -> Markup {
         @if let Some(signal) = best {
             dl.facts {
                 div {
-                    dt { "Fit Φ of " code { (signal.name) } }
+                    dt { "Φ of " code { (signal.name) } }
                     dd { (fit(signal.phi_before, 2)) span.arrow { " → " } (fit(signal.phi_after, 2)) }
                 }
                 div {

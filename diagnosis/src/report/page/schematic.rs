@@ -117,7 +117,7 @@ pub fn figure(findings: &Findings) -> Markup {
                 }
                 @if drawing.actuator {
                     g class=(mark(Part::Actuator).class()) {
-                        (halo(mark(Part::Actuator), 152.0, 94.0, 104.0, 106.0))
+                        (halo(mark(Part::Actuator), 152.0, 94.0, 110.0, 106.0))
                         path d="M182 90V128M182 166V204" {}
                         rect class="solid" x="164" y="128" width="36" height="38" rx="3" {}
                         path d="M182 135V159M178 141L182 135L186 141M178 153L182 159L186 153" {}

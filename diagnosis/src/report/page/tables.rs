@@ -138,6 +138,11 @@ pub fn detectable(findings: &Findings) -> Markup {
     }
 }
 
+/// A place without its preposition, for a narrow column.
+fn site(element: &str) -> String {
+    place(element).trim_start_matches("in the ").trim_start_matches("measurement of ").to_owned()
+}
+
 fn size(candidate: &Candidate) -> String {
     candidate.detectable.map_or("–".into(), |size| quantity(size, &candidate.unit))
 }
@@ -166,7 +171,7 @@ pub fn candidates(findings: &Findings) -> Markup {
                         tr class=(if candidate.outcome == "accepted" { "accepted" } else { "" }) {
                             td { (candidate.id) }
                             td { (capitalised(&candidate.name)) }
-                            td { (place(&candidate.element).trim_start_matches("in the ")) }
+                            td { (site(&candidate.element)) }
                             td { (candidate.outcome) @if !candidate.fitted { span.small { " (screened)" } } }
                             @if let Some(evidence) = candidate.evidence {
                                 td.number { (number(evidence.held_out_t)) }
