@@ -187,12 +187,10 @@ pub fn element(key: &str) -> &str {
 /// The name of a cause that is given by number and place, as `01 strut`, if the catalogue's list has it.
 pub fn cause(findings: &Findings, key: &str) -> String {
     let (id, element) = split(key);
-    let known = findings
-        .candidates
-        .iter()
-        .find(|candidate| candidate.id == id && (element.is_empty() || candidate.element == element));
-    match known {
-        Some(known) => format!("{} {}", known.name, place(&known.element)),
+    let known = findings.candidates.iter().filter(|candidate| candidate.id == id);
+    match known.max_by_key(|candidate| candidate.element == element) {
+        Some(known) if element.is_empty() => format!("{} {}", known.name, place(&known.element)),
+        Some(known) => format!("{} {}", known.name, place(element)),
         None => key.to_owned(),
     }
 }
