@@ -162,11 +162,11 @@ fn waterfall(signal: &Signal, extended: bool) -> Markup {
     html! {
         figure {
             figcaption { code { (signal.name) } }
-            svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 250 140" role="img" class="plot" {
+            svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 266 140" role="img" class="plot" {
                 title { "Power of the error of " (signal.name) ", start = 100 %" }
-                line class="frame" x1="4" x2="246" y1="118" y2="118" {}
+                line class="frame" x1="4" x2="262" y1="118" y2="118" {}
                 @for (index, step) in steps.iter().enumerate() {
-                    @let x = 7.0 + 48.0 * index as f64;
+                    @let x = 8.0 + 52.0 * index as f64;
                     text x=(px(x + 20.0)) y="133" text-anchor="middle" { (step.label) }
                     @if known(step) {
                         @let (high, low) = (y(step.from.max(step.to)), y(step.from.min(step.to)));
@@ -174,7 +174,7 @@ fn waterfall(signal: &Signal, extended: bool) -> Markup {
                         text class="value" x=(px(x + 20.0)) y=(px(high - 5.0)) text-anchor="middle" { (change(step)) }
                         @if steps.get(index + 1).is_some_and(known) {
                             @let level = y(if index == 0 { step.to } else { step.from });
-                            line class="link" x1=(px(x)) x2=(px(x + 88.0)) y1=(px(level)) y2=(px(level)) {}
+                            line class="link" x1=(px(x)) x2=(px(x + 92.0)) y1=(px(level)) y2=(px(level)) {}
                         }
                     }
                 }

@@ -28,14 +28,16 @@ pub fn html(findings: &Findings) -> String {
             }
             body class=(kind) {
                 (header(findings, word))
+                @let parameters_first = findings.verdict == Verdict::ParameterMismatch;
                 main {
                     (tables::fatal_problems(findings))
+                    @if parameters_first { (tables::base_parameters(findings)) }
                     (effects::section(findings))
                     (unnamed(findings.unnamed.as_ref()))
                     (experiment(findings))
                     (tables::detectable(findings))
                     (gain::section(findings))
-                    (tables::base_parameters(findings))
+                    @if !parameters_first { (tables::base_parameters(findings)) }
                     (pictures::section(findings))
                     (tables::candidates(findings))
                     (tables::other_problems(findings))

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::findings::Findings;
+use crate::findings::{Findings, Verdict};
 use crate::report::plot::px;
 use crate::report::words::{Part, element, part, place};
 
@@ -62,12 +62,21 @@ impl Mark {
     }
 }
 
-/// The elements at which the findings place a cause.
+/// The elements at which the findings place a cause, or a parameter that does not fit if that is the verdict.
 fn marked(findings: &Findings) -> Vec<&str> {
     let effects = findings.effects.iter().map(|effect| effect.element.as_str());
-    let mut elements: Vec<&str> =
-        effects.chain(findings.unnamed.iter().map(|curve| curve.location.as_str())).collect();
-    elements.dedup();
+    let unnamed = findings.unnamed.iter().map(|curve| curve.location.as_str());
+    let wrong = findings
+        .base_parameters
+        .iter()
+        .filter(|parameter| findings.verdict == Verdict::ParameterMismatch && parameter.mismatch);
+    let owners = wrong.filter_map(|parameter| parameter.name.split('.').next());
+    let mut elements = Vec::new();
+    for element in effects.chain(unnamed).chain(owners.filter(|owner| part(owner).is_some())) {
+        if !elements.contains(&element) {
+            elements.push(element);
+        }
+    }
     elements
 }
 
