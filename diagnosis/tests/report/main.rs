@@ -106,6 +106,23 @@ fn the_page_says_what_the_findings_say() {
 }
 
 #[test]
+fn the_numbers_beside_the_headline_are_of_all_signals() {
+    let mut findings = sample(Verdict::Named);
+    for (signal, (before, after)) in
+        findings.signals.iter_mut().zip([(0.2, 0.9), (0.6, 0.7), (f64::NAN, 0.1)])
+    {
+        (signal.phi_before, signal.phi_after) = (before, after);
+        (signal.rms_before, signal.rms_after, signal.noise_floor) = (2.0, 1.0 + after, 0.5);
+    }
+    let page = report::html(&findings);
+    let text: String =
+        page.split('<').filter_map(|part| part.split_once('>')).map(|(_, text)| text).collect();
+    for fact in ["mean of 2 signals0.40 → 0.80", "× noise floor2.2 … 3.8", "Held-out evidencet = 7.31"] {
+        assert!(text.contains(fact), "{fact}");
+    }
+}
+
+#[test]
 fn the_schematic_shows_the_rig_at_hand() {
     let of = |elements: &[&str]| {
         let mut findings = sample(Verdict::Named);

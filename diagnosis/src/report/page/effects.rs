@@ -58,7 +58,7 @@ fn alternatives(findings: &Findings, effect: &Effect) -> Markup {
     let experiment = effect.experiment.as_ref().filter(|text| Some(*text) != findings.experiment.as_ref());
     html! {
         @if effect.ambiguous_with.is_empty() {
-            p.alternatives { strong { "What else it could be: " } "nothing in the catalogue that these data do not tell apart from it." }
+            p.alternatives { strong { "What else it could be: " } "nothing else in the catalogue; these data tell all other causes from it." }
         } @else {
             div.alternatives {
                 p { strong { "What else it could be" } ", as far as these data can tell:" }

@@ -5,31 +5,47 @@ use maud::{Markup, html};
 use super::extended;
 use crate::findings::{Findings, Signal};
 use crate::report::plot::px;
-use crate::report::words::{fit, number, percent, unit};
+use crate::report::words::{digits, fit, number, percent, unit};
 
 /// The models in the order of their making: style class and name.
 const MODELS: [(&str, &str); 3] = [("start", "start"), ("before", "fitted"), ("after", "extended")];
 
-/// The most important numbers beside the headline.
+/// The most important numbers beside the headline: of all signals, not of the one that gained most.
 pub fn facts(findings: &Findings) -> Markup {
-    let power = |rms: f64| rms * rms;
-    let fall = |signal: &Signal| 1.0 - power(signal.rms_after) / power(signal.rms_before);
-    let best = findings.signals.iter().filter(|signal| fall(signal).is_finite());
-    let best = best.max_by(|a, b| fall(a).total_cmp(&fall(b)));
+    let extended = extended(findings);
+    let last = |signal: &Signal| {
+        if extended { (signal.phi_after, signal.rms_after) } else { (signal.phi_fitted, signal.rms_fitted) }
+    };
+    let all = |value: &dyn Fn(&Signal) -> f64| -> Vec<f64> {
+        findings.signals.iter().map(value).filter(|value| value.is_finite()).collect()
+    };
+    // Φ before and after are means over the same signals.
+    let known: Vec<&Signal> = findings
+        .signals
+        .iter()
+        .filter(|signal| signal.phi_before.is_finite() && last(signal).0.is_finite())
+        .collect();
+    let before = mean(known.iter().map(|signal| signal.phi_before));
+    let after = mean(known.iter().map(|signal| last(signal).0));
+    let falls = all(&|signal| 1.0 - (last(signal).1 / signal.rms_before).powi(2));
+    let mut ratios = all(&|signal| last(signal).1 / signal.noise_floor);
+    ratios.sort_by(f64::total_cmp);
     html! {
-        @if let Some(signal) = best {
+        @if !findings.signals.is_empty() {
             dl.facts {
                 div {
-                    dt { "Φ of " code { (signal.name) } }
-                    dd { (fit(signal.phi_before, 2)) span.arrow { " → " } (fit(signal.phi_after, 2)) }
+                    dt { "Fit Φ, " (of_all(known.len())) }
+                    dd { (fit(before, 2)) span.arrow { " → " } (fit(after, 2)) }
                 }
-                div {
-                    dt { "Its error’s power" }
-                    dd { (fallen(fall(signal))) }
-                }
-                div {
-                    dt { "Its rms error" }
-                    dd { (number(signal.rms_after / signal.noise_floor)) span.arrow { " × noise" } }
+                div { dt { "Error’s power" } dd { (fallen(mean(falls.iter().copied()))) } }
+                @if let (Some(least), Some(most)) = (ratios.first(), ratios.last()) {
+                    div {
+                        dt { "Error, × noise floor" }
+                        dd {
+                            (digits(*least, 2))
+                            @if digits(*least, 2) != digits(*most, 2) { span.arrow { " … " } (digits(*most, 2)) }
+                        }
+                    }
                 }
                 @if let Some(effect) = findings.effects.first() {
                     div { dt { "Held-out evidence" } dd { "t = " (number(effect.evidence.held_out_t)) } }
@@ -37,6 +53,16 @@ pub fn facts(findings: &Findings) -> Markup {
             }
         }
     }
+}
+
+fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len() as f64;
+    // Of nothing: not a number.
+    if count > 0.0 { values.map(|value| value / count).sum() } else { f64::NAN }
+}
+
+fn of_all(signals: usize) -> String {
+    if signals == 1 { "one signal".into() } else { format!("mean of {signals} signals") }
 }
 
 /// A fall as a change with its sign.
