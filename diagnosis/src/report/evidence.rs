@@ -67,19 +67,20 @@ pub fn gates(evidence: &Evidence) -> [Gate; 4] {
 /// Why the effect is believed, in sentences.
 pub fn sentences(evidence: &Evidence) -> Vec<String> {
     let strength = |t: f64| match t {
+        t if t.is_nan() => "which could not be determined",
         t if t > 5.0 => "far beyond chance",
         t if t > 3.0 => "clearly beyond chance",
         t if t > REQUIRED.held_out_t => "beyond chance",
         _ => "which chance can do as well",
     };
-    let t = |t: f64| format!("t = {}, {}", number(t), strength(t));
+    let t = |t: f64| format!("t\u{a0}=\u{a0}{}, {}", number(t), strength(t));
     vec![
         format!(
             "With it, the model fits data that it was not fitted to better, block by block: {}.",
             t(evidence.held_out_t)
         ),
         format!("It explains {} of the power of the error there.", percent(evidence.explained)),
-        format!("On the data that it was learnt from, the gain is as steady: {}.", t(evidence.block_t)),
+        format!("On the data that it was learnt from, the gain over blocks has {}.", t(evidence.block_t)),
         format!(
             "The gain outweighs its additional parameters: the Bayesian information criterion falls by {}.",
             number(evidence.delta_bic)

@@ -3,7 +3,9 @@
 use textwrap::Options;
 use unicode_width::UnicodeWidthStr;
 
-use super::words::{badge, cause, digits, headline, interval, number, percent, place, unit};
+use super::words::{
+    badge, capitalised, cause, count, digits, fit, headline, interval, number, percent, place, unit,
+};
 use crate::findings::{Effect, Findings, Verdict};
 
 /// Columns that a line has at most.
@@ -47,7 +49,15 @@ pub fn terminal(findings: &Findings) -> String {
         lines.more(findings.data_problems.len());
     }
     lines.blank();
-    lines.wrapped("", &format!("{} s", digits(findings.seconds, 2)));
+    lines.wrapped(
+        "",
+        &format!(
+            "Diagnosed in {} s from {} and {}.",
+            digits(findings.seconds, 2),
+            count(findings.train.len(), "training record"),
+            count(findings.test.len(), "held-out record")
+        ),
+    );
     lines.0.join("\n") + "\n"
 }
 
@@ -75,7 +85,7 @@ impl Lines {
 
     fn effect(&mut self, findings: &Findings, effect: &Effect) {
         let evidence = effect.evidence;
-        self.wrapped("", &format!("{} {} {}", effect.id, effect.name, place(&effect.element)));
+        self.wrapped("", &format!("{} {} {}", effect.id, capitalised(&effect.name), place(&effect.element)));
         for parameter in &effect.parameters {
             let [value, low, high] = interval(parameter.value, parameter.low, parameter.high);
             let unit = unit(&parameter.unit);
@@ -129,7 +139,7 @@ impl Lines {
             let unit = unit(&signal.unit);
             let name =
                 if unit.is_empty() { signal.name.clone() } else { format!("{} [{unit}]", signal.name) };
-            let phi = |value: f64| digits(value, 3);
+            let phi = |value: f64| fit(value, 3);
             [
                 shortened(&name, 32),
                 phi(signal.phi_before),
@@ -167,7 +177,10 @@ impl Lines {
         for candidate in seen.iter().take(SHOWN) {
             let size = number(candidate.detectable.unwrap_or(f64::NAN));
             let place = place(&candidate.element);
-            self.wrapped("  ", &format!("{} {place} from {size} {}", candidate.name, unit(&candidate.unit)));
+            self.wrapped(
+                "  ",
+                &format!("{} {place} from {size} {}", capitalised(&candidate.name), unit(&candidate.unit)),
+            );
         }
         self.more(seen.len());
     }

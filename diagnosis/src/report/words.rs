@@ -51,13 +51,25 @@ pub fn interval(value: f64, low: f64, high: f64) -> [String; 3] {
         .map(|number| if number.is_finite() { decimals(number, places) } else { self::number(number) })
 }
 
+/// A fit Φ to so many decimals: `0.08`, `−0.40`.
+pub fn fit(phi: f64, places: usize) -> String {
+    if phi.is_finite() && phi.abs() < 1e3 { decimals(phi, places) } else { number(phi) }
+}
+
 /// A share of one in per cent: `83 %`.
 pub fn percent(share: f64) -> String {
     if !share.is_finite() {
         return "–".into();
     }
     let value = 100.0 * share;
-    let places = usize::from(value.abs() < 9.95 && value != 0.0);
+    let sign = if value < 0.0 { "−" } else { "" };
+    match value.abs() {
+        size if size > 0.0 && size < 0.05 => return format!("{sign}<\u{2009}0.1 %"),
+        size if size > 99.95 && size < 100.0 => return format!("{sign}>\u{2009}99.9 %"),
+        _ => {}
+    }
+    let fine = value.abs() < 9.95 || (99.0..100.0).contains(&value.abs());
+    let places = usize::from(fine && value != 0.0);
     if value.abs() < 1e6 {
         format!("{} %", decimals(value, places))
     } else {
@@ -149,21 +161,36 @@ pub fn list(items: &[String], last: &str) -> String {
     }
 }
 
+/// The text with a capital at its start.
+pub fn capitalised(text: &str) -> String {
+    let mut rest = text.chars();
+    rest.next().map_or(String::new(), |first| first.to_uppercase().chain(rest).collect())
+}
+
 /// `3 records`, `1 record`.
 pub fn count(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }
 
+/// Number and element of a cause that is given as `01 strut`.
+fn split(key: &str) -> (&str, &str) {
+    let key = key.trim();
+    let (id, element) = key.split_once([' ', '@', ':', '/']).unwrap_or((key, ""));
+    (id, element.trim())
+}
+
+/// The element of a cause that is given as `01 strut`.
+pub fn element(key: &str) -> &str {
+    split(key).1
+}
+
 /// The name of a cause that is given by number and place, as `01 strut`, if the catalogue's list has it.
 pub fn cause(findings: &Findings, key: &str) -> String {
-    let (id, element) = key.trim().split_once([' ', '@', ':', '/']).unwrap_or((key.trim(), ""));
-    let element = element.trim();
-    let known = findings
-        .candidates
-        .iter()
-        .find(|candidate| candidate.id == id && (element.is_empty() || candidate.element == element));
-    match known {
-        Some(known) => format!("{} {}", known.name, place(&known.element)),
+    let (id, element) = split(key);
+    let known = findings.candidates.iter().filter(|candidate| candidate.id == id);
+    match known.max_by_key(|candidate| candidate.element == element) {
+        Some(known) if element.is_empty() => format!("{} {}", known.name, place(&known.element)),
+        Some(known) => format!("{} {}", known.name, place(element)),
         None => key.to_owned(),
     }
 }
@@ -239,7 +266,15 @@ mod tests {
         assert_eq!(interval(57.34, 55.1, 59.4), ["57.3", "55.1", "59.4"]);
         assert_eq!(interval(0.01, f64::NAN, 0.02), ["0.01000", "–", "0.02000"]);
         assert_eq!(interval(2.0e7, 1.9e7, 2.1e7), ["2e7", "1.9e7", "2.1e7"]);
-        assert_eq!([0.834, 0.012, f64::NAN, -0.0].map(percent), ["83 %", "1.2 %", "–", "0 %"]);
+        assert_eq!(
+            [0.834, 0.012, f64::NAN, -0.0, 0.9999, 1.0].map(percent),
+            ["83 %", "1.2 %", "–", "0 %", ">\u{2009}99.9 %", "100 %"]
+        );
+    }
+
+    #[test]
+    fn fits_have_decimals() {
+        assert_eq!([0.08, -0.4, f64::NAN, -1e7].map(|phi| fit(phi, 2)), ["0.08", "−0.40", "–", "−1e7"]);
     }
 
     #[test]

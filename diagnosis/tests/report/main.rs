@@ -51,6 +51,7 @@ fn every_verdict_gives_a_page_that_is_well_formed_small_and_needs_no_other() {
         for outside in ["<script", "<link", "<img", "src=", "url(", "@import"] {
             assert!(!page.contains(outside), "{verdict:?}: {outside}");
         }
+        // The pages stay there to be looked at.
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("report-{verdict:?}"));
         report::write(&findings, &folder).unwrap();
         assert_eq!(std::fs::read_to_string(folder.join("report.html")).unwrap(), page);
@@ -101,6 +102,49 @@ fn the_page_says_what_the_findings_say() {
     let nothing = report::html(&sample(Verdict::NoEffect));
     for text in ["Seen for certain from", "3.10 N", "Bump stop in the strut: not excited"] {
         assert!(nothing.contains(text), "{text}");
+    }
+}
+
+#[test]
+fn the_numbers_beside_the_headline_are_of_all_signals() {
+    let mut findings = sample(Verdict::Named);
+    for (signal, (before, after)) in
+        findings.signals.iter_mut().zip([(0.2, 0.9), (0.6, 0.7), (f64::NAN, 0.1)])
+    {
+        (signal.phi_before, signal.phi_after) = (before, after);
+        (signal.rms_before, signal.rms_after, signal.noise_floor) = (2.0, 1.0 + after, 0.5);
+    }
+    let page = report::html(&findings);
+    let text: String =
+        page.split('<').filter_map(|part| part.split_once('>')).map(|(_, text)| text).collect();
+    for fact in ["mean of 2 signals0.40 → 0.80", "× noise floor2.2 … 3.8", "Held-out evidencet = 7.31"] {
+        assert!(text.contains(fact), "{fact}");
+    }
+}
+
+#[test]
+fn the_schematic_shows_the_rig_at_hand() {
+    let of = |elements: &[&str]| {
+        let mut findings = sample(Verdict::Named);
+        findings.candidates.retain(|candidate| elements.contains(&candidate.element.as_str()));
+        findings.effects.retain(|effect| elements.contains(&effect.element.as_str()));
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("report-{}", elements[0]));
+        report::write(&findings, &folder).unwrap();
+        report::html(&findings)
+    };
+    for (elements, shown) in [
+        (&["tire", "strut"][..], &["body", "wheel", "tyre", "strut"][..]),
+        (&["strut"], &["crosshead", "shaker", "strut"]),
+        (&["actuator"], &["carriage", "frame", "actuator"]),
+    ] {
+        let page = of(elements);
+        for label in
+            ["body", "wheel", "tyre", "strut", "actuator", "crosshead", "shaker", "carriage", "frame"]
+        {
+            let drawn = page.contains(&format!(">{label}</text>"));
+            let expected = shown.contains(&label) || (label == "actuator" && elements[0] == "tire");
+            assert_eq!(drawn, expected, "{label} for {elements:?}");
+        }
     }
 }
 
@@ -161,6 +205,15 @@ fn every_field_and_verdict_is_described_in_the_readme() {
             value["verdict"]
         );
         keys(&value, &mut found);
+    }
+    let required = report::REQUIRED;
+    for (gate, limit) in [
+        ("delta_bic", required.delta_bic),
+        ("block_t", required.block_t),
+        ("held_out_t", required.held_out_t),
+        ("explained", required.explained),
+    ] {
+        assert!(section.contains(&format!("| `{gate}` | 1 | {limit} |")), "the limit of {gate}");
     }
     assert!(found.len() > 60, "{found:?}");
     for key in found {

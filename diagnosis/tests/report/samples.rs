@@ -1,11 +1,13 @@
 //! Findings of every verdict, with curves as a rig gives them.
 
+use std::sync::LazyLock;
+
 use strut_diagnosis::findings::{
     BaseParameter, Candidate, Curve, DataProblem, Effect, EffectParameter, Evidence, FORMAT, Findings,
-    Pictures, Verdict,
+    Pictures, Signal, Verdict,
 };
 
-use crate::simulation::{self, binned, comparisons};
+use crate::simulation::{self, Comparison, binned, comparisons};
 
 pub const VERDICTS: [Verdict; 8] = [
     Verdict::NoEffect,
@@ -68,24 +70,24 @@ fn candidates() -> Vec<Candidate> {
     let rows = [
         ("01", "strut", "Coulomb friction", 3.1, "N"),
         ("02", "strut", "Stribeck friction", 4.4, "N"),
-        ("03", "strut", "Presliding friction", 5.0, "N"),
-        ("04", "strut", "Damper asymmetry", 0.021, "1"),
-        ("05", "strut", "Damper knee", 0.06, "1"),
-        ("06", "strut", "Orifice damping", 42.0, "N.s2/m2"),
+        ("03", "strut", "presliding friction", 5.0, "N"),
+        ("04", "strut", "damper asymmetry", 0.021, "1"),
+        ("05", "strut", "damper knee", 0.06, "1"),
+        ("06", "strut", "orifice damping", 42.0, "N.s2/m2"),
         ("07", "strut", "Maxwell branch", 900.0, "N/m"),
-        ("08", "strut", "Nonlinear spring", 2.1e4, "N/m2"),
-        ("09", "strut", "Bump stop", f64::NAN, "m"),
-        ("12", "strut", "Bush play", 8e-5, "m"),
-        ("16", "body_guide", "Guide friction", 2.4, "N"),
-        ("17", "wheel_guide", "Guide friction", 3.9, "N"),
-        ("19", "tire", "Progressive tyre", 1.2e5, "N/m2"),
-        ("20", "tire", "Lift-off", f64::NAN, "N"),
-        ("23", "actuator", "Delay", 4e-4, "s"),
-        ("24", "actuator", "Lag", 6e-4, "s"),
-        ("27", "actuator", "Cogging", 2.2, "N"),
-        ("34", "body.acceleration", "Gain error", 0.012, "1"),
-        ("35", "body.acceleration", "Bandwidth", 3e-4, "s"),
-        ("36", "suspension.deflection", "Time skew", 2e-4, "s"),
+        ("08", "strut", "nonlinear spring", 2.1e4, "N/m2"),
+        ("09", "strut", "bump stop", f64::NAN, "m"),
+        ("12", "strut", "bush play", 8e-5, "m"),
+        ("16", "body_guide", "guide friction", 2.4, "N"),
+        ("17", "wheel_guide", "guide friction", 3.9, "N"),
+        ("19", "tire", "progressive tyre", 1.2e5, "N/m2"),
+        ("20", "tire", "lift-off", f64::NAN, "N"),
+        ("23", "actuator", "delay", 4e-4, "s"),
+        ("24", "actuator", "lag", 6e-4, "s"),
+        ("27", "actuator", "cogging", 2.2, "N"),
+        ("34", "body.acceleration", "gain error", 0.012, "1"),
+        ("35", "body.acceleration", "bandwidth", 3e-4, "s"),
+        ("36", "suspension.deflection", "time skew", 2e-4, "s"),
     ];
     let one = |(index, (id, element, name, size, unit)): (usize, (&str, &str, &str, f64, &str))| {
         let seen = size.is_finite();
@@ -123,9 +125,24 @@ fn accept(findings: &mut Findings, index: usize) {
     findings.candidates[index].evidence = findings.effects.first().map(|effect| effect.evidence);
 }
 
+fn car() -> (Vec<Signal>, Pictures) {
+    let comparisons = comparisons(60.0);
+    let pictures = Pictures {
+        traces: comparisons.iter().map(Comparison::trace).collect(),
+        spectra: comparisons.iter().map(Comparison::spectrum).collect(),
+        scatters: vec![
+            binned("strut velocity", "m/s", |run, index| run.speed[index]),
+            binned("strut deflection", "m", |run, index| run.deflection[index]),
+        ],
+    };
+    (comparisons.iter().map(Comparison::signal).collect(), pictures)
+}
+
 /// Findings of a verdict as a diagnosis of a rig would give them.
 pub fn sample(verdict: Verdict) -> Findings {
-    let comparisons = comparisons(60.0);
+    /// The same car for every verdict.
+    static CAR: LazyLock<(Vec<Signal>, Pictures)> = LazyLock::new(car);
+    let (signals, pictures) = CAR.clone();
     let mut findings = Findings {
         rig: "tum-quarter-vehicle".into(),
         train: vec!["multisine-1.csv".into(), "prbs-2.csv".into()],
@@ -136,16 +153,9 @@ pub fn sample(verdict: Verdict) -> Findings {
             base("body.mass", "kg", 94.4, 94.3, 0.4, false),
             base("tire.stiffness", "N/m", 110_000.0, 109_400.0, 1200.0, false),
         ],
-        signals: comparisons.iter().map(|comparison| comparison.signal()).collect(),
+        signals,
         candidates: candidates(),
-        pictures: Pictures {
-            traces: comparisons.iter().map(|comparison| comparison.trace()).collect(),
-            spectra: comparisons.iter().map(|comparison| comparison.spectrum()).collect(),
-            scatters: vec![
-                binned("strut velocity", "m/s", |run, index| run.speed[index]),
-                binned("strut deflection", "m", |run, index| run.deflection[index]),
-            ],
-        },
+        pictures,
         data_problems: vec![DataProblem {
             record: "prbs-2.csv".into(),
             signal: "suspension.deflection".into(),

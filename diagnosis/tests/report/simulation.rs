@@ -59,9 +59,9 @@ pub struct Comparison {
     pub noise: f64,
 }
 
-/// Three signals of a car with a friction of 57 N and 40 dB of noise.
+/// Three signals of a car with a friction of 57 N and 40 dB of noise; the extended model leaves a little over.
 pub fn comparisons(seconds: f64) -> Vec<Comparison> {
-    let [truth, start, fitted, extended] = [(57.0, 420.0), (0.0, 600.0), (0.0, 640.0), (56.2, 423.0)]
+    let [truth, start, fitted, extended] = [(57.0, 420.0), (0.0, 600.0), (0.0, 640.0), (53.0, 440.0)]
         .map(|(force, damping)| run(force, damping, seconds));
     let pick = |name, unit, of: fn(&Run) -> &Vec<f64>| {
         let noise_floor = 0.01 * rms(of(&truth).iter().copied());

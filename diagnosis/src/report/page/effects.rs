@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::findings::{Effect, Evidence, Findings};
 use crate::report::evidence::{gates, sentences};
-use crate::report::words::{cause, interval, place, unit};
+use crate::report::words::{capitalised, cause, interval, place, unit};
 
 /// All effects that were found.
 pub fn section(findings: &Findings) -> Markup {
@@ -17,7 +17,7 @@ pub fn section(findings: &Findings) -> Markup {
                     article.effect {
                         h3 {
                             @if several { span.rank { (index + 1) } " " }
-                            (effect.name) " " (place(&effect.element))
+                            (capitalised(&effect.name)) " " (place(&effect.element))
                             span.id { "catalogue " (effect.id) }
                         }
                         div.columns {
@@ -58,11 +58,11 @@ fn alternatives(findings: &Findings, effect: &Effect) -> Markup {
     let experiment = effect.experiment.as_ref().filter(|text| Some(*text) != findings.experiment.as_ref());
     html! {
         @if effect.ambiguous_with.is_empty() {
-            p.alternatives { strong { "What else it could be: " } "nothing in the catalogue that these data do not tell apart from it." }
+            p.alternatives { strong { "What else it could be: " } "nothing else in the catalogue; these data tell all other causes from it." }
         } @else {
             div.alternatives {
                 p { strong { "What else it could be" } ", as far as these data can tell:" }
-                ul { @for key in &effect.ambiguous_with { li { (cause(findings, key)) } } }
+                ul { @for key in &effect.ambiguous_with { li { (capitalised(&cause(findings, key))) } } }
             }
         }
         @if let Some(experiment) = experiment {
@@ -79,7 +79,7 @@ fn added(effect: &Effect) -> Markup {
                 h4 { "What was added to the model" }
                 @if !effect.equation.is_empty() { pre { (effect.equation) } }
                 @if !effect.parameters.is_empty() {
-                    table {
+                    div.scroll { table.tight {
                         thead { tr { th { "Parameter" } th.number { "Value" } th.number { "95 % interval" } th { "Unit" } } }
                         tbody {
                             @for parameter in &effect.parameters {
@@ -92,7 +92,7 @@ fn added(effect: &Effect) -> Markup {
                                 }
                             }
                         }
-                    }
+                    } }
                 }
             }
         }

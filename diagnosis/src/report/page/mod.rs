@@ -28,14 +28,16 @@ pub fn html(findings: &Findings) -> String {
             }
             body class=(kind) {
                 (header(findings, word))
+                @let parameters_first = findings.verdict == Verdict::ParameterMismatch;
                 main {
                     (tables::fatal_problems(findings))
+                    @if parameters_first { (tables::base_parameters(findings)) }
                     (effects::section(findings))
                     (unnamed(findings.unnamed.as_ref()))
                     (experiment(findings))
                     (tables::detectable(findings))
                     (gain::section(findings))
-                    (tables::base_parameters(findings))
+                    @if !parameters_first { (tables::base_parameters(findings)) }
                     (pictures::section(findings))
                     (tables::candidates(findings))
                     (tables::other_problems(findings))
@@ -76,6 +78,11 @@ fn files(names: &[String]) -> Markup {
         }
         @if names.len() > 3 { " and " (names.len() - 3) " more" }
     }
+}
+
+/// Whether anything was added to the starting model.
+fn extended(findings: &Findings) -> bool {
+    !findings.effects.is_empty() || findings.unnamed.is_some()
 }
 
 /// What is known of a cause without a name.

@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::extended;
 use crate::findings::{Binned, Curve, Findings, Spectrum, Trace};
 use crate::report::plot::{Axis, Plot, Shape};
 use crate::report::words::{digits, labelled, unit};
@@ -15,7 +16,7 @@ const HALF: (f64, f64) = (490.0, 300.0);
 /// A longer trace than this, in seconds, gets a picture of a part.
 const WHOLE: f64 = 6.0;
 /// Length of that part in seconds.
-const PART: f64 = 4.0;
+const PART: f64 = 3.0;
 
 /// Pictures that are shown before the rest is folded away.
 const OPEN_TRACES: usize = 2;
@@ -23,7 +24,7 @@ const OPEN_PLOTS: usize = 6;
 
 /// All pictures that the findings have data for.
 pub fn section(findings: &Findings) -> Markup {
-    let pictures = &findings.pictures;
+    let (pictures, extended) = (&findings.pictures, extended(findings));
     html! {
         @if !pictures.scatters.is_empty() {
             section {
@@ -40,17 +41,18 @@ pub fn section(findings: &Findings) -> Markup {
         @if !pictures.traces.is_empty() {
             section {
                 h2 { "Measured and simulated" }
-                ul.legend { li.measured { "measured" } li.before { "fitted" } li.after { "extended" } }
-                (folded(&pictures.traces, OPEN_TRACES, "signals", trace))
+                ul.legend { li.measured { "measured" } li.before { "fitted" } @if extended { li.after { "extended" } } }
+                (folded(&pictures.traces, OPEN_TRACES, "signals", |one| trace(one, extended)))
             }
         }
         @if !pictures.spectra.is_empty() {
             section {
                 h2 { "Where in frequency the error lies" }
                 ul.legend {
-                    li.measured { "measured signal" } li.before { "error, fitted" } li.after { "error, extended" }
+                    li.measured { "measured signal" } li.before { "error, fitted" }
+                    @if extended { li.after { "error, extended" } }
                 }
-                (folded(&pictures.spectra, OPEN_PLOTS, "signals", spectrum))
+                (folded(&pictures.spectra, OPEN_PLOTS, "signals", |one| spectrum(one, extended)))
             }
         }
     }
@@ -102,22 +104,27 @@ fn unit_or_none(symbol: &str) -> String {
     if unit.is_empty() { "–".into() } else { unit }
 }
 
-fn spectrum(spectrum: &Spectrum) -> Markup {
+fn spectrum(spectrum: &Spectrum, extended: bool) -> Markup {
     // The mean of a signal is not a vibration: frequency zero stays out of a logarithmic axis.
-    let x = Axis::logarithmic("frequency / Hz", spectrum.frequency.iter().copied());
+    let x = Axis::logarithmic("frequency / Hz", spectrum.frequency.iter().copied(), 0.0);
     let curves = [("measured", &spectrum.measured), ("before", &spectrum.before), ("after", &spectrum.after)];
+    let curves = if extended { &curves[..] } else { &curves[..2] };
     let all = curves.iter().flat_map(|(_, values)| values.iter().copied());
     let unit = unit(&spectrum.unit);
-    let label = if unit.is_empty() { "1/Hz".into() } else { format!("({unit})²/Hz") };
+    let label = match unit.as_str() {
+        "" => "1/Hz".to_owned(),
+        plain if plain.chars().all(char::is_alphabetic) => format!("{plain}²/Hz"),
+        composed => format!("({composed})²/Hz"),
+    };
     let title = format!("Power spectral density of {}", spectrum.signal);
-    let mut plot = Plot::new(title, HALF, x, Axis::logarithmic(&label, all));
+    let mut plot = Plot::new(title, HALF, x, Axis::logarithmic(&label, all, 0.05));
     for (class, values) in curves {
         plot = plot.curve(class, &spectrum.frequency, values);
     }
     html! { figure { figcaption { code { (spectrum.signal) } } (plot.svg()) } }
 }
 
-fn trace(trace: &Trace) -> Markup {
+fn trace(trace: &Trace, extended: bool) -> Markup {
     let (from, to) = part(trace);
     let within = |(time, value): (&f64, &f64)| (from <= *time && *time <= to).then_some(*value);
     let error = |simulated: &[f64]| -> Vec<f64> {
@@ -125,6 +132,7 @@ fn trace(trace: &Trace) -> Markup {
     };
     let (before, after) = (error(&trace.before), error(&trace.after));
     let curves = [("measured", &trace.measured), ("before", &trace.before), ("after", &trace.after)];
+    let curves = if extended { &curves[..] } else { &curves[..2] };
     let seen = curves.iter().flat_map(|(_, values)| trace.time.iter().zip(*values).filter_map(within));
     let unit = unit_or_none(&trace.unit);
     let time = Axis::tight("time / s", trace.time.iter().copied().filter(|t| (from..=to).contains(t)), 10);
@@ -144,13 +152,14 @@ fn trace(trace: &Trace) -> Markup {
     if is_part {
         errors = errors.window(from, to);
     }
-    let errors = errors.curve("before", &trace.time, &before).curve("after", &trace.time, &after);
+    let errors = errors.curve("before", &trace.time, &before);
+    let errors = if extended { errors.curve("after", &trace.time, &after) } else { errors };
     html! {
         figure.wide {
             figcaption {
                 code { (trace.signal) }
                 @if is_part {
-                    " from " (digits(from, 4)) " to " (digits(to, 4)) " s, where the fitted model’s error is largest; "
+                    " from " (seconds(from)) " to " (seconds(to)) " s, where the fitted model’s error is largest; "
                     "below, the error over the whole record"
                 }
             }
@@ -158,6 +167,11 @@ fn trace(trace: &Trace) -> Markup {
             (errors.svg())
         }
     }
+}
+
+/// A time to a tenth of a second.
+fn seconds(time: f64) -> String {
+    if time.abs() < 1e6 { format!("{time:.1}").replace('-', "−") } else { digits(time, 4) }
 }
 
 fn duration(trace: &Trace) -> f64 {
@@ -196,7 +210,7 @@ pub fn unnamed(curve: &Curve) -> Markup {
     let all = curve.y.iter().chain(&curve.low).chain(&curve.high).copied();
     let x = Axis::linear(&labelled(&curve.variable, &curve.variable_unit), curve.x.iter().copied(), 8);
     let y = Axis::linear(unit_or_none(&curve.unit).as_str(), all.chain([0.0]), 5);
-    let plot = Plot::new(format!("What is missing over {}", curve.variable), (760.0, 320.0), x, y).zero();
+    let plot = Plot::new(format!("What is missing over {}", curve.variable), (1000.0, 330.0), x, y).zero();
     plot.band("after", &curve.x, &curve.low, &curve.high).curve("after", &curve.x, &curve.y).svg()
 }
 

@@ -2,9 +2,9 @@
 
 use maud::{Markup, html};
 
-use crate::findings::Findings;
+use crate::findings::{Findings, Verdict};
 use crate::report::plot::px;
-use crate::report::words::{Part, part, place};
+use crate::report::words::{Part, element, part, place};
 
 /// Sensors that have room.
 const SENSORS: usize = 9;
@@ -42,12 +42,41 @@ impl Drawing {
     }
 }
 
-/// The elements at which the findings place a cause.
+/// How a part of the rig is drawn.
+#[derive(Clone, Copy, PartialEq)]
+enum Mark {
+    None,
+    /// A cause is there.
+    Found,
+    /// A cause is there or elsewhere.
+    Possible,
+}
+
+impl Mark {
+    fn class(self) -> &'static str {
+        match self {
+            Self::None => "part",
+            Self::Found => "part hot",
+            Self::Possible => "part maybe",
+        }
+    }
+}
+
+/// The elements at which the findings place a cause, or a parameter that does not fit if that is the verdict.
 fn marked(findings: &Findings) -> Vec<&str> {
     let effects = findings.effects.iter().map(|effect| effect.element.as_str());
-    let mut elements: Vec<&str> =
-        effects.chain(findings.unnamed.iter().map(|curve| curve.location.as_str())).collect();
-    elements.dedup();
+    let unnamed = findings.unnamed.iter().map(|curve| curve.location.as_str());
+    let wrong = findings
+        .base_parameters
+        .iter()
+        .filter(|parameter| findings.verdict == Verdict::ParameterMismatch && parameter.mismatch);
+    let owners = wrong.filter_map(|parameter| parameter.name.split('.').next());
+    let mut elements = Vec::new();
+    for element in effects.chain(unnamed).chain(owners.filter(|owner| part(owner).is_some())) {
+        if !elements.contains(&element) {
+            elements.push(element);
+        }
+    }
     elements
 }
 
@@ -57,19 +86,26 @@ pub fn figure(findings: &Findings) -> Markup {
         return html! {};
     };
     let marked = marked(findings);
-    let hot = |wanted: Part| marked.iter().any(|element| part(element) == Some(wanted));
-    let class = |wanted: Part| if hot(wanted) { "part hot" } else { "part" };
+    let mark = |wanted: Part| {
+        let here = |element: &&str| part(element) == Some(wanted);
+        let doubts = || findings.effects.iter().flat_map(|effect| &effect.ambiguous_with);
+        match () {
+            () if marked.iter().any(here) => Mark::Found,
+            () if doubts().any(|key| here(&element(key))) => Mark::Possible,
+            () => Mark::None,
+        }
+    };
     let places: Vec<String> = marked.iter().map(|element| place(element)).collect();
     let alt =
         if places.is_empty() { "The rig".to_owned() } else { format!("The cause is {}", places.join(", ")) };
     let height = if drawing.tire { 372 } else { 270 };
     html! {
         figure.schematic {
-            svg xmlns="http://www.w3.org/2000/svg" viewBox=(format!("0 0 400 {height}")) role="img" class="plot" {
+            svg xmlns="http://www.w3.org/2000/svg" viewBox=(format!("0 0 424 {height}")) role="img" class="plot" {
                 title { (alt) }
                 @if drawing.guide {
-                    g class=(class(Part::Guide)) {
-                        (halo(hot(Part::Guide), 8.0, 22.0, 46.0, 238.0))
+                    g class=(mark(Part::Guide).class()) {
+                        (halo(mark(Part::Guide), 8.0, 22.0, 46.0, 238.0))
                         path d="M22 26V256" {}
                         @for y in (34..=254).step_by(11) { path class="thin" d=(format!("M22 {y}l-8 8")) {} }
                         rect class="solid" x="17" y="52" width="10" height="26" {}
@@ -79,34 +115,34 @@ pub fn figure(findings: &Findings) -> Markup {
                         text x="8" y="17" { "guide" }
                     }
                 }
-                (mass(class(Part::Body), hot(Part::Body), 40.0, drawing.upper))
+                (mass(mark(Part::Body), 40.0, drawing.upper))
                 @if drawing.strut {
-                    g class=(class(Part::Strut)) {
-                        (halo(hot(Part::Strut), 60.0, 94.0, 84.0, 106.0))
+                    g class=(mark(Part::Strut).class()) {
+                        (halo(mark(Part::Strut), 36.0, 94.0, 100.0, 106.0))
                         (spring(84.0, 90.0, 204.0))
                         (damper(118.0, 90.0, 204.0))
-                        text x="101" y="109" text-anchor="middle" { "strut" }
+                        text x="70" y="151" text-anchor="end" { "strut" }
                     }
                 }
                 @if drawing.actuator {
-                    g class=(class(Part::Actuator)) {
-                        (halo(hot(Part::Actuator), 150.0, 94.0, 66.0, 106.0))
+                    g class=(mark(Part::Actuator).class()) {
+                        (halo(mark(Part::Actuator), 152.0, 94.0, 110.0, 106.0))
                         path d="M182 90V128M182 166V204" {}
                         rect class="solid" x="164" y="128" width="36" height="38" rx="3" {}
                         path d="M182 135V159M178 141L182 135L186 141M178 153L182 159L186 153" {}
-                        text x="183" y="109" text-anchor="middle" class="behind" { "actuator" }
+                        text x="206" y="136" { "actuator" }
                     }
                 }
-                (mass(class(Part::Wheel), hot(Part::Wheel), 204.0, drawing.lower))
+                (mass(mark(Part::Wheel), 204.0, drawing.lower))
                 @if drawing.tire {
-                    g class=(class(Part::Tire)) {
-                        (halo(hot(Part::Tire), 88.0, 257.0, 100.0, 68.0))
+                    g class=(mark(Part::Tire).class()) {
+                        (halo(mark(Part::Tire), 88.0, 257.0, 100.0, 68.0))
                         (spring(110.0, 254.0, 326.0))
                         (damper(146.0, 254.0, 326.0))
-                        text x="160" y="294" { "tyre" }
+                        text x="162" y="294" { "tyre" }
                     }
-                    g class=(class(Part::Road)) {
-                        (halo(hot(Part::Road), 28.0, 320.0, 206.0, 46.0))
+                    g class=(mark(Part::Road).class()) {
+                        (halo(mark(Part::Road), 28.0, 320.0, 206.0, 46.0))
                         path d="M96 326H160" {}
                         path d="M32 342C60 330 78 330 100 338S140 350 165 338S205 330 230 340" {}
                         text x="131" y="361" text-anchor="middle" { "road" }
@@ -118,14 +154,14 @@ pub fn figure(findings: &Findings) -> Markup {
     }
 }
 
-fn halo(hot: bool, x: f64, y: f64, width: f64, height: f64) -> Markup {
-    html! { @if hot { rect class="halo" x=(x) y=(y) width=(width) height=(height) rx="8" {} } }
+fn halo(mark: Mark, x: f64, y: f64, width: f64, height: f64) -> Markup {
+    html! { @if mark != Mark::None { rect class="halo" x=(x) y=(y) width=(width) height=(height) rx="8" {} } }
 }
 
-fn mass(class: &str, hot: bool, y: f64, label: &str) -> Markup {
+fn mass(mark: Mark, y: f64, label: &str) -> Markup {
     html! {
-        g class=(class) {
-            (halo(hot, 44.0, y - 6.0, 178.0, 62.0))
+        g class=(mark.class()) {
+            (halo(mark, 44.0, y - 6.0, 178.0, 62.0))
             rect class="solid" x="50" y=(y) width="166" height="50" rx="4" {}
             text x="133" y=(y + 30.0) text-anchor="middle" { (label) }
         }
@@ -175,7 +211,7 @@ fn station(name: &str) -> (f64, f64) {
     } else if has(&["suspension", "strut", "deflection", "travel"]) {
         (142.0, 184.0)
     } else if has(&["force", "voltage", "current", "actuator", "motor", "pressure"]) {
-        (200.0, 147.0)
+        (200.0, 156.0)
     } else {
         (208.0, 65.0)
     }
@@ -202,8 +238,8 @@ fn sensors(findings: &Findings, marked: &[&str]) -> Markup {
             @let (x, y) = station(name);
             g class=(if marked.contains(name) { "sensor hot" } else { "sensor" }) {
                 circle cx=(x) cy=(y) r="4" {}
-                path d=(format!("M{} {y}L238 {}H244", x + 4.0, px(level))) {}
-                text x="248" y=(px(level + 4.0)) { (shortened(name)) }
+                path d=(format!("M{} {y}L262 {}H268", x + 4.0, px(level))) {}
+                text x="272" y=(px(level + 4.0)) { (shortened(name)) }
             }
         }
     }

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::findings::{BaseParameter, Candidate, DataProblem, Findings, Verdict};
-use crate::report::words::{count, digits, interval, number, percent, place, quantity, unit};
+use crate::report::words::{capitalised, count, digits, interval, number, percent, place, quantity, unit};
 
 /// Rows that a table shows before the rest is folded away.
 const OPEN_ROWS: usize = 12;
@@ -109,7 +109,7 @@ pub fn detectable(findings: &Findings) -> Markup {
                 thead { tr { th { "Effect" } th { "Where" } th.number { "Seen for certain from" } } }
                 tbody { @for candidate in candidates {
                     tr {
-                        td { (candidate.name) }
+                        td { (capitalised(&candidate.name)) }
                         td { (place(&candidate.element)) }
                         td.number { strong { (size(candidate)) } }
                     }
@@ -131,11 +131,16 @@ pub fn detectable(findings: &Findings) -> Markup {
             section {
                 h2 { "What these records cannot judge" }
                 ul.compact { @for candidate in blind {
-                    li { (candidate.name) " " (place(&candidate.element)) ": " (candidate.outcome) }
+                    li { (capitalised(&candidate.name)) " " (place(&candidate.element)) ": " (candidate.outcome) }
                 } }
             }
         }
     }
+}
+
+/// A place without its preposition, for a narrow column.
+fn site(element: &str) -> String {
+    place(element).trim_start_matches("in the ").trim_start_matches("measurement of ").to_owned()
 }
 
 fn size(candidate: &Candidate) -> String {
@@ -165,8 +170,8 @@ pub fn candidates(findings: &Findings) -> Markup {
                     tbody { @for candidate in all {
                         tr class=(if candidate.outcome == "accepted" { "accepted" } else { "" }) {
                             td { (candidate.id) }
-                            td { (candidate.name) }
-                            td { (place(&candidate.element).trim_start_matches("in the ")) }
+                            td { (capitalised(&candidate.name)) }
+                            td { (site(&candidate.element)) }
                             td { (candidate.outcome) @if !candidate.fitted { span.small { " (screened)" } } }
                             @if let Some(evidence) = candidate.evidence {
                                 td.number { (number(evidence.held_out_t)) }

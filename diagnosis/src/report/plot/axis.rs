@@ -49,12 +49,14 @@ impl Axis {
         Self { label: label.to_owned(), ticks, logarithmic: false, low, high }
     }
 
-    /// Over the finite positive values.
-    pub fn logarithmic(label: &str, values: impl IntoIterator<Item = f64>) -> Self {
+    /// Over the finite positive values, with a margin as a share of the axis' length.
+    pub fn logarithmic(label: &str, values: impl IntoIterator<Item = f64>, margin: f64) -> Self {
         let positive = values.into_iter().filter(|value| *value > 0.0).map(f64::log10);
         let (low, high) = range(positive).unwrap_or((0.0, 1.0));
         let low = low.max(high - DECADES);
         let (low, high) = if high - low > 0.05 { (low, high) } else { (low - 0.5, high + 0.5) };
+        let margin = margin * (high - low);
+        let (low, high) = (low - margin, high + margin);
         let plain = low >= -2.001 && high <= 4.001;
         let label_of = |exponent: i32, factor: f64| {
             if plain { format!("{}", factor * 10_f64.powi(exponent)) } else { power(exponent, factor) }
@@ -136,9 +138,12 @@ mod tests {
 
     #[test]
     fn logarithmic_ticks_are_powers_of_ten() {
-        assert_eq!(labels(&Axis::logarithmic("", [0.5, 100.0])), ["1", "10", "100"]);
-        assert_eq!(labels(&Axis::logarithmic("", [1e-5, 3e-3, f64::NAN, 0.0])), ["10⁻⁵", "10⁻⁴", "10⁻³"]);
-        assert_eq!(labels(&Axis::logarithmic("", [1.0, 12.0])), ["1", "2", "5", "10"]);
+        assert_eq!(labels(&Axis::logarithmic("", [0.5, 100.0], 0.0)), ["1", "10", "100"]);
+        assert_eq!(
+            labels(&Axis::logarithmic("", [1e-5, 3e-3, f64::NAN, 0.0], 0.0)),
+            ["10⁻⁵", "10⁻⁴", "10⁻³"]
+        );
+        assert_eq!(labels(&Axis::logarithmic("", [1.0, 12.0], 0.0)), ["1", "2", "5", "10"]);
     }
 
     #[test]
@@ -146,7 +151,7 @@ mod tests {
         let linear = Axis::tight("", [0.0, 10.0], 5);
         assert_eq!(linear.share(2.5), Some(0.25));
         assert_eq!(linear.share(f64::NAN), None);
-        let logarithmic = Axis::logarithmic("", [1.0, 100.0]);
+        let logarithmic = Axis::logarithmic("", [1.0, 100.0], 0.0);
         assert_eq!(logarithmic.share(10.0), Some(0.5));
         assert_eq!(logarithmic.share(0.0), None);
     }
@@ -156,7 +161,7 @@ mod tests {
         for values in [[f64::MIN, f64::MAX], [5e-324, 1e-323], [1e16, 1e16 + 2.0], [1e300, 1e300]] {
             let linear = Axis::linear("", values, 5);
             assert!(linear.ticks.len() < 25 && linear.ticks.iter().all(|(share, _)| share.is_finite()));
-            assert!(Axis::logarithmic("", values).ticks.len() < 40);
+            assert!(Axis::logarithmic("", values, 0.0).ticks.len() < 40);
         }
     }
 }

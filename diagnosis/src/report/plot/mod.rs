@@ -148,7 +148,7 @@ mod tests {
         let odd = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN, 0.0];
         for (x, y) in [
             (Axis::linear("x", odd, 5), Axis::linear("y", odd, 5)),
-            (Axis::logarithmic("x", odd), Axis::logarithmic("y", odd)),
+            (Axis::logarithmic("x", odd, 0.0), Axis::logarithmic("y", odd, 0.1)),
         ] {
             let plot = Plot::new("odd".into(), (300.0, 200.0), x, y).zero().window(f64::NAN, 1.0);
             let plot = plot.curve("a", &odd, &odd).band("b", &odd, &odd, &odd);
