@@ -10,7 +10,7 @@ use crate::findings::{
 use crate::fit::Handle;
 use crate::hypothesis::{Fitted, POINTS, Term};
 use crate::naming::{self, name};
-use crate::search::{Accepted, Gates};
+use crate::search::Accepted;
 
 /// Relative change of a base parameter that matters, if it is significant.
 const MISMATCH: f64 = 0.03;
@@ -197,7 +197,7 @@ impl Diagnosis<'_> {
             let outcome = match tried {
                 _ if accepted(it.term) => "accepted".into(),
                 None => "not seen in what the model misses".into(),
-                Some(tried) => match (&tried.fitted, Gates::REQUIRED.refusal(&tried.evidence)) {
+                Some(tried) => match (&tried.fitted, tried.evidence.refusal()) {
                     (Err(error), _) => error.clone(),
                     (Ok(_), Some(refusal)) => refusal,
                     (Ok(_), None) => "another cause explains it better".into(),

@@ -2,7 +2,7 @@
 //!
 //! A road that is measured with noise would shake the simulated tyre with it: noise of 50 µm is 8 N at 150 N/mm. Each
 //! measured input is therefore passed through Wiener's filter without phase, made from the signal's own spectrum and
-//! the level of its noise. Above some 250 samples a second the records of suspensions hold noise only; they are thinned
+//! the level of its noise. Above some 400 samples a second the records of suspensions hold noise only; they are thinned
 //! to that, behind a filter without phase, the same for every signal.
 
 use std::ops::Range;
@@ -14,7 +14,7 @@ use crate::data::check::noise_floor;
 use crate::recorded::{Measured, Recorded, Source};
 
 /// Samples a second that are enough.
-const ENOUGH: f64 = 250.0;
+const ENOUGH: f64 = 400.0;
 /// What is kept of the band below half the new rate.
 const KEPT: f64 = 0.8;
 /// Bins to each side over which a spectrum is smoothed before it is compared to the noise.

@@ -136,6 +136,29 @@ pub struct Evidence {
     pub explained: f64,
 }
 
+impl Evidence {
+    /// What has to be exceeded, in every gate. The information criterion alone is never the verdict: small unmodelled
+    /// effects pass it on every record.
+    pub const REQUIRED: Self = Self { delta_bic: 20.0, block_t: 3.5, held_out_t: 3.0, explained: 0.01 };
+
+    /// The first gate that is not passed, in words.
+    pub fn refusal(&self) -> Option<String> {
+        let Self { delta_bic, block_t, held_out_t, explained } = *self;
+        let passed = |found: f64, required: f64| found > required;
+        if !passed(delta_bic, Self::REQUIRED.delta_bic) {
+            Some(format!("explains too little for its parameters (BIC falls by {delta_bic:.0})"))
+        } else if !passed(block_t, Self::REQUIRED.block_t) {
+            Some(format!("no steady gain over the training data (t = {block_t:.1})"))
+        } else if !passed(held_out_t, Self::REQUIRED.held_out_t) {
+            Some(format!("no gain on held-out data (t = {held_out_t:.1})"))
+        } else if !passed(explained, Self::REQUIRED.explained) {
+            Some(format!("too small to matter ({:.1} % of the error)", 100.0 * explained))
+        } else {
+            None
+        }
+    }
+}
+
 /// A parameter of the starting model.
 #[derive(Clone, Debug, Serialize)]
 pub struct BaseParameter {

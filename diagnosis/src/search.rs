@@ -21,40 +21,6 @@ const MOST: usize = 4;
 /// Blocks of time over which gains are compared, in seconds.
 const BLOCK: f64 = 0.5;
 
-/// What a cause has to show. Every gate has to be passed.
-#[derive(Clone, Copy, Debug)]
-pub struct Gates {
-    /// Fall of the information criterion.
-    pub delta_bic: f64,
-    /// Student's t over blocks of the training data.
-    pub block_t: f64,
-    /// Student's t over blocks of the held-out data.
-    pub held_out_t: f64,
-    /// Share of the residual power on the held-out data.
-    pub explained: f64,
-}
-
-impl Gates {
-    /// The gates.
-    pub const REQUIRED: Self = Self { delta_bic: 20.0, block_t: 3.5, held_out_t: 3.0, explained: 0.01 };
-
-    /// The first gate that is not passed, in words.
-    pub fn refusal(&self, evidence: &Evidence) -> Option<String> {
-        let Evidence { delta_bic, block_t, held_out_t, explained } = *evidence;
-        if delta_bic < self.delta_bic {
-            Some(format!("explains too little for its parameters (BIC falls by {delta_bic:.0})"))
-        } else if block_t < self.block_t {
-            Some(format!("no steady gain over the training data (t = {block_t:.1})"))
-        } else if held_out_t < self.held_out_t {
-            Some(format!("no gain on held-out data (t = {held_out_t:.1})"))
-        } else if explained < self.explained {
-            Some(format!("too small to matter ({:.1} % of the error)", 100.0 * explained))
-        } else {
-            None
-        }
-    }
-}
-
 /// A candidate that was fitted on top of others.
 #[derive(Clone, Debug)]
 pub struct Tried {
@@ -192,8 +158,7 @@ impl World<'_> {
             if found.screened.is_empty() {
                 found.screened = screened;
             }
-            let passing: Vec<&Tried> =
-                tried.iter().filter(|it| Gates::REQUIRED.refusal(&it.evidence).is_none()).collect();
+            let passing: Vec<&Tried> = tried.iter().filter(|it| it.evidence.refusal().is_none()).collect();
             let chosen = self.chosen(&passing).cloned();
             let rivals = chosen.as_ref().map_or_else(Vec::new, |chosen| self.rivals(chosen, &passing));
             merge(&mut found.tried, tried);
@@ -301,7 +266,7 @@ impl World<'_> {
             let candidates = screened.iter().filter(|it| rivals.contains(&it.term));
             for tried in candidates.map(|it| self.tried(&without, it)) {
                 let Ok(fitted) = &tried.fitted else { continue };
-                if Gates::REQUIRED.refusal(&tried.evidence).is_some() {
+                if tried.evidence.refusal().is_some() {
                     continue;
                 }
                 let behind = self.apart(&found.extended, fitted);
@@ -327,7 +292,7 @@ impl World<'_> {
         while index < found.accepted.len() && found.accepted.len() > 1 {
             let without = self.without(found, index)?;
             let evidence = self.evidence(&without, &found.extended);
-            if Gates::REQUIRED.refusal(&evidence).is_some() {
+            if evidence.refusal().is_some() {
                 found.accepted.remove(index);
                 found.extended = without;
             } else {

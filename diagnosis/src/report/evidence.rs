@@ -3,11 +3,7 @@
 use super::words::{number, percent};
 use crate::findings::Evidence;
 
-/// What the evidence for an effect has to exceed, in each of its gates.
-///
-/// 2.33 is Student's t of a one-sided error of 1 % with many blocks. The information criterion alone is
-/// never the verdict: small unmodelled effects pass it on every record.
-pub const REQUIRED: Evidence = Evidence { delta_bic: 20.0, block_t: 2.33, held_out_t: 2.33, explained: 0.01 };
+const REQUIRED: Evidence = Evidence::REQUIRED;
 
 /// One gate.
 pub struct Gate {

@@ -7,7 +7,6 @@ mod plot;
 mod terminal;
 mod words;
 
-pub use evidence::REQUIRED;
 pub use json::json;
 pub use page::html;
 pub use terminal::terminal;

@@ -6,7 +6,7 @@ mod simulation;
 use std::path::Path;
 
 use proptest::prelude::*;
-use strut_diagnosis::findings::{Findings, Verdict};
+use strut_diagnosis::findings::{Evidence, Findings, Verdict};
 use strut_diagnosis::report;
 use unicode_width::UnicodeWidthStr;
 
@@ -152,7 +152,7 @@ fn the_schematic_shows_the_rig_at_hand() {
 fn a_gate_that_is_not_passed_is_marked() {
     let mut findings = sample(Verdict::Named);
     assert!(!report::html(&findings).contains("not passed"));
-    findings.effects[0].evidence.held_out_t = report::REQUIRED.held_out_t;
+    findings.effects[0].evidence.held_out_t = Evidence::REQUIRED.held_out_t;
     assert!(report::html(&findings).contains("not passed"));
 }
 
@@ -206,7 +206,7 @@ fn every_field_and_verdict_is_described_in_the_readme() {
         );
         keys(&value, &mut found);
     }
-    let required = report::REQUIRED;
+    let required = Evidence::REQUIRED;
     for (gate, limit) in [
         ("delta_bic", required.delta_bic),
         ("block_t", required.block_t),
