@@ -105,6 +105,12 @@ units! {
     N_PER_M = "N/m" { kg: 1, s: -2 };
     /// Newton per square metre of deflection: a quadratic spring rate.
     N_PER_M2 = "N/m2" { kg: 1, m: -1, s: -2 };
+    /// Newton per cubic metre of deflection: a cubic spring rate.
+    N_PER_M3 = "N/m3" { kg: 1, m: -2, s: -2 };
+    /// Metre per newton: a compliance.
+    M_PER_N = "m/N" { kg: -1, s: 2 };
+    /// Newton second squared per square metre: what an orifice makes of a velocity squared.
+    N_S2_PER_M2 = "N.s2/m2" { kg: 1, m: -1 };
     /// Newton second per metre.
     N_S_PER_M = "N.s/m" { kg: 1, s: -1 };
     /// Kilogram per cubic metre.

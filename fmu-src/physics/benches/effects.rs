@@ -6,14 +6,23 @@ use std::path::Path;
 use std::time::Instant;
 
 use strut_model::{
-    About, Access, Experiment, Method, Model, NoSettings, Now, ParameterSet, Real, Simulation, bundles,
+    About, Access, Experiment, Method, Model, NoSettings, Now, ParameterSet, Real, Simulation, Variables,
+    bundles,
 };
-use strut_physics::{PARAMETER_SETS, rigs::QuarterCar};
+use strut_physics::{PARAMETER_SETS, rigs::QuarterCar, signals::Motion};
 
 type Parameters<R> = <QuarterCar as Model>::Parameters<R>;
 type Input<R> = <QuarterCar as Model>::Input<R>;
-type State<R> = <QuarterCar as Model>::State<R>;
 type Output<R> = <QuarterCar as Model>::Output<R>;
+
+/// Body and wheel, without the states of effects.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+struct State<R> {
+    /// Body
+    body: Motion<R>,
+    /// Wheel
+    wheel: Motion<R>,
+}
 
 /// TUM eq. 2–3 and nothing else.
 struct Linear;

@@ -2,6 +2,7 @@
 
 use proc_macro2::{TokenStream, TokenTree};
 use quote::{ToTokens, quote};
+use syn::ext::IdentExt;
 use syn::{DeriveInput, Expr, Field, GenericParam, Ident, Type};
 
 /// What `#[var(...)]` says.
@@ -29,7 +30,8 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
     let (mut count, mut gather, mut scatter, mut declare) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for field in &crate::fields(input)?.named {
         let ident = field.ident.as_ref().expect("a named field has a name");
-        let text = ident.to_string();
+        // A field may be `r#yield`; its variable is not.
+        let text = ident.unraw().to_string();
         let doc = crate::doc(&field.attrs, ident)?;
         if is_scalar(&field.ty, scalar) {
             let Var { unit, start, min, max, nominal, fixed, output } = parse(field, ident)?;

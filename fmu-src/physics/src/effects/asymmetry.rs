@@ -27,6 +27,20 @@ impl<R: Real> Asymmetry<R> {
         }
         velocity + self.ratio * ((velocity.squared() + self.smoothing.squared()).sqrt() - self.smoothing)
     }
+
+    /// The velocity of which `effective` is made.
+    ///
+    /// Of `(w − u)² = α² (u² + ε²)` with w = effective + α ε it is the root that is zero where `effective` is.
+    #[inline]
+    pub fn velocity_of(&self, effective: R) -> R {
+        if self.ratio.vanishes() {
+            return effective;
+        }
+        let shifted = effective + self.ratio * self.smoothing;
+        let remainder = R::from(1.0) - self.ratio.squared();
+        let root = (shifted.squared() + remainder * self.smoothing.squared()).sqrt();
+        (shifted - self.ratio * root) / remainder
+    }
 }
 
 #[cfg(test)]
@@ -59,8 +73,15 @@ mod tests {
         }
 
         #[test]
+        fn its_inverse_leads_back(v in -5.0..5.0_f64, ratio in -0.9..0.9_f64) {
+            let asymmetry = Asymmetry { ratio, smoothing: 0.005 };
+            prop_assert!((asymmetry.velocity_of(asymmetry.effective(v)) - v).abs() < 1e-12);
+        }
+
+        #[test]
         fn without_ratio_it_is_absent(v in -5.0..5.0_f64) {
-            prop_assert_eq!(Asymmetry { ratio: 0.0, smoothing: 0.005 }.effective(v), v);
+            let asymmetry = Asymmetry { ratio: 0.0, smoothing: 0.005 };
+            prop_assert_eq!((asymmetry.effective(v), asymmetry.velocity_of(v)), (v, v));
         }
     }
 

@@ -3,15 +3,45 @@
 //! One file an effect: its parameters, its equation, its source, its tests. An effect sits on any element
 //! and is neutral at its start values, so that a model without it and a model with it switched off are
 //! the same.
+//!
+//! The catalogue of diagnosis numbers the effects that a difference between measurement and model is looked for in.
 
 mod asymmetry;
 mod coulomb;
+mod curve;
+mod fade;
+mod knee;
 mod lift_off;
+mod linkage;
+mod load_dependence;
+mod maxwell;
+mod mount;
+mod orifice;
+mod presliding;
+mod progression;
 mod pwm;
 mod quadratic;
+mod stop;
+mod stribeck;
+mod switched_on;
+mod yield_force;
 
 pub use asymmetry::Asymmetry;
 pub use coulomb::{Coulomb, RotaryCoulomb};
+pub use curve::{CompressionCurve, ForceCurve, POINTS, VelocityCurve};
+pub use fade::Fade;
+pub use knee::Knee;
 pub use lift_off::LiftOff;
+pub use linkage::Linkage;
+pub use load_dependence::LoadDependence;
+pub use maxwell::{Maxwell, MaxwellState};
+pub use mount::{Mount, MountState};
+pub use orifice::Orifice;
+pub use presliding::{Presliding, PreslidingState};
+pub use progression::Progression;
 pub use pwm::{Pwm, PwmOptions};
 pub use quadratic::Quadratic;
+pub use stop::Stop;
+pub use stribeck::Stribeck;
+pub use switched_on::switched_on;
+pub use yield_force::YieldForce;

@@ -5,19 +5,19 @@ use strut_model::Real;
 use crate::effects::LiftOff;
 use crate::signals::{Deflection, Motion, RoadMotion, Travel, WheelMotion};
 
-use super::{Strut, Tire};
+use super::Tire;
 
 /// What carries a corner of a car, or the body of a quarter car (TUM eq. 3).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corner<'a, R> {
-    /// Between body and wheel.
-    pub strut: &'a Strut<R>,
     /// The wheel.
     pub unsprung_mass: R,
     /// Between wheel and road.
     pub tire: &'a Tire<R>,
     /// Where the tyre leaves the road, if it can.
     pub lift_off: Option<LiftOff<R>>,
+    /// Zero if no effect is on that [`Tire::force`] calls further.
+    pub further: R,
 }
 
 /// What a corner does.
@@ -34,13 +34,21 @@ pub struct Moving<R> {
 }
 
 impl<R: Real> Corner<'_, R> {
-    /// Between a body and a road that move; `actuator` is the force that pushes body and wheel apart.
+    /// Between a body and a road that move; `actuator` is the force that pushes body and wheel apart, `strut` makes of
+    /// deflection and velocity the one that pulls them together.
     #[inline(always)]
-    pub fn between(&self, body: Motion<R>, wheel: Motion<R>, road: RoadMotion<R>, actuator: R) -> Moving<R> {
+    pub fn between(
+        &self,
+        body: Motion<R>,
+        wheel: Motion<R>,
+        road: RoadMotion<R>,
+        actuator: R,
+        strut: impl FnOnce(R, R) -> R,
+    ) -> Moving<R> {
         let (deflection, velocity) = (body.position - wheel.position, body.velocity - wheel.velocity);
-        let strut_force = self.strut.force(deflection, velocity);
+        let strut_force = strut(deflection, velocity);
         let compression = road.position - wheel.position;
-        let free = self.tire.force(compression, road.velocity - wheel.velocity);
+        let free = self.tire.force(compression, road.velocity - wheel.velocity, self.further);
         let force = match self.lift_off {
             Some(lift_off) => lift_off.applied(free, compression),
             None => free,

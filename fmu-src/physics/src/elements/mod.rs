@@ -2,7 +2,9 @@
 
 mod anti_roll_bar;
 mod corner;
+mod guide;
 mod hydraulics;
+mod hysteresis;
 mod mode;
 mod servo_cylinder;
 mod strut;
@@ -11,7 +13,9 @@ mod valve;
 
 pub use anti_roll_bar::AntiRollBar;
 pub use corner::{Corner, Moving};
+pub use guide::{Guide, WheelGuide};
 pub use hydraulics::{Gas, Piston, Pump};
+pub use hysteresis::{Hysteresis, HysteresisState};
 pub use mode::Mode;
 pub use servo_cylinder::{Flow, Hydraulics, ServoCylinder, ValveLaw};
 pub use strut::Strut;

@@ -2,10 +2,15 @@
 
 use strut_model::{Real, Variables};
 
-use crate::effects::{Asymmetry, Coulomb};
+use crate::effects::{
+    Asymmetry, Coulomb, Fade, ForceCurve, Knee, Linkage, LoadDependence, Orifice, Progression, Stop,
+    Stribeck, YieldForce, switched_on,
+};
+
+use super::{Hysteresis, HysteresisState};
 
 /// Spring and damper, TUM eq. 2 and 14: c_c = `stiffness`, d_c = `damping`; with an asymmetric damper
-/// (4.3.1, Table 9) and Coulomb friction F_f,1 (eq. 12).
+/// (4.3.1, Table 9), Coulomb friction F_f,1 (eq. 12) and the further effects that a diagnosis looks for.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Strut<R> {
     /// Spring rate (c_c, K_s, k_2, k_a)
@@ -18,12 +23,88 @@ pub struct Strut<R> {
     pub asymmetry: Asymmetry<R>,
     /// Friction
     pub coulomb: Coulomb<R>,
+    /// Breakaway friction
+    pub stribeck: Stribeck<R>,
+    /// Friction that depends on the load
+    pub load_dependence: LoadDependence<R>,
+    /// Yield force
+    pub r#yield: YieldForce<R>,
+    /// Knee of the damper
+    pub knee: Knee<R>,
+    /// Orifice
+    pub orifice: Orifice<R>,
+    /// Fading damper
+    pub fade: Fade<R>,
+    /// Curved spring
+    pub spring: Progression<R>,
+    /// Stops
+    pub stop: Stop<R>,
+    /// Constant force that pulls body and wheel together
+    #[var(unit = N, start = 0.0)]
+    pub preload: R,
+    /// Linkage between wheel and strut
+    pub linkage: Linkage<R>,
+    /// Unnamed force
+    pub curve: ForceCurve<R>,
 }
 
 impl<R: Real> Strut<R> {
-    /// The force that pulls body and wheel together.
+    /// The force that pulls body and wheel together; `further` is zero if no effect but asymmetry and Coulomb
+    /// friction is on.
+    #[inline(always)]
+    pub fn force(&self, time: R, deflection: R, velocity: R, further: R) -> R {
+        if further.vanishes() {
+            return self.basic(deflection, velocity);
+        }
+        self.behind_linkage(deflection, velocity, |x, v| self.beside_damper(x, v) + self.damper(time, v))
+    }
+
+    /// The force that pulls body and wheel together and the rates of what the strut remembers.
+    #[inline(always)]
+    pub fn remembering(
+        &self,
+        hysteresis: &Hysteresis<R>,
+        state: &HysteresisState<R>,
+        [time, deflection, velocity]: [R; 3],
+        further: R,
+    ) -> (R, HysteresisState<R>) {
+        let mut rates = HysteresisState::rest();
+        if further.vanishes() {
+            return (self.basic(deflection, velocity), rates);
+        }
+        let force = self.behind_linkage(deflection, velocity, |x, v| {
+            let (presliding, maxwell, damper);
+            (presliding, rates.presliding) = hysteresis.presliding.force(state.presliding, v);
+            (maxwell, rates.maxwell) = hysteresis.maxwell.force(state.maxwell, v);
+            (damper, rates.mount) = hysteresis
+                .mount
+                .force(state.mount, v, self.damper(time, v), |force| self.damper_velocity(time, force));
+            self.beside_damper(x, v) + presliding + maxwell + damper
+        });
+        (force, rates)
+    }
+
+    /// How many effects are on beside asymmetry and Coulomb friction.
+    pub fn further_effects(&self) -> R {
+        switched_on([
+            self.stribeck.force,
+            self.load_dependence.slope,
+            self.r#yield.force,
+            self.knee.ratio,
+            self.orifice.coefficient,
+            self.fade.ratio,
+            self.spring.quadratic,
+            self.spring.cubic,
+            self.stop.stiffness,
+            self.preload,
+            self.linkage.slope,
+            self.curve.scale,
+        ])
+    }
+
+    /// What there is without further effects.
     #[inline]
-    pub fn force(&self, deflection: R, velocity: R) -> R {
+    fn basic(&self, deflection: R, velocity: R) -> R {
         if self.asymmetry.ratio.vanishes() & self.coulomb.force.vanishes() {
             // One question for both effects: one each would be felt in a step of the linear rig.
             return self.stiffness * deflection + self.damping * velocity;
@@ -31,12 +112,58 @@ impl<R: Real> Strut<R> {
         let passive = || self.stiffness * deflection + self.damping * self.asymmetry.effective(velocity);
         self.coulomb.added_to(passive, velocity)
     }
+
+    /// What a law in the strut's own deflection and velocity is at the wheel.
+    #[inline]
+    fn behind_linkage(&self, deflection: R, velocity: R, law: impl FnOnce(R, R) -> R) -> R {
+        if self.linkage.slope.vanishes() {
+            return law(deflection, velocity);
+        }
+        let ratio = self.linkage.ratio(deflection);
+        ratio * law(self.linkage.deflection(deflection), ratio * velocity)
+    }
+
+    /// The damper: knee, asymmetry and fade. The rate of each side changes at the knee.
+    #[inline]
+    fn damper(&self, time: R, velocity: R) -> R {
+        self.fade.left_of(self.damping, time) * self.asymmetry.effective(self.knee.effective(velocity))
+    }
+
+    /// The velocity of the damper under a force; there must be a damper.
+    #[inline]
+    fn damper_velocity(&self, time: R, force: R) -> R {
+        self.knee.velocity_of(self.asymmetry.velocity_of(force / self.fade.left_of(self.damping, time)))
+    }
+
+    /// All that does not go through the damper's mount.
+    #[inline]
+    fn beside_damper(&self, deflection: R, velocity: R) -> R {
+        let spring =
+            self.stiffness * deflection + self.spring.force(deflection) + self.stop.force(deflection);
+        let sliding = self.load_dependence.of(self.coulomb.force, deflection);
+        let friction = Coulomb { force: sliding + self.stribeck.excess(velocity), ..self.coulomb };
+        let others = || {
+            spring
+                + self.preload
+                + self.orifice.resistance(velocity)
+                + self.r#yield.force(deflection, velocity)
+                + self.curve.force(deflection, velocity)
+        };
+        friction.added_to(others, velocity)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use strut_model::{Bundle, Declarations};
+
+    /// Declared start values: no effect is on.
+    fn neutral<B: Bundle<f64>>() -> B {
+        let declared = Declarations::of::<B>();
+        B::from_fn(|i| declared[i].start)
+    }
 
     fn strut(ratio: f64, force: f64) -> Strut<f64> {
         Strut {
@@ -44,24 +171,30 @@ mod tests {
             damping: 707.0,
             asymmetry: Asymmetry { ratio, smoothing: 0.005 },
             coulomb: Coulomb { force, velocity: 0.008 },
+            ..neutral()
         }
+    }
+
+    /// At time zero.
+    fn force(strut: &Strut<f64>, x: f64, v: f64) -> f64 {
+        strut.force(0.0, x, v, strut.further_effects())
     }
 
     #[test]
     fn the_spring_alone_is_equation_14() {
-        assert_eq!(strut(0.3, 115.0).force(0.05, 0.0), 8400.0 * 0.05);
+        assert_eq!(force(&strut(0.3, 115.0), 0.05, 0.0), 8400.0 * 0.05);
     }
 
     proptest! {
         #[test]
         fn with_neutral_effects_it_is_linear(x in -0.1..0.1_f64, v in -2.0..2.0_f64) {
-            prop_assert_eq!(strut(0.0, 0.0).force(x, v), 8400.0 * x + 707.0 * v);
+            prop_assert_eq!(force(&strut(0.0, 0.0), x, v), 8400.0 * x + 707.0 * v);
         }
 
         #[test]
         fn what_is_not_spring_takes_energy(x in -0.1..0.1_f64, v in -2.0..2.0_f64, ratio in -0.9..0.9_f64) {
             let strut = strut(ratio, 115.0);
-            prop_assert!((strut.force(x, v) - strut.force(x, 0.0)) * v >= 0.0);
+            prop_assert!((force(&strut, x, v) - force(&strut, x, 0.0)) * v >= 0.0);
         }
     }
 }

@@ -3,7 +3,7 @@
 use strut_model::{Real, Variables};
 
 use crate::GRAVITY;
-use crate::effects::{Coulomb, LiftOff, Quadratic};
+use crate::effects::{CompressionCurve, Coulomb, LiftOff, Quadratic, switched_on};
 
 /// Tyre, TUM eq. 5 with the quadratic rate (4.3.2) and the friction of Table 7:
 /// `F = c_w c + b c² + d_w ċ + F̂ tanh(ċ k_f)` with the compression c = x_g − x_w.
@@ -20,6 +20,8 @@ pub struct Tire<R> {
     pub damping: R,
     /// Friction
     pub coulomb: Coulomb<R>,
+    /// Unnamed force
+    pub curve: CompressionCurve<R>,
 }
 
 /// What stands on a tyre.
@@ -42,9 +44,21 @@ impl<R: Real> Load<R> {
 }
 
 impl<R: Real> Tire<R> {
-    /// The force that presses on the road, less the static load, while the tyre cannot leave it.
+    /// The force that presses on the road, less the static load, while the tyre cannot leave it; `further` is zero
+    /// if there is no unnamed force.
     #[inline]
-    pub fn force(&self, compression: R, velocity: R) -> R {
+    pub fn force(&self, compression: R, velocity: R, further: R) -> R {
+        let named = self.named(compression, velocity);
+        if further.vanishes() { named } else { named + self.curve.force(compression) }
+    }
+
+    /// How many effects are on beside the quadratic rate and Coulomb friction.
+    pub fn further_effects(&self) -> R {
+        switched_on([self.curve.scale])
+    }
+
+    #[inline]
+    fn named(&self, compression: R, velocity: R) -> R {
         if self.quadratic.vanishes() & self.coulomb.force.vanishes() {
             // One question for both effects: one each would be felt in a step of the linear rig.
             return self.stiffness * compression + self.damping * velocity;
@@ -103,6 +117,7 @@ mod tests {
             quadratic,
             damping: 50.0,
             coulomb: Coulomb { force: friction, velocity: 0.008 },
+            curve: CompressionCurve::none(),
         }
     }
 
@@ -116,13 +131,13 @@ mod tests {
     proptest! {
         #[test]
         fn with_neutral_effects_it_is_equation_5(c in -0.05..0.05_f64, v in -2.0..2.0_f64) {
-            prop_assert!((tire(0.0, 0.0).force(c, v) - (152_140.0 * c + 50.0 * v)).abs() < 1e-9);
+            prop_assert!((tire(0.0, 0.0).force(c, v, 0.0) - (152_140.0 * c + 50.0 * v)).abs() < 1e-9);
         }
 
         #[test]
         fn what_is_not_spring_takes_energy(c in -0.05..0.05_f64, v in -2.0..2.0_f64) {
             let tire = tire(4_075_400.0, 60.0);
-            prop_assert!((tire.force(c, v) - tire.force(c, 0.0)) * v >= 0.0);
+            prop_assert!((tire.force(c, v, 0.0) - tire.force(c, 0.0, 0.0)) * v >= 0.0);
         }
     }
 }

@@ -3,11 +3,10 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Choice, Equation, Experiment, Kind, Model, Nothing, Now, Real, Settings, Stimulus, Variables,
-    bundles,
+    About, Choice, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
 };
 
-use crate::elements::{Load, Strut, Tire};
+use crate::elements::{Hysteresis, HysteresisState, Load, Strut, Tire};
 use crate::signals::RoadMotion;
 
 /// The setup with which TUM 4.3.1 and 4.3.2 measure one element: the upper end is clamped, the lower one is moved.
@@ -47,6 +46,15 @@ pub struct Parameters<R> {
     /// Mass whose weight is on the tyre where its deflection is zero
     #[var(unit = KG, start = 390.0, min = 1e-3)]
     pub carried_mass: R,
+    /// Memory of the strut
+    pub hysteresis: Hysteresis<R>,
+}
+
+/// What the strut remembers.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct State<R> {
+    /// Memory of the strut
+    pub hysteresis: HysteresisState<R>,
 }
 
 /// What follows from the parameters.
@@ -54,6 +62,9 @@ pub struct Parameters<R> {
 pub struct Derived<R> {
     /// Tyre
     pub tire: Load<R>,
+    /// Number of effects that are on beside asymmetry, Coulomb friction and quadratic rate
+    #[var(unit = ONE)]
+    pub further_effects: R,
 }
 
 /// What comes from outside.
@@ -118,34 +129,47 @@ impl Model for ElementDyno {
         ..About::DEFAULT
     };
 
-    bundles! { settings: Options, parameters: Parameters, derived: Derived, input: Input, output: Output }
+    bundles! { settings: Options, parameters: Parameters, derived: Derived, input: Input, state: State, output: Output }
 
     fn prepare(options: &Options, _: Option<&Path>) -> Result<Self, String> {
         Ok(Self { element: options.element, lift_off: options.lift_off })
     }
 
     fn derive<R: Real>(&self, p: &Parameters<R>) -> Derived<R> {
-        Derived { tire: p.tire.load(p.carried_mass) }
+        Derived {
+            tire: p.tire.load(p.carried_mass),
+            further_effects: p.strut.further_effects()
+                + p.tire.further_effects()
+                + p.hysteresis.further_effects(),
+        }
     }
 
     fn check(&self, p: &Parameters<f64>, derived: &Derived<f64>) -> Result<(), String> {
         match self.element {
             Element::Tire if self.lift_off => p.tire.check_lift_off("tire", &derived.tire),
-            Element::Tire | Element::Strut => Ok(()),
+            Element::Tire => Ok(()),
+            Element::Strut => p.hysteresis.check(p.strut.damping),
         }
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (Nothing, Output<R>) {
+    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
         let (RoadMotion { position, velocity }, p) = (now.input.motion, now.parameters);
-        let deflection = -position;
-        let force = match self.element {
-            Element::Strut => -p.strut.force(deflection, -velocity),
+        let (deflection, further) = (-position, now.derived.further_effects);
+        let (force, hysteresis) = match self.element {
+            Element::Strut => {
+                let motion = [now.time, deflection, -velocity];
+                let (force, rates) =
+                    p.strut.remembering(&p.hysteresis, &now.state.hysteresis, motion, further);
+                (-force, rates)
+            }
             Element::Tire => {
-                let force = p.tire.force(position, velocity);
-                if self.lift_off { now.derived.tire.lift_off().applied(force, position) } else { force }
+                let force = p.tire.force(position, velocity, further);
+                let held =
+                    if self.lift_off { now.derived.tire.lift_off().applied(force, position) } else { force };
+                (held, HysteresisState::rest())
             }
         };
-        (Nothing, Output { force, deflection })
+        (State { hysteresis }, Output { force, deflection })
     }
 }
 

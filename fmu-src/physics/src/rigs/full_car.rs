@@ -135,6 +135,9 @@ pub struct Derived<R> {
     pub dynamic_index: R,
     /// Tyre
     pub tire: Corners<Load<R>>,
+    /// Number of effects that are on beside asymmetry, Coulomb friction and quadratic rates
+    #[var(unit = ONE)]
+    pub further_effects: R,
 }
 
 impl Model for FullCar {
@@ -245,6 +248,8 @@ impl Model for FullCar {
         };
         let shares = p.geometry.distribution(Modal { heave: p.sprung_mass, ..rest });
         let (wheels, tires) = (p.unsprung_mass.at_corners(), p.tire.at_corners());
+        let Axles { front: front_strut, rear: rear_strut } = &p.strut;
+        let Axles { front: front_tire, rear: rear_tire } = &p.tire;
         Derived {
             heave: mode(p.sprung_mass, Modal { heave: one, ..rest }, |sum| sum.heave, zero),
             roll: mode(p.roll_inertia, Modal { roll: one, ..rest }, |sum| sum.roll, bars),
@@ -255,6 +260,10 @@ impl Model for FullCar {
             },
             dynamic_index: p.pitch_inertia / (p.sprung_mass * front * rear),
             tire: std::array::from_fn(|i| tires[i].load(shares[i] + wheels[i])).into(),
+            further_effects: front_strut.further_effects()
+                + rear_strut.further_effects()
+                + front_tire.further_effects()
+                + rear_tire.further_effects(),
         }
     }
 
@@ -297,15 +306,17 @@ impl Model for FullCar {
         let (roads, loads) = (now.input.road.to_array(), now.derived.tire.to_array());
         let (struts, masses, tires) =
             (p.strut.at_corners(), p.unsprung_mass.at_corners(), p.tire.at_corners());
+        let further = now.derived.further_effects;
         let corners: [Moving<R>; 4] = std::array::from_fn(|i| {
             let corner = Corner {
-                strut: struts[i],
                 unsprung_mass: masses[i],
                 tire: tires[i],
                 lift_off: if self.lift_off { Some(loads[i].lift_off()) } else { None },
+                further,
             };
             let top = Motion { position: heights[i], velocity: velocities[i] };
-            corner.between(top, wheels[i], roads[i], pushing[i])
+            let strut = |deflection, velocity| struts[i].force(now.time, deflection, velocity, further);
+            corner.between(top, wheels[i], roads[i], pushing[i], strut)
         });
         let sum = p.geometry.resultant(std::array::from_fn(|i| pushing[i] - corners[i].strut_force));
 

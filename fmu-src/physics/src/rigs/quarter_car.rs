@@ -10,8 +10,7 @@ use strut_model::{
     About, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
 };
 
-use crate::effects::Coulomb;
-use crate::elements::{Corner, Load, Mode, Strut, Tire};
+use crate::elements::{Corner, Guide, Hysteresis, HysteresisState, Load, Mode, Strut, Tire, WheelGuide};
 use crate::signals::{Acceleration, Deflection, Motion, Pushing, RoadMotion, Travel, WheelMotion};
 
 /// A quarter of a car, or a test rig of it.
@@ -44,13 +43,10 @@ pub struct Parameters<R> {
     pub guide: Guide<R>,
     /// Tyre
     pub tire: Tire<R>,
-}
-
-/// The guide that keeps the body upright on a rig.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Guide<R> {
-    /// Friction
-    pub coulomb: Coulomb<R>,
+    /// Vertical guide of the wheel
+    pub wheel_guide: WheelGuide<R>,
+    /// Memory of the strut
+    pub hysteresis: Hysteresis<R>,
 }
 
 /// What comes from outside.
@@ -69,6 +65,8 @@ pub struct State<R> {
     pub body: Motion<R>,
     /// Wheel
     pub wheel: Motion<R>,
+    /// Memory of the strut
+    pub hysteresis: HysteresisState<R>,
 }
 
 /// What can be measured.
@@ -93,6 +91,9 @@ pub struct Derived<R> {
     pub wheel: Mode<R>,
     /// Tyre
     pub tire: Load<R>,
+    /// Number of effects that are on beside asymmetry, quadratic rate, and Coulomb friction of strut, guide and tyre
+    #[var(unit = ONE)]
+    pub further_effects: R,
 }
 
 impl Model for QuarterCar {
@@ -179,31 +180,48 @@ impl Model for QuarterCar {
             body: Mode::of(p.sprung_mass, strut.stiffness, strut.stiffness, strut.damping),
             wheel: Mode::of(p.unsprung_mass, tire.stiffness, both, strut.damping),
             tire: tire.load(p.sprung_mass + p.unsprung_mass),
+            further_effects: strut.further_effects()
+                + p.guide.further_effects()
+                + tire.further_effects()
+                + p.wheel_guide.further_effects()
+                + p.hysteresis.further_effects(),
         }
     }
 
     fn check(&self, p: &Parameters<f64>, derived: &Derived<f64>) -> Result<(), String> {
+        p.hysteresis.check(p.strut.damping)?;
         if self.lift_off { p.tire.check_lift_off("tire", &derived.tire) } else { Ok(()) }
     }
 
     #[inline(always)]
     fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
-        let (State { body, wheel }, p) = (*now.state, now.parameters);
-        let (road, actuator) = (now.input.road, now.input.actuator.force);
+        let (State { body, wheel, hysteresis }, p) = (*now.state, now.parameters);
+        let (road, actuator, further) =
+            (now.input.road, now.input.actuator.force, now.derived.further_effects);
         let corner = Corner {
-            strut: &p.strut,
             unsprung_mass: p.unsprung_mass,
             tire: &p.tire,
             lift_off: if self.lift_off { Some(now.derived.tire.lift_off()) } else { None },
+            further,
         };
-        let moving = corner.between(body, wheel, road, actuator);
-        let on_body = p.guide.coulomb.added_to(|| moving.strut_force, body.velocity);
+        let mut memory = HysteresisState::rest();
+        let mut moving = corner.between(body, wheel, road, actuator, |deflection, velocity| {
+            let motion = [now.time, deflection, velocity];
+            let (force, rates) = p.strut.remembering(&p.hysteresis, &hysteresis, motion, further);
+            memory = rates;
+            force
+        });
+        if !further.vanishes() {
+            moving.wheel.acceleration -= p.wheel_guide.resistance(wheel.velocity) / p.unsprung_mass;
+        }
+        let on_body = p.guide.added_to(|| moving.strut_force, body.velocity, further);
         // The reciprocal does not wait for the force as the quotient would.
         let acceleration = (actuator - on_body) * (R::from(1.0) / p.sprung_mass);
 
         let rates = State {
             body: Motion { position: body.velocity, velocity: acceleration },
             wheel: Motion { position: wheel.velocity, velocity: moving.wheel.acceleration },
+            hysteresis: memory,
         };
         let output = Output {
             body: Acceleration { acceleration },

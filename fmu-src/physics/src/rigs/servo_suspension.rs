@@ -7,10 +7,8 @@ use strut_model::{
 };
 
 use crate::actuators::servo_hydraulic_actuator::{self as servo, SpoolState, SupplyOutput};
-use crate::elements::{Hydraulics, Mode, ServoCylinder, Strut, Tire, ValveLaw};
+use crate::elements::{Guide, Hydraulics, Mode, ServoCylinder, Strut, Tire, ValveLaw};
 use crate::signals::{Acceleration, Deflection, Motion, Pushing, RoadMotion, Travel};
-
-use super::quarter_car::Guide;
 
 /// A quarter of a car with a servohydraulic actuator, Konieczny 2.3.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,6 +117,9 @@ pub struct Derived<R> {
     pub actuator: Hydraulics<R>,
     /// Body and wheel against each other on the compressed oil
     pub hydraulic_mode: Mode<R>,
+    /// Number of effects that are on beside asymmetry, Coulomb friction and quadratic rates
+    #[var(unit = ONE)]
+    pub further_effects: R,
 }
 
 impl Model for ServoSuspension {
@@ -213,6 +214,7 @@ impl Model for ServoSuspension {
                 natural_frequency: natural / std::f64::consts::TAU,
                 damping_ratio: decay / (natural * 2.0),
             },
+            further_effects: p.strut.further_effects() + p.guide.further_effects() + p.tire.further_effects(),
         }
     }
 
@@ -230,10 +232,11 @@ impl Model for ServoSuspension {
         let wheel_velocity = wheel.undamped_velocity + p.tire.damping * per_unsprung * compression;
         let deflection = body.position - wheel.position;
         let velocity = body.velocity - wheel_velocity;
-        let strut = p.strut.force(deflection, velocity);
-        let on_body = p.guide.coulomb.added_to(|| strut, body.velocity);
+        let further = now.derived.further_effects;
+        let strut = p.strut.force(now.time, deflection, velocity, further);
+        let on_body = p.guide.added_to(|| strut, body.velocity, further);
         let approach = road.velocity - wheel_velocity;
-        let undamped = p.tire.without_damping().force(compression, approach);
+        let undamped = p.tire.without_damping().force(compression, approach, further);
         let tire = undamped + p.tire.damping * approach;
         let force = p.actuator.force(pressure);
         let flow = p.actuator.flow(self.law, hydraulics, spool.position, pressure);

@@ -380,7 +380,7 @@ fn alone(
     let car = QuarterCar::prepare(&Settings::starts(), None).unwrap();
     car.equations(Now {
         time: 0.0,
-        state: &Bundle::from_fn(|i| x[i]),
+        state: &Bundle::from_fn(|i| x.get(i).copied().unwrap_or(0.0)),
         input: &Bundle::from_fn(|i| u[i]),
         parameters: p,
         derived: &car.derive(p),

@@ -2,7 +2,7 @@
 
 use strut_model::{Real, Variables};
 
-use crate::effects::{Coulomb, LiftOff};
+use crate::effects::{CompressionCurve, Coulomb, LiftOff};
 use crate::elements::Tire;
 
 use super::Parameters;
@@ -38,7 +38,7 @@ impl<R: Real> WheelTire<R> {
     /// The force with which it presses on the eccentric.
     #[inline]
     pub fn force(&self, compression: R, thinning: R, lift_off: bool) -> R {
-        let force = self.element().force(compression, thinning);
+        let force = self.element().force(compression, thinning, R::from(0.0));
         if !lift_off {
             return force;
         }
@@ -55,7 +55,7 @@ impl<R: Real> WheelTire<R> {
     #[inline]
     fn element(&self) -> Tire<R> {
         let Self { stiffness, quadratic, damping, coulomb } = *self;
-        Tire { stiffness, quadratic, damping, coulomb }
+        Tire { stiffness, quadratic, damping, coulomb, curve: CompressionCurve::none() }
     }
 }
 

@@ -182,17 +182,19 @@ proptest! {
         let mut options = crate::rigs::quarter_car::Options::starts();
         Settings::set(&mut options, 0, Value::Boolean(false)).unwrap();
         let car = QuarterCar::prepare(&options, None).unwrap();
+        let declared = Declarations::of::<crate::rigs::quarter_car::Parameters<f64>>();
         let of_car = crate::rigs::quarter_car::Parameters {
             sprung_mass: p.sprung_mass,
             unsprung_mass: p.unsprung_mass,
             strut: p.strut,
             guide: p.guide,
             tire: p.tire,
+            ..Bundle::from_fn(|i| declared[i].start)
         };
         let v1 = output.wheel.velocity;
         let (expected, measured) = car.equations(Now {
             time: 0.0,
-            state: &Bundle::from_fn(|i| [x[0], x[1], x[2], v1][i]),
+            state: &Bundle::from_fn(|i| [x[0], x[1], x[2], v1, 0.0, 0.0, 0.0][i]),
             input: &Bundle::from_fn(|i| [road[0], 20.0 * road[1], output.actuator.force][i]),
             parameters: &of_car,
             derived: &car.derive(&of_car),
