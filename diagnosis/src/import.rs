@@ -29,7 +29,8 @@ pub struct Imported {
 /// # Errors
 /// If the file cannot be read, or has not the signals that the rig needs: what to do.
 pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
-    let record = data::read_with(path, map.time.as_ref()).map_err(|error| error.to_string())?;
+    let mut record = data::read_with(path, map.time.as_ref()).map_err(|error| error.to_string())?;
+    oppose(rig, &mut record, map);
     let mapped = map.apply(record, &wanted(rig)).map_err(|error| error.to_string())?;
     let name = mapped.record.name.clone();
     missing(rig, &mapped.record, &name, &mapped.unused)?;
@@ -73,10 +74,24 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
     })
 }
 
+/// Turns a signal over that is recorded in the sense of another one, unless a map says what it is.
+fn oppose(rig: &Rig, record: &mut data::Record, map: &Map) {
+    let Some((column, signal)) = rig.kind.opposed else { return };
+    let named = |name: &str, other: &str| name.trim().eq_ignore_ascii_case(other);
+    if map.signals.is_empty() && record.channels.iter().any(|channel| named(&channel.name, column)) {
+        for channel in record.channels.iter_mut().filter(|channel| named(&channel.name, signal)) {
+            channel.values.iter_mut().for_each(|value| *value = -*value);
+        }
+    }
+}
+
 /// Every signal of a rig with the names that it may have.
 fn wanted(rig: &Rig) -> Vec<Wanted> {
-    let declared = rig.plant.inputs.iter().chain(&rig.plant.outputs);
-    declared
+    let outputs = rig.plant.outputs.iter().filter(|it| !rig.kind.trivial.contains(&it.name.as_str()));
+    rig.plant
+        .inputs
+        .iter()
+        .chain(outputs)
         .map(|declared| {
             let aliases = rig.kind.aliases.iter().filter(|(name, _)| *name == declared.name);
             Wanted {

@@ -35,6 +35,10 @@ pub struct Kind {
     pub elements: &'static [ElementSignals],
     /// Other names of its signals in records; `-name` is the negative.
     pub aliases: &'static [(&'static str, &'static str)],
+    /// Outputs that follow from the inputs alone and show nothing.
+    pub trivial: &'static [&'static str],
+    /// A column in whose sense a signal is recorded if the column is there: of opposite sign to the model's.
+    pub opposed: Option<(&'static str, &'static str)>,
     /// What the force that the model misses is made of: an output's error times a parameter, if any.
     pub missing: &'static [Missing],
 }
@@ -115,6 +119,8 @@ const KINDS: &[Kind] = &[
             },
         ],
         aliases: &[("road.position", "road"), ("actuator.force", "force")],
+        trivial: &[],
+        opposed: None,
         missing: &[
             Missing {
                 quantity: "force missing on the body",
@@ -141,6 +147,9 @@ const KINDS: &[Kind] = &[
             force: ForceOf::Output("force"),
         }],
         aliases: &[("motion.position", "-deflection"), ("motion.velocity", "-velocity")],
+        trivial: &["deflection"],
+        // A force that is recorded beside a deflection resists it.
+        opposed: Some(("deflection", "force")),
         missing: &[Missing {
             quantity: "force missing in the strut",
             output: "force",
