@@ -277,7 +277,7 @@ fn bridge(values: &mut [f64], valid: &mut [bool]) -> (usize, usize) {
 }
 
 /// Ranges of neighbours that have this value.
-pub(crate) fn runs<T: PartialEq>(values: &[T], wanted: T) -> Vec<Range<usize>> {
+pub(crate) fn runs<T: PartialEq + Copy>(values: &[T], wanted: T) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut start = None;
     for (i, value) in values.iter().enumerate() {
