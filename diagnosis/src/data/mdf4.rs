@@ -174,7 +174,7 @@ fn read_data_group(
         match time {
             Some(time) => groups.push(Group { time, channels }),
             None => {
-                left_out.extend(channels.iter().map(|c| format!("{}: no master channel of time", c.name)))
+                left_out.extend(channels.iter().map(|c| format!("{}: no master channel of time", c.name)));
             }
         }
     }

@@ -9,6 +9,7 @@ pub mod csv;
 pub mod error;
 mod interpolate;
 pub mod map;
+mod matlab;
 mod mdf4;
 mod noise;
 pub mod table;
@@ -69,6 +70,8 @@ pub fn read_with(path: &Path, time: Option<&TimeColumn>) -> Result<Record, DataE
 pub fn parse(name: &str, bytes: &[u8], time: Option<&TimeColumn>) -> Result<Record, DataError> {
     let table = if bytes.starts_with(mdf4::MAGIC) || bytes.starts_with(mdf4::UNFINISHED) {
         mdf4::parse(name, bytes)?
+    } else if matlab::is_matlab(bytes) {
+        matlab::parse(name, bytes)?
     } else {
         csv::parse(name, bytes)?
     };
