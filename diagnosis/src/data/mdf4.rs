@@ -3,7 +3,7 @@
 //! Read are sorted and unsorted records, plain, listed and compressed data, integer and floating channels of either
 //! byte order, linear conversions and invalidation bits (missing samples). Text channels, arrays and channels with
 //! other conversions are left out; if nothing is left, the message says so. Groups with other times are
-//! interpolated linearly onto the times of the fastest one.
+//! interpolated linearly onto the times of the fastest one; the second channel of a name `x` becomes `x#2`.
 
 mod channel;
 mod records;
@@ -13,6 +13,7 @@ use super::interpolate::linear;
 use super::table::Table;
 use super::{Channel, DataError};
 use channel::Reader;
+use std::collections::BTreeMap;
 
 /// Start of a file; the version follows.
 pub(crate) const MAGIC: &[u8] = b"MDF     ";
@@ -122,24 +123,25 @@ pub(crate) fn parse(file: &str, all: &[u8]) -> Result<Table, DataError> {
         read_data_group(bytes, &group, &mut groups, &mut left_out)?;
     }
     groups.retain(|group| !group.channels.is_empty() && !group.time.is_empty());
-    join(groups)
-        .ok_or_else(|| {
-            let why = if left_out.is_empty() {
-                String::new()
-            } else {
-                format!(" (left out: {})", left_out.join("; "))
-            };
-            bytes.error(format!("has no numeric channel with a master channel of time{why}"))
-        })
-        .and_then(|columns| {
-            let first = |i: usize| columns[..i].iter().any(|column: &Channel| column.name == columns[i].name);
-            if let Some(double) = (1..columns.len()).find(|&i| first(i)) {
-                let text =
-                    "two channels have this name: rename one, or export the group that is wanted alone";
-                return Err(DataError::signal(file, &columns[double].name, text));
-            }
-            Ok(Table { name: file.to_owned(), columns, master: Some(0) })
-        })
+    let mut columns = join(groups).ok_or_else(|| {
+        let why =
+            if left_out.is_empty() { String::new() } else { format!(" (left out: {})", left_out.join("; ")) };
+        bytes.error(format!("has no numeric channel with a master channel of time{why}"))
+    })?;
+    number_doubles(&mut columns);
+    Ok(Table { name: file.to_owned(), columns, master: Some(0) })
+}
+
+/// Names are free in MDF: the second channel `x` becomes `x#2`.
+fn number_doubles(columns: &mut [Channel]) {
+    let mut counts = BTreeMap::new();
+    for column in columns {
+        let count = counts.entry(column.name.clone()).or_insert(0_usize);
+        *count += 1;
+        if *count > 1 {
+            column.name += &format!("#{count}");
+        }
+    }
 }
 
 /// Reads all channel groups of a data group.

@@ -82,7 +82,7 @@ pub fn uniform(record: &Record) -> Result<(Uniform, Vec<DataProblem>), DataError
         }
         if lost > 0 {
             let text = format!(
-                "{lost} samples are missing in runs of more than {BRIDGED}: these stretches are left out"
+                "{lost} samples are missing at an end or in runs of more than {BRIDGED}: these stretches are left out"
             );
             report(&channel.name, text);
         }

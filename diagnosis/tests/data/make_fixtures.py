@@ -19,6 +19,7 @@ TIME = np.arange(N) * 0.01
 FORCE = 100.0 * np.sin(2.0 * np.pi * TIME)
 COUNTS = (np.arange(N) * 37 % 200 - 100).astype(np.int16)
 LINEAR = {"a": 0.5, "b": 3.0}
+RATIONAL = {"P1": 0.0, "P2": 1.0, "P3": -4.0, "P4": 0.0, "P5": 0.0, "P6": 4.0}
 
 
 def signals():
@@ -32,6 +33,7 @@ def signals():
         Signal(COUNTS.astype(">i4"), TIME, name="big", unit="V"),
         Signal(np.abs(COUNTS).astype(np.uint8), TIME, name="byte"),
         Signal(FORCE, TIME, name="gaps", unit="N", invalidation_bits=invalid),
+        Signal(COUNTS, TIME, name="ratio", unit="A", conversion=RATIONAL),
     ]
 
 
@@ -47,7 +49,8 @@ mdf("plain.mf4", [signals()])
 mdf("deflate.mf4", [signals()], compression=1)
 mdf("transposed.mf4", [signals()], compression=2)
 mdf("two-rates.mf4", [[Signal(FORCE, TIME, name="force", unit="N")],
-                      [Signal(10.0 * slow, slow, name="ramp", unit="m")]])
+                      [Signal(10.0 * slow, slow, name="ramp", unit="m"),
+                       Signal(-10.0 * slow, slow, name="force", unit="N")]])
 mdf("table-conversion.mf4", [[Signal(COUNTS.astype(np.uint8) % 3, TIME, name="gear",
                               conversion={"val_0": 0, "text_0": b"off", "val_1": 1, "text_1": b"on",
                                           "default": b"?"})]])

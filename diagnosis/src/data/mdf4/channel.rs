@@ -128,9 +128,14 @@ fn conversion(bytes: Bytes, at: u64) -> Result<Result<(f64, f64, String), String
     let block = Block::read(bytes, at, "##CC")?;
     let unit = text(bytes, block.link(1))?;
     // cc_type, precision, flags (2), cc_ref_count (2), cc_val_count (2), range (16), values.
+    let value = |number: u64| block.float(24 + 8 * number);
     Ok(match block.number(0, 1)? {
         0 => Ok((1.0, 0.0, unit)),
-        1 => Ok((block.float(32)?, block.float(24)?, unit)),
+        1 => Ok((value(1)?, value(0)?, unit)),
+        // (P1 x² + P2 x + P3)/(P4 x² + P5 x + P6), which recorders also use for straight lines.
+        2 if value(0)? == 0.0 && value(3)? == 0.0 && value(4)? == 0.0 && value(5)? != 0.0 => {
+            Ok((value(1)? / value(5)?, value(2)? / value(5)?, unit))
+        }
         other => Err(format!("conversions of type {other} are not read, only linear ones")),
     })
 }

@@ -29,8 +29,15 @@ fn what_asammdf_writes() {
     for bytes in [PLAIN, DEFLATE, TRANSPOSED] {
         let record = read(bytes);
         let titles: Vec<_> = record.channels.iter().map(|c| (c.name.as_str(), c.unit.as_str())).collect();
-        let wanted =
-            [("force", "N"), ("single", "kN"), ("counts", "mm"), ("big", "V"), ("byte", ""), ("gaps", "N")];
+        let wanted = [
+            ("force", "N"),
+            ("single", "kN"),
+            ("counts", "mm"),
+            ("big", "V"),
+            ("byte", ""),
+            ("gaps", "N"),
+            ("ratio", "A"),
+        ];
         assert_eq!(titles, wanted);
         assert_eq!(record.time.len(), 50);
         let value = |channel: usize, i: usize| record.channels[channel].values[i];
@@ -41,6 +48,7 @@ fn what_asammdf_writes() {
             assert_eq!(value(2, i), 0.5 * count(i) + 3.0);
             assert_eq!(value(3, i), count(i));
             assert_eq!(value(4, i), count(i).abs());
+            assert_eq!(value(6, i), 0.25 * count(i) - 1.0);
             assert!(if i == 7 { value(5, i).is_nan() } else { (value(5, i) - force(i)).abs() < 1e-12 });
         }
     }
@@ -50,8 +58,10 @@ fn what_asammdf_writes() {
 fn slow_groups_come_onto_the_times_of_the_fastest() {
     let record = read(TWO_RATES);
     assert_eq!(record.time.len(), 50);
-    assert_eq!(record.channels[1].name, "ramp");
+    let names: Vec<_> = record.channels.iter().map(|c| c.name.as_str()).collect();
+    assert_eq!(names, ["force", "ramp", "force#2"]);
     assert!((record.channels[1].values[25] - 2.5).abs() < 1e-12);
+    assert!((record.channels[2].values[25] + 2.5).abs() < 1e-12);
 }
 
 #[test]
