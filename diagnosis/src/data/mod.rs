@@ -3,11 +3,14 @@
 //! A record goes through [`read`] (CSV, MDF4, MATLAB), [`map::Map::apply`] (the model's names, SI units),
 //! [`check::check`] (what is wrong with it) and [`uniform::uniform`] (evenly spaced times).
 
+mod bytes;
 pub mod check;
 pub mod csv;
 pub mod error;
 mod interpolate;
 pub mod map;
+mod matlab;
+mod mdf4;
 mod noise;
 pub mod table;
 pub mod uniform;
@@ -65,5 +68,12 @@ pub fn read_with(path: &Path, time: Option<&TimeColumn>) -> Result<Record, DataE
 /// # Errors
 /// As [`read_with`].
 pub fn parse(name: &str, bytes: &[u8], time: Option<&TimeColumn>) -> Result<Record, DataError> {
-    csv::parse(name, bytes)?.into_record(time)
+    let table = if bytes.starts_with(mdf4::MAGIC) || bytes.starts_with(mdf4::UNFINISHED) {
+        mdf4::parse(name, bytes)?
+    } else if matlab::is_matlab(bytes) {
+        matlab::parse(name, bytes)?
+    } else {
+        csv::parse(name, bytes)?
+    };
+    table.into_record(time)
 }

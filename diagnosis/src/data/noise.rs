@@ -26,8 +26,8 @@ impl Lattice {
     }
 }
 
-/// The lattice of a signal: the largest q of which all differences of values are multiples. None if the values are
-/// finer than 2⁻¹⁸ of their range, or constant.
+/// The lattice of a signal: the largest q of which all differences of values are multiples, if need be but for the
+/// rounding of printed numbers. None if the values are finer than 2⁻¹⁸ of their range, or constant.
 #[must_use]
 pub fn lattice(values: &[f64]) -> Option<Lattice> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
@@ -36,10 +36,16 @@ pub fn lattice(values: &[f64]) -> Option<Lattice> {
     let range = last - first;
     let (finest, rounding) = (range * 2.0_f64.powi(-18), range * 2.0_f64.powi(-25));
     sorted.dedup_by(|a, b| (*a - *b).abs() <= rounding);
-    let mut q = range;
+    let step = divisor(&sorted, rounding, finest).or_else(|| spacing(&sorted).filter(|&q| q > finest));
+    step.filter(|_| sorted.len() > 1).map(|step| Lattice { step, levels: sorted.len() })
+}
+
+/// The greatest common divisor of the ascending values' differences; none if it is not above the finest.
+fn divisor(sorted: &[f64], rounding: f64, finest: f64) -> Option<f64> {
+    let mut q = sorted[sorted.len() - 1] - sorted[0];
     // Euclid's algorithm; a remainder that is nearly nothing, or nearly the divisor, is rounding.
-    for value in &sorted {
-        let (mut a, mut b) = (value - first, q);
+    for value in sorted {
+        let (mut a, mut b) = (value - sorted[0], q);
         while b > rounding {
             let rest = a % b;
             (a, b) = (b, if b - rest <= rounding { 0.0 } else { rest });
@@ -49,7 +55,33 @@ pub fn lattice(values: &[f64]) -> Option<Lattice> {
             return None;
         }
     }
-    (sorted.len() > 1).then_some(Lattice { step: q, levels: sorted.len() })
+    Some(q)
+}
+
+/// The spacing of ascending values that lie within a tenth of it on a lattice: the least distance of neighbours,
+/// refined by a line through the values over their numbers on the lattice.
+fn spacing(sorted: &[f64]) -> Option<f64> {
+    const FEWEST: usize = 8;
+    let gaps = || sorted.windows(2).map(|pair| pair[1] - pair[0]);
+    let mut q = gaps().reduce(f64::min).filter(|&q| q > 0.0 && sorted.len() >= FEWEST)?;
+    let mut places = vec![0.0; sorted.len()];
+    for _ in 0..3 {
+        for (i, gap) in gaps().enumerate() {
+            places[i + 1] = places[i] + (gap / q).round();
+        }
+        q = line(&places, sorted).1;
+    }
+    let (start, q) = line(&places, sorted);
+    places.iter().zip(sorted).all(|(place, value)| (value - start - q * place).abs() < 0.1 * q).then_some(q)
+}
+
+/// Value at 0 and slope of the line through y over x.
+fn line(x: &[f64], y: &[f64]) -> (f64, f64) {
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let (mean_x, mean_y) = (mean(x), mean(y));
+    let covariance: f64 = x.iter().zip(y).map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
+    let slope = covariance / x.iter().map(|x| (x - mean_x).powi(2)).sum::<f64>();
+    (mean_y - slope * mean_x, slope)
 }
 
 /// Standard deviation of the white noise on a signal, from its fifth differences: their median is moved neither by
@@ -118,7 +150,12 @@ mod tests {
         assert!((lattice(&[0.0, 2.0, 5.0, 9.0]).unwrap().step - 1.0).abs() < 1e-9);
         let fine: Vec<f64> = multisine(1, 500).iter().map(|v| (v * 1e4).round() / 1e4).collect();
         assert!((lattice(&fine).unwrap().step - 1e-4).abs() < 1e-8);
+        // A converter's steps, printed with five digits.
+        let printed: Vec<f64> = multisine(1, 2000).iter().map(|v| (v * 200.0).round() * 3.5625).collect();
+        let printed: Vec<f64> = printed.iter().map(|v| format!("{v:.4e}").parse().unwrap()).collect();
+        assert!((lattice(&printed).unwrap().step - 3.5625).abs() < 1e-4);
         assert_eq!(lattice(&multisine(1, 500)), None);
+        assert_eq!(lattice(&noise(1, 4000)), None);
         assert_eq!(lattice(&[3.0; 9]), None);
         assert_eq!(lattice(&[]), None);
     }

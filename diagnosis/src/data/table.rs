@@ -16,6 +16,11 @@ pub struct TimeColumn {
     pub unit: Option<String>,
 }
 
+/// Whether a column of this name is the time.
+pub(crate) fn is_time(name: &str) -> bool {
+    TIME_NAMES.contains(&name.to_lowercase().as_str())
+}
+
 /// The columns of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Table {
@@ -64,7 +69,7 @@ impl Table {
                 DataError::signal(&self.name, &wanted.column, text)
             });
         }
-        let named = |column: &Channel| TIME_NAMES.contains(&column.name.to_lowercase().as_str());
+        let named = |column: &Channel| is_time(&column.name);
         // A first column without a known name is believed if its unit is one of time.
         let timed = |column: &Channel| units::conversion(&column.unit, "s").is_ok();
         self.master

@@ -82,7 +82,7 @@ pub fn uniform(record: &Record) -> Result<(Uniform, Vec<DataProblem>), DataError
         }
         if lost > 0 {
             let text = format!(
-                "{lost} samples are missing in runs of more than {BRIDGED}: these stretches are left out"
+                "{lost} samples are missing at an end or in runs of more than {BRIDGED}: these stretches are left out"
             );
             report(&channel.name, text);
         }
@@ -277,7 +277,7 @@ fn bridge(values: &mut [f64], valid: &mut [bool]) -> (usize, usize) {
 }
 
 /// Ranges of neighbours that have this value.
-pub(crate) fn runs<T: PartialEq>(values: &[T], wanted: T) -> Vec<Range<usize>> {
+pub(crate) fn runs<T: PartialEq + Copy>(values: &[T], wanted: T) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut start = None;
     for (i, value) in values.iter().enumerate() {

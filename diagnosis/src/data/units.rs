@@ -143,6 +143,7 @@ pub fn conversion(from: &str, to: &str) -> Result<Conversion, String> {
 fn parse(unit: &str) -> Result<(Size, f64), String> {
     let temperature = |factor| Size { factor, dimension: [0, 0, 0, 0, 1, 0] };
     match unit {
+        "" => return Ok((Size { factor: 1.0, dimension: NONE }, 0.0)),
         "degC" | "°C" | "C" => return Ok((temperature(1.0), 273.15)),
         "degF" | "°F" => return Ok((temperature(5.0 / 9.0), 273.15 - 32.0 * 5.0 / 9.0)),
         _ => {}
@@ -155,9 +156,6 @@ fn parse(unit: &str) -> Result<(Size, f64), String> {
 }
 
 fn unknown(unit: &str) -> String {
-    if unit.is_empty() {
-        return "there is no unit".to_owned();
-    }
     format!(
         "`{unit}` is not a unit known here (known are mm, kN, m/s2, g, deg, rpm, bar, … and products of them)"
     )
@@ -294,10 +292,64 @@ mod tests {
     }
 
     #[test]
+    fn units_of_the_models() {
+        for unit in [
+            "",
+            "1",
+            "V",
+            "s",
+            "N.s/m",
+            "Hz",
+            "m",
+            "N/m",
+            "kg",
+            "m3",
+            "m/s",
+            "Pa",
+            "N",
+            "m2",
+            "N.m",
+            "kg.m2",
+            "m3/s",
+            "N.m.s/rad",
+            "V.s2/m",
+            "1/m",
+            "rad",
+            "1/s",
+            "m5/(N.s)",
+            "N/m2",
+            "V/N",
+            "V/A",
+            "Ohm",
+            "s2/m2",
+            "s/rad",
+            "m2/s",
+            "Pa.s/m3",
+            "Hz/s",
+            "A",
+            "rad/s",
+            "m/s2",
+            "rad/(s2.N)",
+            "N/A",
+            "N.m.s2/rad",
+            "H",
+            "A.s/m",
+            "1/N2",
+            "K",
+            "W",
+        ] {
+            assert_eq!(conversion(unit, unit), Ok(Conversion { scale: 1.0, offset: 0.0 }), "{unit}");
+        }
+        assert!(conversion("N.m.s/rad", "N.m.s").is_err());
+        assert!((conversion("N.mm.min/deg", "N.m.s/rad").unwrap().scale - 0.06 * 180.0 / PI).abs() < 1e-12);
+    }
+
+    #[test]
     fn what_does_not_fit_is_refused() {
         assert!(conversion("V", "m").unwrap_err().contains("`V` does not measure the same as `m`"));
         assert!(conversion("rpm", "Hz").is_err());
-        for unit in ["furlong", "m//s", "m/", "(m", "m)", "()", "", "m^x", "m99", "/", "..", "mkg"] {
+        assert!(conversion("", "s").is_err());
+        for unit in ["furlong", "m//s", "m/", "(m", "m)", "()", "m^x", "m99", "/", "..", "mkg"] {
             assert!(conversion(unit, "m").is_err(), "{unit}");
         }
     }

@@ -1,13 +1,15 @@
 //! What is wrong with one signal.
 
 use super::{Channel, MOST_MISSING, Problems, describe, number, percent, runs};
-use crate::data::noise::{lattice, median};
+use crate::data::noise::{lattice, median, noise_floor};
 use std::ops::Range;
 
 /// Share of samples that differ from the one before, from which a signal counts as a moving measurement.
 const MOVING: f64 = 0.5;
 /// Share of the record during which a stuck sensor stands still.
 const STUCK: f64 = 0.2;
+/// Size of the jump, over the median change, with which a stuck sensor comes back.
+const JUMP: f64 = 5.0;
 /// Samples at an extreme value in a row that make a flat top, and how many of them make saturation.
 const FLAT: usize = 3;
 const FEWEST_FLAT: usize = 5;
@@ -94,13 +96,23 @@ fn moves(values: &[f64], share: f64) -> bool {
     changes as f64 > share * (values.len().saturating_sub(still)) as f64
 }
 
-/// The longest stretch in which the signal stands still, if it is long and another signal moves in it.
+/// The longest stretch in which the signal stands still, if it is long, another signal moves in it, and it is no
+/// rest: a resting signal moves off smoothly, and shows its noise if that is more than its rounding.
 fn stuck<'a>(values: &[f64], mut others: impl Iterator<Item = &'a Channel>) -> Option<Range<usize>> {
     let equal: Vec<bool> = values.windows(2).map(|pair| pair[0] == pair[1]).collect();
     let longest = runs(&equal, true).into_iter().max_by_key(Range::len)?;
     let run = longest.start..longest.end + 1;
     let long = run.len() as f64 > STUCK * values.len() as f64;
-    (long && others.any(|other| moves(&other.values[run.clone()], MOVING))).then_some(run)
+    if !long || !others.any(|other| moves(&other.values[run.clone()], MOVING)) {
+        return None;
+    }
+    let change = |pair: &[f64]| (pair[1] - pair[0]).abs();
+    let mut changes: Vec<f64> = values.windows(2).map(change).filter(|&c| c > 0.0).collect();
+    let usual = median(&mut changes)?;
+    let jump = values.get(run.end).map_or(0.0, |next| (next - values[run.start]).abs());
+    let step = lattice(values).map_or(0.0, |lattice| lattice.step);
+    let noise = noise_floor(&values[..run.start]).max(noise_floor(&values[run.end..]));
+    (jump > JUMP * usual || noise > (0.5 * step).max(1e-3 * usual)).then_some(run)
 }
 
 /// Flat tops at the extreme value.

@@ -85,6 +85,33 @@ fn switched_commands_are_no_faults() {
 }
 
 #[test]
+fn the_signals_of_healthy_rigs_are_no_faults() {
+    let shapes: [fn(f64) -> f64; 7] = [
+        |t| (TAU * 5.0 * t).sin(), // a sine without noise, 200 samples a period
+        |t| 2.0 * (2.0 * (0.7 * t).fract() - 1.0).abs() - 1.0, // triangle
+        |t| (TAU * (1.0 + 8.0 * t) * t).sin(), // chirp
+        |t| (TAU * 1.3 * t).sin().signum() * (1.0 + 0.1 * t), // friction
+        |t| (-20.0 * (t % 0.5)).exp() * (TAU * 60.0 * (t % 0.5)).sin(), // impacts that ring down
+        |t| (TAU * 0.8 * t).sin() - (TAU * 0.8 * t).sin().clamp(-0.9, 0.9), // events, otherwise at rest
+        |t| if t < 0.8 { 0.0 } else { (TAU * 3.0 * (t - 0.8)).sin() }, // rest, then motion
+    ];
+    for sigma in [0.0, 0.003, 0.05] {
+        let mut record = clean(5, 0.01);
+        for (k, shape) in shapes.into_iter().enumerate() {
+            let noise = noise(k as u64, N);
+            let values = record.time.iter().zip(noise).map(|(&t, n)| shape(t) + sigma * n).collect();
+            record.channels.push(Channel { name: format!("shape {k}"), unit: "m".into(), values });
+        }
+        assert_eq!(check(&record), [], "noise {sigma}");
+        for channel in &mut record.channels {
+            channel.values.iter_mut().for_each(|value| *value = (*value * 500.0).round() / 500.0);
+        }
+        record.channels.remove(2); // Its values are as small as the steps.
+        assert_eq!(check(&record), [], "noise {sigma}, rounded");
+    }
+}
+
+#[test]
 fn too_short() {
     let mut record = clean(1, 0.01);
     record.time.truncate(150);
@@ -189,6 +216,14 @@ fn stuck() {
     let (signal, text, fatal) = only(&record);
     assert_eq!((signal.as_str(), fatal), ("z", false));
     assert!(text.starts_with("is stuck at ") && text.contains("from 1 to 1.699 s"), "{text}");
+}
+
+#[test]
+fn stuck_without_noise() {
+    let mut record = clean(1, 0.0);
+    let value = record.channels[2].values[1000];
+    record.channels[2].values[1000..1700].fill(value);
+    assert!(only(&record).1.starts_with("is stuck at "));
 }
 
 #[test]

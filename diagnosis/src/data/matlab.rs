@@ -1,0 +1,222 @@
+//! Records from MATLAB's MAT-files of version 5 to 7 (`save -v7`): MathWorks, MAT-File Format, R2023b.
+//!
+//! Real numeric vectors (n×1 or 1×n), by their names, and those in the fields of structs. All vectors as long as
+//! the time are its channels; scalars, matrices, text and objects are left out. There are no units: SI is assumed
+//! unless the map says otherwise.
+
+use super::bytes::Bytes;
+use super::table::{self, Table};
+use super::{Channel, DataError};
+use std::collections::BTreeMap;
+
+/// Types of data elements, `mi…`.
+const MATRIX: u32 = 14;
+const COMPRESSED: u32 = 15;
+/// Classes of arrays, `mx…_CLASS`: numeric ones are from double to uint64.
+const STRUCT: u8 = 2;
+const NUMERIC: std::ops::RangeInclusive<u8> = 6..=15;
+/// Flag of arrays with an imaginary part.
+const COMPLEX: u8 = 0x08;
+/// Structs in structs that are followed.
+const DEEPEST: usize = 4;
+const HEADER: u64 = 128;
+
+/// Whether a file's contents are a MAT-file of version 5 or later.
+pub(crate) fn is_matlab(bytes: &[u8]) -> bool {
+    is_hdf5(bytes) || matches!(bytes.get(126..128), Some(b"IM" | b"MI")) && bytes.starts_with(b"MATLAB")
+}
+
+fn is_hdf5(bytes: &[u8]) -> bool {
+    [0, 512].iter().any(|&at| bytes.get(at..at + 8) == Some(b"\x89HDF\r\n\x1a\n"))
+}
+
+/// Columns of a MAT-file.
+pub(crate) fn parse(file: &str, all: &[u8]) -> Result<Table, DataError> {
+    let bytes = Bytes { file, all };
+    if is_hdf5(all) {
+        return Err(bytes.error("is a MAT-file of version 7.3: save it again with `save -v7`"));
+    }
+    let big_endian = bytes.get(126, 2)? == b"MI";
+    let mut elements = Elements { bytes, at: HEADER, big_endian };
+    let mut vectors = Vec::new();
+    while let Some((kind, data)) = elements.next()? {
+        let unpacked;
+        let (kind, data) = if kind == COMPRESSED {
+            unpacked = bytes.inflate(data)?;
+            let mut inner = Elements { bytes: Bytes { file, all: &unpacked }, at: 0, big_endian };
+            match inner.next()? {
+                Some(element) => element,
+                None => continue,
+            }
+        } else {
+            (kind, data)
+        };
+        if kind == MATRIX {
+            let inner = Elements { bytes: Bytes { file, all: data }, at: 0, big_endian };
+            matrix(inner, &mut Vec::new(), None, &mut vectors)?;
+        }
+    }
+    table(bytes, vectors)
+}
+
+/// A vector, with the names of the structs that it is in before its own.
+struct Vector {
+    path: Vec<String>,
+    values: Vec<f64>,
+}
+
+/// The vectors that belong together.
+fn table(bytes: Bytes, mut vectors: Vec<Vector>) -> Result<Table, DataError> {
+    let length = vectors
+        .iter()
+        .find(|v| table::is_time(v.path.last().map_or("", |name| name)))
+        .map(|v| v.values.len());
+    let length = length.or_else(|| {
+        let mut counts = BTreeMap::new();
+        vectors.iter().for_each(|v| *counts.entry(v.values.len()).or_insert(0) += 1);
+        counts.into_iter().max_by_key(|&(length, count)| (count, length)).map(|(length, _)| length)
+    });
+    vectors.retain(|vector| Some(vector.values.len()) == length);
+    if vectors.is_empty() {
+        let text = "has no real numeric vectors: save time and signals as vectors, `save('run.mat', 't', 'x', '-v7')`";
+        return Err(bytes.error(text));
+    }
+    // A field goes by its own name, unless another field has it too.
+    let names: Vec<String> = vectors
+        .iter()
+        .map(|vector| {
+            let own = vector.path.last();
+            let shared = vectors.iter().filter(|other| other.path.last() == own).count() > 1;
+            if shared { vector.path.join(".") } else { own.cloned().unwrap_or_default() }
+        })
+        .collect();
+    if let Some(i) = (1..names.len()).find(|&i| names[..i].contains(&names[i])) {
+        return Err(DataError::signal(bytes.file, &names[i], "two vectors have this name: rename one"));
+    }
+    let channel =
+        |(name, vector): (String, Vector)| Channel { name, unit: String::new(), values: vector.values };
+    let columns = names.into_iter().zip(vectors).map(channel).collect();
+    Ok(Table { name: bytes.file.to_owned(), columns, master: None })
+}
+
+/// Reads an array element and adds its vectors; a field's name comes from its struct.
+fn matrix(
+    mut parts: Elements,
+    path: &mut Vec<String>,
+    field: Option<&str>,
+    vectors: &mut Vec<Vector>,
+) -> Result<(), DataError> {
+    let bytes = parts.bytes;
+    let damaged = || bytes.error("is damaged: an array without its parts");
+    // Empty fields are arrays without any parts.
+    let Some((_, flags)) = parts.next()? else { return Ok(()) };
+    let [low, high, ..] = *flags else { return Err(damaged()) };
+    let (class, flags) = match (parts.big_endian, flags) {
+        (true, &[_, _, flags, class, ..]) => (class, flags),
+        _ => (low, high),
+    };
+    if class != STRUCT && !NUMERIC.contains(&class) {
+        return Ok(());
+    }
+    let (kind, data) = parts.next()?.ok_or_else(damaged)?;
+    let sizes: Vec<f64> = numbers(kind, data, parts.big_endian).ok_or_else(damaged)?;
+    let (_, own_name) = parts.next()?.ok_or_else(damaged)?;
+    let name = field.map_or_else(|| String::from_utf8_lossy(own_name).into_owned(), str::to_owned);
+    path.push(name);
+    if class == STRUCT {
+        // Arrays of structs have several values for each field.
+        if path.len() <= DEEPEST && sizes.iter().product::<f64>() == 1.0 {
+            fields(&mut parts, path, vectors)?;
+        }
+    } else if flags & COMPLEX == 0 && sizes.iter().filter(|&&size| size != 1.0).count() == 1 {
+        let (kind, data) = parts.next()?.ok_or_else(damaged)?;
+        let values = numbers(kind, data, parts.big_endian).ok_or_else(damaged)?;
+        if values.len() as f64 != sizes.iter().product::<f64>() {
+            return Err(damaged());
+        }
+        if !values.is_empty() {
+            vectors.push(Vector { path: path.clone(), values });
+        }
+    }
+    path.pop();
+    Ok(())
+}
+
+fn fields(parts: &mut Elements, path: &mut Vec<String>, vectors: &mut Vec<Vector>) -> Result<(), DataError> {
+    let bytes = parts.bytes;
+    let damaged = || bytes.error("is damaged: a struct without its fields");
+    let (kind, data) = parts.next()?.ok_or_else(damaged)?;
+    let width = numbers(kind, data, parts.big_endian).and_then(|w| w.first().copied()).unwrap_or(0.0);
+    let (_, names) = parts.next()?.ok_or_else(damaged)?;
+    if width < 1.0 {
+        return Err(damaged());
+    }
+    for name in names.chunks(width as usize) {
+        let end = name.iter().position(|&byte| byte == 0).unwrap_or(name.len());
+        let name = String::from_utf8_lossy(&name[..end]).into_owned();
+        let (kind, data) = parts.next()?.ok_or_else(damaged)?;
+        if kind == MATRIX {
+            let inner = Elements { bytes: Bytes { all: data, ..bytes }, at: 0, big_endian: parts.big_endian };
+            matrix(inner, path, Some(&name), vectors)?;
+        }
+    }
+    Ok(())
+}
+
+/// Data elements one after another.
+#[derive(Clone, Copy)]
+struct Elements<'a> {
+    bytes: Bytes<'a>,
+    at: u64,
+    big_endian: bool,
+}
+
+impl<'a> Elements<'a> {
+    /// Type and data of the next element; none at the end.
+    fn next(&mut self) -> Result<Option<(u32, &'a [u8])>, DataError> {
+        if self.at >= self.bytes.all.len() as u64 {
+            return Ok(None);
+        }
+        let word = |at: u64| {
+            let bytes = self.bytes.get(at, 4)?.first_chunk().copied().unwrap_or_default();
+            Ok(if self.big_endian { u32::from_be_bytes(bytes) } else { u32::from_le_bytes(bytes) })
+        };
+        let first = word(self.at)?;
+        // Up to four bytes are packed beside the type.
+        if first >> 16 != 0 {
+            let data = self.bytes.get(self.at + 4, u64::from(first >> 16))?;
+            self.at += 8;
+            return Ok(Some((first & 0xFFFF, data)));
+        }
+        let length = u64::from(word(self.at + 4)?);
+        let data = self.bytes.get(self.at + 8, length)?;
+        self.at += 8 + if first == COMPRESSED { length } else { length.next_multiple_of(8) };
+        Ok(Some((first, data)))
+    }
+}
+
+/// The numbers of a data element; none if it does not hold numbers.
+fn numbers(kind: u32, data: &[u8], big_endian: bool) -> Option<Vec<f64>> {
+    let size = match kind {
+        1 | 2 => 1,
+        3 | 4 => 2,
+        5..=7 => 4,
+        9 | 12 | 13 => 8,
+        _ => return None,
+    };
+    let join = |number: u64, &byte: &u8| number << 8 | u64::from(byte);
+    let number = |bytes: &[u8]| {
+        let raw = if big_endian { bytes.iter().fold(0, join) } else { bytes.iter().rev().fold(0, join) };
+        let unused = 64 - 8 * size;
+        match kind {
+            7 => f64::from(f32::from_bits(raw as u32)),
+            9 => f64::from_bits(raw),
+            1 | 3 | 5 | 12 => ((raw << unused).cast_signed() >> unused) as f64,
+            _ => raw as f64,
+        }
+    };
+    Some(data.chunks_exact(size).map(number).collect())
+}
+
+#[cfg(test)]
+mod tests;
