@@ -34,7 +34,7 @@ impl Diagnosis<'_> {
         let best = signals.iter().map(|signal| signal.phi_after).fold(f64::NEG_INFINITY, f64::max);
         let verdict = if best < INADEQUATE {
             Verdict::ModelInadequate
-        } else if unnamed.is_some() {
+        } else if matches!(self.found.accepted.first().map(|it| it.term), Some(Term::Table(_))) {
             Verdict::Unnamed
         } else if effects.iter().any(|effect| !effect.ambiguous_with.is_empty()) {
             Verdict::Ambiguous

@@ -126,7 +126,7 @@ pub struct EffectParameter {
 /// Why an effect is believed: every gate that it went through.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Evidence {
-    /// Fall of the Bayesian information criterion, residuals whitened.
+    /// Fall of the Bayesian information criterion, samples counted as far as they are independent.
     pub delta_bic: f64,
     /// Student's t of the gain over the blocks of the training data.
     pub block_t: f64,

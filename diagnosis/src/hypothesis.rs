@@ -9,7 +9,6 @@ use crate::lsq::{self, Linear, Problem, Stop};
 use crate::plant::Dynamics;
 use crate::recorded::Recorded;
 use crate::rig::Rig;
-use crate::whitening::Likelihood;
 
 /// Points of a table without a name.
 pub const POINTS: usize = 11;
@@ -75,10 +74,6 @@ pub struct Fitted {
     pub train: Residuals,
     /// Errors on the held-out data.
     pub test: Residuals,
-    /// The likelihood of the former.
-    pub train_likelihood: Likelihood,
-    /// The likelihood of the latter.
-    pub test_likelihood: Likelihood,
 }
 
 impl World<'_> {
@@ -224,8 +219,6 @@ impl World<'_> {
             linear,
             trace,
             cost: best.cost,
-            train_likelihood: Likelihood::of(&train, &self.floor),
-            test_likelihood: Likelihood::of(&test, &self.floor),
             point: best.point,
             train,
             test,

@@ -8,6 +8,7 @@
 pub mod assembly;
 pub mod catalogue;
 pub mod cli;
+pub mod comparison;
 pub mod conditioning;
 pub mod correction;
 pub mod data;
@@ -27,4 +28,3 @@ pub mod run;
 pub mod screening;
 pub mod search;
 pub mod virtual_rig;
-pub mod whitening;

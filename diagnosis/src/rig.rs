@@ -160,7 +160,7 @@ const KINDS: &[Kind] = &[
 ];
 
 impl Rig {
-    /// A published rig by its name.
+    /// A published rig by its name, or a model with its declared values by the model's: `element-dyno`.
     ///
     /// # Errors
     /// If there is none of that name: with those that there are.
@@ -171,6 +171,16 @@ impl Rig {
                 return Self::of(&set);
             }
         }
+        if let Some(kind) = KINDS.iter().find(|kind| kebab(kind.model) == name) {
+            return Self::of(&ParameterSet {
+                fmu: kind.model.into(),
+                model: kind.model.into(),
+                title: "The model's declared values".into(),
+                source: String::new(),
+                files: Vec::new(),
+                values: Default::default(),
+            });
+        }
         Err(format!("there is no rig `{name}`; there are {}", Self::names().join(", ")))
     }
 
@@ -179,6 +189,7 @@ impl Rig {
         let sets = PARAMETER_SETS.iter().filter_map(|(_, text)| ParameterSet::parse(text).ok());
         let rigs = sets.filter(|set| KINDS.iter().any(|kind| kind.model == set.model));
         let mut names: Vec<String> = rigs.map(|set| kebab(&set.fmu)).collect();
+        names.extend(KINDS.iter().map(|kind| kebab(kind.model)));
         names.sort();
         names
     }

@@ -58,14 +58,26 @@ impl World<'_> {
             }
         }
         for (input, source) in record.inputs.iter().enumerate() {
-            if matches!(source, Source::Measured(_)) {
-                for fault in [Fault::Gain, Fault::Delay, Fault::Lag, Fault::Offset] {
+            if matches!(source, Source::Measured(_)) && !self.twofold(record, input) {
+                // Positions count from wherever equilibrium is.
+                let offset = (!plant.inputs[input].name.ends_with("position")).then_some(Fault::Offset);
+                for fault in [Fault::Gain, Fault::Delay, Fault::Lag].into_iter().chain(offset) {
                     terms.push(Term::Fault(Handle::Input(input, fault)));
                 }
             }
         }
         terms.retain(|term| self.only.is_empty() || self.only.contains(&name(*term, plant).id));
         terms
+    }
+
+    /// Whether an input is measured as a position and as a velocity: one of them wrong would contradict the other.
+    fn twofold(&self, record: &Recorded, input: usize) -> bool {
+        let plant = &self.rig.plant;
+        let name = &plant.inputs[input].name;
+        let other = |from: &str, to: &str| Some(format!("{}{to}", name.strip_suffix(from)?));
+        [other("position", "velocity"), other("velocity", "position")].into_iter().flatten().any(|name| {
+            plant.input(&name).is_some_and(|index| matches!(record.inputs[index], Source::Measured(_)))
+        })
     }
 
     /// Compares every term to what a fit misses.

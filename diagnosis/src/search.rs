@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 
 use rayon::prelude::*;
 
+use crate::comparison::{Errors, student};
 use crate::findings::Evidence;
 use crate::fit::{Handle, Residuals};
 use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
 use crate::recorded::Recorded;
 use crate::screening::Screened;
-use crate::whitening::student;
 
 /// Causes that are fitted in a round.
 const FITTED: usize = 10;
@@ -78,32 +78,55 @@ impl World<'_> {
         ((BLOCK / step).round() as usize).max(4)
     }
 
+    fn errors<'b>(&'b self, residuals: &'b Residuals) -> Errors<'b> {
+        Errors { residuals, floor: &self.floor }
+    }
+
+    /// Student's t of the gain over blocks, in units of what the better fit leaves.
+    fn steadiness(&self, null: &Residuals, other: &Residuals) -> f64 {
+        let (null, other) = (self.errors(null), self.errors(other));
+        student(&null.gains(&other, self.block(), &other.mean_squares()))
+    }
+
     /// What speaks for one fit over another, of which it is an extension.
     pub fn evidence(&self, null: &Fitted, fitted: &Fitted) -> Evidence {
         let more = fitted.coordinates.len().saturating_sub(null.coordinates.len());
-        let samples: usize = fitted.train_likelihood.samples.iter().map(Vec::len).sum();
-        let gain = fitted.train_likelihood.total() - null.train_likelihood.total();
+        let counts = self.errors(&null.train).effective_counts();
+        let (before, after) =
+            (self.errors(&null.train).mean_squares(), self.errors(&fitted.train).mean_squares());
+        let gain: f64 =
+            counts.iter().zip(before.iter().zip(&after)).map(|(n, (b, a))| n * (b / a).ln()).sum();
+        let total: f64 = counts.iter().sum();
         let (before, after) = (self.power(&null.test, self.test), self.power(&fitted.test, self.test));
-        let test = null.test_likelihood.gains(&fitted.test_likelihood, self.block());
         Evidence {
-            delta_bic: 2.0 * gain - more as f64 * (samples.max(1) as f64).ln(),
-            block_t: student(&null.train_likelihood.gains(&fitted.train_likelihood, self.block())),
-            held_out_t: student(&test),
+            delta_bic: gain - more as f64 * total.max(1.0).ln(),
+            block_t: self.steadiness(&null.train, &fitted.train),
+            held_out_t: self.steadiness(&null.test, &fitted.test),
             explained: 1.0 - after / before.max(f64::MIN_POSITIVE),
         }
     }
 
-    fn score(&self, fitted: &Fitted) -> f64 {
-        let samples: usize = fitted.train_likelihood.samples.iter().map(Vec::len).sum();
-        let penalty = 0.5 * fitted.coordinates.len() as f64 * (samples.max(1) as f64).ln();
-        fitted.train_likelihood.total() + fitted.test_likelihood.total() - penalty
+    /// Rank of a fit among those on top of the same: half its fall of the information criterion, over all data.
+    fn score(&self, null: &Fitted, fitted: &Fitted) -> f64 {
+        let part = |null: &Residuals, fitted: &Residuals| -> (f64, f64) {
+            let counts = self.errors(null).effective_counts();
+            let squares =
+                self.errors(null).mean_squares().into_iter().zip(self.errors(fitted).mean_squares());
+            (counts.iter().zip(squares).map(|(n, (b, a))| 0.5 * n * (b / a).ln()).sum(), counts.iter().sum())
+        };
+        let ((train, n), (test, m)) = (part(&null.train, &fitted.train), part(&null.test, &fitted.test));
+        train + test - 0.5 * fitted.coordinates.len() as f64 * (n + m).max(1.0).ln()
     }
 
-    /// Student's t of how much likelier one fit is than another, over all data.
+    /// Student's t of how much smaller one fit's errors are than another's, over all data.
     fn apart(&self, better: &Fitted, other: &Fitted) -> f64 {
-        let mut gains = other.train_likelihood.gains(&better.train_likelihood, self.block());
-        gains.extend(other.test_likelihood.gains(&better.test_likelihood, self.block()));
-        student(&gains)
+        let unit = self.errors(&better.train).mean_squares();
+        let gains = |other: &Residuals, better: &Residuals| {
+            self.errors(other).gains(&self.errors(better), self.block(), &unit)
+        };
+        let mut all = gains(&other.train, &better.train);
+        all.extend(gains(&other.test, &better.test));
+        student(&all)
     }
 
     fn tried(&self, null: &Fitted, screened: &Screened) -> Tried {
@@ -111,7 +134,7 @@ impl World<'_> {
         terms.push(screened.term);
         let fitted = self.fitted(&terms, &screened.starts, Stop::NOISY);
         let (evidence, score) = match &fitted {
-            Ok(fitted) => (self.evidence(null, fitted), self.score(fitted)),
+            Ok(fitted) => (self.evidence(null, fitted), self.score(null, fitted)),
             Err(_) => (Evidence::default(), f64::NEG_INFINITY),
         };
         Tried { term: screened.term, fitted, evidence, score }

@@ -144,7 +144,7 @@ pub(super) const CAUSES: &[Cause] = &[
         setting: None,
         parts: &[
             part("hysteresis.mount.gap", Scale::DEFLECTION, (1e-4, 2.0), &[0.02, 0.1, 0.3]),
-            part("hysteresis.mount.compliance", Scale::COMPLIANCE, (1e-4, 1.0), &[0.003]),
+            part("hysteresis.mount.compliance", Scale::COMPLIANCE, (3e-3, 1.0), &[0.01]),
         ],
         experiment: "compare small and large strokes",
     },
@@ -154,7 +154,7 @@ pub(super) const CAUSES: &[Cause] = &[
         name: "soft damper mount",
         equation: "F = (x - w)/c, w' = F/d",
         setting: None,
-        parts: &[part("hysteresis.mount.compliance", Scale::COMPLIANCE, (1e-4, 10.0), &[0.02, 0.1])],
+        parts: &[part("hysteresis.mount.compliance", Scale::COMPLIANCE, (3e-3, 10.0), &[0.02, 0.1])],
         experiment: "sweep to high frequencies",
     },
     Cause {

@@ -11,7 +11,7 @@ const LONGEST_STEP: f64 = 4e-3;
 /// Largest product of the step and the fastest rate of change; the method is stable up to 2.78.
 const STABLE: f64 = 1.2;
 /// Steps between two samples beyond which a model is too stiff for this method.
-const MOST_STEPS: f64 = 400.0;
+const MOST_STEPS: f64 = 60.0;
 
 /// A model that is ready to be run.
 pub(super) struct Equations<M> {

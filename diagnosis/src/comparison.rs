@@ -1,0 +1,126 @@
+//! How much better one model is than another: errors over blocks of time, whatever their colour.
+//!
+//! Errors of a model that is not quite right are correlated over time, so that samples are not independent. Counts are
+//! those of independent samples, N/(1 + 2Σρ), and tests are over blocks that are longer than the correlation, as Vuong's
+//! (Q. H. Vuong, Likelihood ratio tests for model selection and non-nested hypotheses, Econometrica 57, 1989).
+
+use crate::fit::Residuals;
+
+/// Share of the largest change of a block below which two models do not differ in a block.
+const INACTIVE: f64 = 0.02;
+
+/// Errors of one model on some records.
+#[derive(Clone, Copy, Debug)]
+pub struct Errors<'a> {
+    /// The errors, record by record and signal by signal.
+    pub residuals: &'a Residuals,
+    /// Smallest mean square that is believed of each signal: that of its noise.
+    pub floor: &'a [f64],
+}
+
+impl Errors<'_> {
+    /// Mean square of each signal, and not below its noise.
+    pub fn mean_squares(&self) -> Vec<f64> {
+        (0..self.floor.len())
+            .map(|row| {
+                let values = self.residuals.iter().flat_map(|record| &record[row]);
+                let (sum, count) = values
+                    .filter(|value| value.is_finite())
+                    .fold((0.0, 0_u32), |(sum, count), value| (sum + value * value, count + 1));
+                (sum / f64::from(count.max(1))).max(self.floor[row].powi(2))
+            })
+            .collect()
+    }
+
+    /// Number of independent samples of each signal.
+    pub fn effective_counts(&self) -> Vec<f64> {
+        (0..self.floor.len())
+            .map(|row| self.residuals.iter().map(|record| effective_count(&record[row])).sum::<f64>())
+            .collect()
+    }
+
+    /// By how much another model's squared errors are smaller over blocks of so many samples, in halves of `unit`, one
+    /// for each signal; blocks in which both models say the same are left out.
+    pub fn gains(&self, other: &Self, block: usize, unit: &[f64]) -> Vec<f64> {
+        let mut gains: Vec<(f64, f64)> = Vec::new();
+        for (own, other) in self.residuals.iter().zip(other.residuals) {
+            let count = own.first().map_or(0, |signal| signal.len().div_ceil(block));
+            let mut here = vec![(0.0, 0.0); count];
+            for ((own, other), unit) in own.iter().zip(other).zip(unit) {
+                for ((own, other), (gain, change)) in
+                    own.chunks(block).zip(other.chunks(block)).zip(&mut here)
+                {
+                    for (before, after) in own.iter().zip(other) {
+                        if before.is_finite() && after.is_finite() {
+                            *gain += 0.5 * (before * before - after * after) / unit;
+                            *change += (before - after).powi(2) / unit;
+                        }
+                    }
+                }
+            }
+            gains.extend(here);
+        }
+        let largest = gains.iter().map(|(_, change)| *change).fold(0.0, f64::max);
+        let active = gains.into_iter().filter(|(_, change)| *change > INACTIVE * largest);
+        active.map(|(gain, _)| gain).collect()
+    }
+}
+
+/// Number of independent samples: the sum of correlations ends where they first change their sign.
+fn effective_count(values: &[f64]) -> f64 {
+    let known: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    let n = known.len();
+    let variance: f64 = known.iter().map(|value| value * value).sum();
+    if n < 4 || variance == 0.0 {
+        return n as f64;
+    }
+    let mut sum = 0.0;
+    for lag in 1..n / 4 {
+        let products: f64 = known[lag..].iter().zip(&known).map(|(later, earlier)| later * earlier).sum();
+        if products <= 0.0 {
+            break;
+        }
+        sum += products / variance;
+    }
+    n as f64 / (1.0 + 2.0 * sum)
+}
+
+/// Student's t of the mean of values.
+pub fn student(values: &[f64]) -> f64 {
+    let n = values.len() as f64;
+    if n < 2.0 {
+        return 0.0;
+    }
+    let mean = values.iter().sum::<f64>() / n;
+    let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (n - 1.0);
+    if variance == 0.0 { 0.0 } else { mean / (variance / n).sqrt() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_signal_that_holds_each_value_ten_times_has_a_tenth_of_the_samples() {
+        let mut state = 7_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / f64::from(1 << 24) - 0.5
+        };
+        let white: Vec<f64> = (0..20_000).map(|_| random()).collect();
+        let held: Vec<f64> = white.iter().take(2000).flat_map(|value| [*value; 10]).collect();
+        assert!(effective_count(&white) > 15_000.0);
+        assert!((effective_count(&held) / 2000.0 - 1.0).abs() < 0.2);
+    }
+
+    #[test]
+    fn a_model_that_is_better_in_every_block_has_a_large_t_and_an_equal_one_none() {
+        let residual = |size: f64| vec![vec![(0..1000).map(|k| size * (f64::from(k) * 0.7).sin()).collect()]];
+        let (bad, good) = (residual(2.0), residual(1.0));
+        let floor = [0.1];
+        let of = |residuals| Errors { residuals, floor: &floor };
+        assert!(student(&of(&bad).gains(&of(&good), 50, &[1.0])) > 20.0);
+        assert!(student(&of(&good).gains(&of(&bad), 50, &[1.0])) < -20.0);
+        assert!(of(&bad).gains(&of(&bad), 50, &[1.0]).is_empty());
+    }
+}
