@@ -175,7 +175,7 @@ impl Model for QuarterCar {
              beside it. Play without compliance stands on a compliance of 1e-6 m/N. For n other than 1, g is rounded \
              within 1 % of the limit: u ((u^2 + 1e-4)/(1 + 1e-4))^((n - 1)/2).",
             "A stiff Maxwell branch, a mount much stiffer than 1e6 N/m or steep presliding friction make the equations \
-             stiff: solver.method = Rodas5P is then the faster one.",
+             stiff: solver.method = Rosenbrock is then the faster one.",
             "Static equilibrium is that without preload and unnamed forces.",
             "At lift-off the tyre's damping ends and at landing it begins at once, as in any point contact.",
         ],
