@@ -70,7 +70,8 @@ def coupled(folder, name):
         instance.enterContinuousTimeMode()
         columns = [instance.getDirectionalDerivative(rates, [state], [1.0]) for state in states]
     fmu.close()
-    return sorted({round(abs(value) / math.tau, 6) for value in np.linalg.eigvals(np.array(columns).T)})
+    # States of effects that are off do not move.
+    return sorted({round(abs(value) / math.tau, 6) for value in np.linalg.eigvals(np.array(columns).T)} - {0.0})
 
 
 def modes(folder):

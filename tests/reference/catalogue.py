@@ -2,12 +2,14 @@
 
 import cases
 import cases_ajala
+import cases_effects
 import cases_full_car
 import cases_kogut
 import cases_of_time
 import cases_sensors
 import cases_tum
 from controllers import LqrController, ModalSkyhook, Skyhook
+from effects import QuarterCarWithEffects
 from excitation import ExcitationMotor
 from force_controllers import ForcePid, ForceTwoDof, ForceTwoDofLpv
 from full_car import FullCar
@@ -36,6 +38,7 @@ MODELS = {model.__name__: model for model in (
     PumpHydraulicActuator,
     PumpHydraulicActuatorLinear,
     QuarterCar,
+    QuarterCarWithEffects,
     Road,
     SasRig,
     SensorChain,
@@ -47,10 +50,10 @@ MODELS = {model.__name__: model for model in (
     VoltageSource,
 )}
 
-CASES = [case for module in (cases, cases_ajala, cases_full_car, cases_kogut, cases_of_time, cases_sensors, cases_tum)
+CASES = [case for module in (cases, cases_ajala, cases_effects, cases_full_car, cases_kogut, cases_of_time, cases_sensors, cases_tum)
          for case in module.CASES]
 
 
 def model_of(case):
     """The model of a single-model case, with its parameters and settings."""
-    return MODELS[case["fmu"]](case.get("parameters", {}) | case.get("changed", {}), case.get("settings", {}))
+    return MODELS[case.get("reference", case["fmu"])](case.get("parameters", {}) | case.get("changed", {}), case.get("settings", {}))

@@ -56,3 +56,52 @@ impl<R: Real> WheelGuide<R> {
         switched_on([self.damping, self.coulomb.force])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::POINTS;
+    use proptest::prelude::*;
+
+    fn guide(damping: f64, scale: f64) -> Guide<f64> {
+        let curve = VelocityCurve {
+            scale,
+            velocity_range: 0.5,
+            over_velocity: std::array::from_fn(|i| 8.0 * (i as f64 - (POINTS / 2) as f64)),
+        };
+        Guide { coulomb: Coulomb { force: 20.0, velocity: 0.008 }, damping, curve }
+    }
+
+    proptest! {
+        #[test]
+        fn it_adds_damping_friction_and_curve_to_another_force(v in -0.5..0.5_f64, other in -1e3..1e3_f64) {
+            let guide = guide(60.0, 0.5);
+            let found = guide.added_to(|| other, v, guide.further_effects());
+            // The curve is a straight line of 80 N.s/m.
+            let expected = other + 20.0 * (v / 0.008).tanh() + (60.0 + 0.5 * 80.0) * v;
+            prop_assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+        }
+
+        #[test]
+        fn with_neutral_effects_it_is_friction_alone(v in -0.5..0.5_f64, other in -1e3..1e3_f64) {
+            let guide = guide(0.0, 0.0);
+            prop_assert_eq!(guide.further_effects(), 0.0);
+            let alone = guide.coulomb.added_to(|| other, v);
+            prop_assert_eq!(guide.added_to(|| other, v, 0.0), alone);
+            prop_assert_eq!(guide.added_to(|| other, v, 1.0), alone);
+        }
+
+        #[test]
+        fn the_wheel_s_guide_is_odd_and_takes_energy(v in -5.0..5.0_f64) {
+            let guide = WheelGuide { damping: 50.0, coulomb: Coulomb { force: 20.0, velocity: 0.008 } };
+            prop_assert!(guide.resistance(v) * v >= 0.0);
+            prop_assert_eq!(guide.resistance(-v), -guide.resistance(v));
+        }
+
+        #[test]
+        fn the_wheel_s_guide_is_absent_without_damping_and_friction(v in -5.0..5.0_f64) {
+            let guide = WheelGuide { damping: 0.0, coulomb: Coulomb { force: 0.0, velocity: 0.008 } };
+            prop_assert_eq!((guide.resistance(v), guide.further_effects()), (0.0, 0.0));
+        }
+    }
+}

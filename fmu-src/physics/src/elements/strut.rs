@@ -154,47 +154,4 @@ impl<R: Real> Strut<R> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-    use strut_model::{Bundle, Declarations};
-
-    /// Declared start values: no effect is on.
-    fn neutral<B: Bundle<f64>>() -> B {
-        let declared = Declarations::of::<B>();
-        B::from_fn(|i| declared[i].start)
-    }
-
-    fn strut(ratio: f64, force: f64) -> Strut<f64> {
-        Strut {
-            stiffness: 8400.0,
-            damping: 707.0,
-            asymmetry: Asymmetry { ratio, smoothing: 0.005 },
-            coulomb: Coulomb { force, velocity: 0.008 },
-            ..neutral()
-        }
-    }
-
-    /// At time zero.
-    fn force(strut: &Strut<f64>, x: f64, v: f64) -> f64 {
-        strut.force(0.0, x, v, strut.further_effects())
-    }
-
-    #[test]
-    fn the_spring_alone_is_equation_14() {
-        assert_eq!(force(&strut(0.3, 115.0), 0.05, 0.0), 8400.0 * 0.05);
-    }
-
-    proptest! {
-        #[test]
-        fn with_neutral_effects_it_is_linear(x in -0.1..0.1_f64, v in -2.0..2.0_f64) {
-            prop_assert_eq!(force(&strut(0.0, 0.0), x, v), 8400.0 * x + 707.0 * v);
-        }
-
-        #[test]
-        fn what_is_not_spring_takes_energy(x in -0.1..0.1_f64, v in -2.0..2.0_f64, ratio in -0.9..0.9_f64) {
-            let strut = strut(ratio, 115.0);
-            prop_assert!((force(&strut, x, v) - force(&strut, x, 0.0)) * v >= 0.0);
-        }
-    }
-}
+mod tests;

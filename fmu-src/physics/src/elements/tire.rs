@@ -135,6 +135,17 @@ mod tests {
         }
 
         #[test]
+        fn an_unnamed_force_is_added(c in -0.05..0.05_f64, v in -2.0..2.0_f64, force in -50.0..50.0_f64) {
+            let named = tire(4_075_400.0, 60.0);
+            let mut unnamed = named;
+            unnamed.curve.scale = 2.0;
+            unnamed.curve.over_deflection = [force; crate::effects::POINTS];
+            prop_assert_eq!((named.further_effects(), unnamed.further_effects()), (0.0, 1.0));
+            prop_assert!((unnamed.force(c, v, 1.0) - named.force(c, v, 0.0) - 2.0 * force).abs() < 1e-9);
+            prop_assert_eq!(named.force(c, v, 1.0), named.force(c, v, 0.0));
+        }
+
+        #[test]
         fn what_is_not_spring_takes_energy(c in -0.05..0.05_f64, v in -2.0..2.0_f64) {
             let tire = tire(4_075_400.0, 60.0);
             prop_assert!((tire.force(c, v, 0.0) - tire.force(c, 0.0, 0.0)) * v >= 0.0);

@@ -100,8 +100,12 @@ impl Model for ElementDyno {
                 source: "TUM eq. 12, 14; asymmetry derived from Table 9",
             },
             Equation {
-                text: "tyre: F = k_t c + q c^2 + d_t c' + F_t tanh(c'/v_0), c = -x, F >= -F_0",
-                source: "TUM eq. 5, 4.3.2, Table 7",
+                text: "further effects of the strut and its memory: as in QuarterCar",
+                source: "catalogue of diagnosis: 02-14, 32, G",
+            },
+            Equation {
+                text: "tyre: F = k_t c + q c^2 + d_t c' + F_t tanh(c'/v_0) + s f(c), c = -x, F >= -F_0",
+                source: "TUM eq. 5, 4.3.2, Table 7; curve: catalogue of diagnosis: G",
             },
         ],
         notes: &[
@@ -114,6 +118,8 @@ impl Model for ElementDyno {
             "TUM's characteristics are lost figures. The strut's two rates are those of Table 9, the tyre's those of \
              Table 7; counted from static equilibrium the tyre's rate is 149693 N/m there and 152186 N/m, as the text \
              has it, 0.316 mm further in.",
+            "Effects beyond TUM's are off at their start values; further_effects counts the ones that are on. A tyre has \
+             none of the strut's memory. A positive preload pulls the ends together and shows as a negative force.",
             "A tyre that has left the plate comes back at the deflection at which its spring carries nothing.",
         ],
         experiment: Experiment {
@@ -291,6 +297,51 @@ mod tests {
         assert_eq!(with(1), Ok(()));
         let error = with(2).unwrap_err();
         assert!(error.contains("tire.quadratic = 10000000 N/m2"), "{error}");
+    }
+
+    #[test]
+    fn presliding_friction_builds_up_over_the_way_after_a_reversal() {
+        let mut dyno = Dyno::new()
+            .start("strut.damping", 0.0)
+            .start("hysteresis.presliding.force", 60.0)
+            .start("hysteresis.presliding.stiffness", 1e5)
+            .initialized();
+        // Down, so that the strut is drawn out: 1.2 mm in 60 ms; then up again as far.
+        dyno.set("motion.velocity", -0.02);
+        dyno.step(0.06);
+        let first = 60.0 * (1.0 - (-2.0_f64).exp());
+        assert!((dyno.get("force") + first).abs() < 1e-4, "{}", dyno.get("force"));
+        dyno.set("motion.velocity", 0.02);
+        dyno.step(0.06);
+        let second = 60.0 - (60.0 + first) * (-2.0_f64).exp();
+        assert!((dyno.get("force") - second).abs() < 1e-4, "{}", dyno.get("force"));
+    }
+
+    #[test]
+    fn a_maxwell_branch_relaxes_and_a_preload_does_not() {
+        let mut dyno = Dyno::new()
+            .start("strut.damping", 0.0)
+            .start("strut.preload", 110.0)
+            .start("hysteresis.maxwell.stiffness", 2e4)
+            .start("hysteresis.maxwell.time", 0.01)
+            .initialized();
+        dyno.set("motion.velocity", 0.1);
+        dyno.step(0.01);
+        dyno.set("motion.velocity", 0.0);
+        let shed = 2e4 * 0.1 * 0.01 * (1.0 - (-1.0_f64).exp());
+        assert!((dyno.get("force") - (shed - 110.0)).abs() < 1e-4, "{}", dyno.get("force"));
+        dyno.step(0.2);
+        assert!((dyno.get("force") + 110.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_tyre_has_none_of_the_strut_s_memory() {
+        let mut dyno =
+            Dyno::published("TumTireDyno").start("hysteresis.maxwell.stiffness", 2e4).initialized();
+        let tyre = force(&mut dyno, 1e-3, 0.1);
+        dyno.step(0.01);
+        assert_eq!(dyno.get("hysteresis.maxwell.deflection"), 0.0);
+        assert_eq!(dyno.get("force"), tyre);
     }
 
     proptest::proptest! {

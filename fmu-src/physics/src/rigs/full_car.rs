@@ -185,7 +185,8 @@ impl Model for FullCar {
              as eq. 49 shares a heave force, which for a car that is the same on the left and on the right is the \
              only way.",
             "Effects are neutral where they are not given: no anti-roll bars, no friction, symmetric dampers, linear \
-             tyres. What strut and tyre have is the same as in QuarterCar.",
+             tyres. What strut and tyre have is the same as in QuarterCar, but for the \
+             strut's memory.",
             "With a dynamic index of 1 and the same road and forces on the left and on the right, each end is the \
              quarter car of half the mass on its axle.",
             "The natural frequencies and damping ratios are uncoupled, by the formulas of TUM's tables: heave, roll \

@@ -104,16 +104,44 @@ impl Model for QuarterCar {
         kind: Kind::Rig,
         equations: &[
             Equation { text: "m_s a_s = -F_strut + F_act - F_guide", source: "TUM eq. 2; guide: 4.3.3" },
-            Equation { text: "m_u a_u = F_strut - F_act + F_tire", source: "TUM eq. 3" },
+            Equation { text: "m_u a_u = F_strut - F_act + F_tire - F_wheel_guide", source: "TUM eq. 3" },
             Equation {
                 text: "F_strut = k x + d (v + alpha (sqrt(v^2 + eps^2) - eps)) + F_c tanh(v/v_0), x = z_s - \
                     z_u, v = x'",
                 source: "TUM eq. 12, 14; asymmetry derived from Table 9",
             },
-            Equation { text: "F_guide = F_g tanh(z_s'/v_0)", source: "TUM eq. 12" },
             Equation {
-                text: "F_tire = k_t c + q c^2 + d_t c' + F_t tanh(c'/v_0), c = z_r - z_u",
-                source: "TUM eq. 5, 4.3.2, Table 7",
+                text: "further effects of the strut: + k_2 x^2 + k_3 x^3 + k_b (<x - x_r> - <-x - x_c>) + c v |v| + F_b \
+                    exp(-(v/v_b)^2) tanh(v/v_0) + F_y tanh(v/v_y + b x) + F_p + s (f_1(x) + f_2(v)); F_c becomes F_c \
+                    <1 + beta x>, d becomes d (1 - a (1 - exp(-t/T))), v in the damper becomes v + rho dz(v, v_k); < > \
+                    = max( , 0), dz a dead zone",
+                source: "catalogue of diagnosis: 08, 09, 06, 02, 32, offset, G; 11, 10, 05",
+            },
+            Equation {
+                text: "linkage: F_strut = i F(x + i_1 x^2/2, i v), i = 1 + i_1 x",
+                source: "catalogue of diagnosis: 14; power is kept",
+            },
+            Equation {
+                text: "presliding friction: + f, f' = sigma v g(1 - sgn(v) f/F), g(u) = |u|^n sgn(u)",
+                source: "Dahl 1968; catalogue of diagnosis: 03",
+            },
+            Equation {
+                text: "Maxwell branch: + k_1 xi, xi' = v - xi/tau",
+                source: "catalogue of diagnosis: 07",
+            },
+            Equation {
+                text: "mount: the damper's force is dz(e, g)/c, e' = v - u, u the velocity of the damper with that \
+                    force",
+                source: "catalogue of diagnosis: 12, 13",
+            },
+            Equation {
+                text: "F_guide = F_g tanh(z_s'/v_0) + d_g z_s' + s f(z_s'), F_wheel_guide = F_w tanh(z_u'/v_0) + d_w \
+                    z_u'",
+                source: "TUM eq. 12; damping, curve and wheel: catalogue of diagnosis: 15-17, G",
+            },
+            Equation {
+                text: "F_tire = k_t c + q c^2 + d_t c' + F_t tanh(c'/v_0) + s f(c), c = z_r - z_u",
+                source: "TUM eq. 5, 4.3.2, Table 7; curve: catalogue of diagnosis: G",
             },
             Equation {
                 text: "with lift-off: F_tire >= -F_0, and F_tire = -F_0 for c <= c_l, F_0 = (m_s + m_u) g",
@@ -139,6 +167,16 @@ impl Model for QuarterCar {
              strut spring in the wheel frequency 12.92 Hz, unlike the others (12.57 Hz), and its wheel \
              ratio 0.212 does not fit its chassis ratio 0.47 (0.222). Table 10 prints c_c = i^-2 times the \
              spring rate where eq. 13 has i^2.",
+            "Effects are off at their start values. Those beyond TUM's are what a difference between measurement and \
+             model is looked for in; further_effects counts the ones that are on.",
+            "The unnamed forces f are straight lines between eleven equally spaced points and held beyond them; that of \
+             the tyre is over the compression, road above wheel.",
+            "Asymmetry, knee and fade are the damper's and go through its mount; orifice, frictions and all else act \
+             beside it. Play without compliance stands on a compliance of 1e-6 m/N. For n other than 1, g is rounded \
+             within 1 % of the limit: u ((u^2 + 1e-4)/(1 + 1e-4))^((n - 1)/2).",
+            "A stiff Maxwell branch, a mount much stiffer than 1e6 N/m or steep presliding friction make the equations \
+             stiff: solver.method = Rosenbrock is then the faster one.",
+            "Static equilibrium is that without preload and unnamed forces.",
             "At lift-off the tyre's damping ends and at landing it begins at once, as in any point contact.",
         ],
         experiment: Experiment {

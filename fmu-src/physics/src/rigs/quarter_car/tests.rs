@@ -5,6 +5,8 @@ use strut_model::{Bundle, Error, Lanes, Simulation};
 use super::*;
 use crate::GRAVITY;
 
+mod effects;
+
 fn parameters(
     sprung_mass: f64,
     unsprung_mass: f64,
