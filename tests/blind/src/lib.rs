@@ -7,4 +7,5 @@ pub mod car;
 pub mod excitation;
 pub mod friction;
 pub mod random;
+pub mod sensors;
 pub mod strut;

@@ -87,7 +87,7 @@ fn friction_holds_what_it_can_and_no_more() {
         let mut car = linear();
         car.contacts = vec![Contact { along: [1.0, -1.0], limit: Limit::Coulomb(60.0) }];
         // Slowly, so that it does not swing beyond the balance and stay there.
-        let rising = Profile::new(8.0, |t| load * t.min(7.0) / 7.0);
+        let rising = Profile::new(8.0, |t| load * (0.5 - 0.5 * (0.5 * TAU * (t / 7.0).min(1.0)).cos()));
         let motion = car.run(&Profile::still(), &rising, 8.0, [0.0; 4]);
         motion.body.last().unwrap() - motion.wheel.last().unwrap()
     };
