@@ -57,7 +57,8 @@ impl Sensor {
             // Noise is drawn even if it is nothing, so that the rest of the stream stays where it is.
             let noisy = self.gain * *value + drifted + self.noise * random.normal();
             let clipped = noisy.clamp(-self.range, self.range);
-            *value = if self.quantum > 0.0 { (clipped / self.quantum).round() * self.quantum } else { clipped };
+            *value =
+                if self.quantum > 0.0 { (clipped / self.quantum).round() * self.quantum } else { clipped };
         }
         if self.dropout > 0.0 {
             self.drop_out(&mut shown, rate, random);
@@ -118,11 +119,10 @@ fn decimated(signal: &[f64], rate: f64) -> Vec<f64> {
     let reach = 4 * every;
     let cut_off = 0.4 / every as f64;
     let window = |k: f64| 0.5 + 0.5 * (PI * k / (reach as f64 + 1.0)).cos();
-    let sinc = |k: f64| if k == 0.0 { 1.0 } else { (2.0 * PI * cut_off * k).sin() / (2.0 * PI * cut_off * k) };
-    let taps: Vec<f64> = (0..=2 * reach)
-        .map(|k| k as f64 - reach as f64)
-        .map(|k| window(k) * sinc(k))
-        .collect();
+    let sinc =
+        |k: f64| if k == 0.0 { 1.0 } else { (2.0 * PI * cut_off * k).sin() / (2.0 * PI * cut_off * k) };
+    let taps: Vec<f64> =
+        (0..=2 * reach).map(|k| k as f64 - reach as f64).map(|k| window(k) * sinc(k)).collect();
     let sum: f64 = taps.iter().sum();
     let last = signal.len() - 1;
     (0..signal.len())

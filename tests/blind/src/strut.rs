@@ -38,16 +38,17 @@ pub struct Strut {
     pub quadratic: f64,
     /// N/m³.
     pub cubic: f64,
-    /// Deflection, stiffness in N/m and exponent of the stops at both ends.
-    pub stop: Option<(f64, f64, f64)>,
+    /// Deflection in m and stiffness in N/m of the stops at both ends.
+    pub stop: Option<(f64, f64)>,
     /// Share of the damping that is lost, and its time constant in s.
     pub fade: Option<(f64, f64)>,
     /// Play of the damper's bush to each side in m, and the bush's stiffness in N/m.
-    pub play: Option<(f64, f64)>,
-    /// Stiffness of a mount in series with spring and damper, in N/m.
-    pub mount: Option<f64>,
+    pub bush: Option<(f64, f64)>,
     /// Bristles: friction in N, stiffness in N/m, damping in N s/m.
     pub bristles: Option<(f64, f64, f64)>,
+    /// Yield force in N, velocity over which it changes its sign in m/s, and how much the change lags behind, in
+    /// 1/m: `F tanh(v/v_y + β x)`, as magnetorheological dampers have it.
+    pub yielding: Option<(f64, f64, f64)>,
     /// Change of the lever ratio with the deflection, in 1/m.
     pub linkage: f64,
     /// Force over the deflection, in N.
@@ -58,7 +59,7 @@ pub struct Strut {
     pub cogging: Option<(f64, f64, f64)>,
 }
 
-/// Hidden states: two Maxwell branches, the inner end of bush or mount, the bristles.
+/// Hidden states: two Maxwell branches, the inner end of the bush, the bristles.
 pub type Inner = [f64; 4];
 
 impl Strut {
@@ -67,19 +68,15 @@ impl Strut {
     /// `time` in s, deflection `x` in m, `v` in m/s.
     pub fn force(&self, time: f64, x: f64, v: f64, inner: &Inner) -> (f64, Inner) {
         let mut rates = [0.0; 4];
-        let mut force = if let Some(mount) = self.mount {
-            // All of the strut sits on the mount: its force sets how fast the strut's own part moves.
-            let carried = mount * (x - inner[2]);
-            rates[2] = self.damper_velocity(carried - self.spring(inner[2]));
-            carried
-        } else if let Some((gap, stiffness)) = self.play {
+        let mut force = self.spring(x);
+        if let Some((gap, stiffness)) = self.bush {
             let stretched = x - inner[2];
             let carried = stiffness * (stretched - stretched.clamp(-gap, gap));
             rates[2] = self.damper_velocity(carried);
-            self.spring(x) + carried
+            force += carried;
         } else {
-            self.spring(x) + self.damper(time, x, v)
-        };
+            force += self.damper(time, x, v);
+        }
         for (branch, maxwell) in self.maxwell.iter().enumerate() {
             if let Some((stiffness, time_constant)) = maxwell {
                 force += stiffness * inner[branch];
@@ -90,14 +87,16 @@ impl Strut {
             rates[3] = v - stiffness * v.abs() / sliding * inner[3];
             force += stiffness * inner[3] + damping * rates[3];
         }
+        if let Some((most, velocity, slope)) = self.yielding {
+            force += most * (v / velocity + slope * x).tanh();
+        }
         (force, rates)
     }
 
     fn spring(&self, x: f64) -> f64 {
         let mut force = x * (self.stiffness + x * (self.quadratic + x * self.cubic));
-        if let Some((clearance, stiffness, exponent)) = self.stop {
-            let beyond = (x.abs() - clearance).max(0.0);
-            force += stiffness * beyond.powf(exponent) * x.signum();
+        if let Some((clearance, stiffness)) = self.stop {
+            force += stiffness * (x - x.clamp(-clearance, clearance));
         }
         if let Some(hump) = self.hump {
             force += hump.at(x);
@@ -146,7 +145,7 @@ mod tests {
 
     #[test]
     fn within_its_play_the_damper_does_nothing() {
-        let strut = Strut { play: Some((1e-3, 1e6)), ..plain() };
+        let strut = Strut { bush: Some((1e-3, 1e6)), ..plain() };
         assert_eq!(strut.force(0.0, 0.9e-3, 0.3, &[0.0; 4]).0, 8400.0 * 0.9e-3);
         let (force, rates) = strut.force(0.0, 1.1e-3, 0.3, &[0.0; 4]);
         assert!((force - 8400.0 * 1.1e-3 - 100.0).abs() < 1e-9);
