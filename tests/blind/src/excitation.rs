@@ -33,6 +33,11 @@ impl Profile {
         Self::default()
     }
 
+    /// Whether nothing ever moves.
+    pub fn is_still(&self) -> bool {
+        self.knots.is_empty()
+    }
+
     /// Value and rate of change at a time in seconds; outside of the profile it rests.
     pub fn at(&self, time: f64) -> (f64, f64) {
         let place = time / STEP;

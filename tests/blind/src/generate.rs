@@ -81,8 +81,8 @@ fn excitations(case: &Case, plain: &Rig) -> (Vec<Excitation>, Vec<Excitation>) {
             ("sweep", sweep(time, 1.0, 0.012), Profile::still()),
         ],
         Plant::LinearQuarter | Plant::PublishedQuarter => [
-            ("multisine", multisine(random, time, 1.2, 0.010), Profile::still()),
-            ("prbs", multisine(random, time, 1.2, 0.006), prbs(random, time, 0.025, 150.0)),
+            ("multisine", multisine(random, time, 0.5, 0.010), Profile::still()),
+            ("prbs", multisine(random, time, 0.5, 0.005), prbs(random, time, 0.025, 150.0)),
             ("bumps", bumps(random, time, 0.010), multisine(random, time, 0.3, 120.0)),
             ("road", road(random, time, 0.010), Profile::still()),
             ("sweep", Profile::still(), sweep(time, 0.0, 150.0)),
@@ -103,19 +103,19 @@ fn excitations(case: &Case, plain: &Rig) -> (Vec<Excitation>, Vec<Excitation>) {
 /// Scales the road such that the tyre keeps a fifth of its static load, or, if it shall leave the road, such that
 /// the wheel flies well above it.
 fn limit_pull(case: &Case, plain: &Rig, excitation: &mut Excitation, lifting: bool) {
+    if excitation.road.is_still() {
+        return;
+    }
     let car = &plain.car;
     let load = (car.sprung_mass + car.unsprung_mass) * GRAVITY;
     // Several times, as the relation is not linear: a wheel in the air flies far.
-    for _ in 0..6 {
+    for _ in 0..8 {
         let motion = plain.run(&excitation.road, &excitation.force, case.duration);
         let pull = motion.road.iter().zip(&motion.wheel).fold(0.0_f64, |most, (z, w)| most.max(w - z));
         let share = pull * car.tire_stiffness / load;
         let factor = match () {
-            () if lifting && share > 0.3 && !(1.2..2.5).contains(&share) => {
-                (1.6 / share).sqrt().clamp(0.7, 1.5)
-            }
-            () if lifting => break,
-            () if share > 0.8 => 0.75 / share,
+            () if lifting && !(1.2..2.5).contains(&share) => (1.6 / share).sqrt().clamp(0.7, 2.0),
+            () if !lifting && share > 0.8 => 0.75 / share,
             () => break,
         };
         excitation.road = excitation.road.scaled(factor);

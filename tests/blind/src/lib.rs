@@ -10,10 +10,12 @@ pub mod cases;
 pub mod catalogue;
 pub mod dyno;
 pub mod excitation;
+pub mod files;
 pub mod friction;
 pub mod generate;
 pub mod random;
 pub mod rig;
+pub mod score;
 pub mod sensors;
 pub mod strut;
 

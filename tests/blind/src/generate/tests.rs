@@ -70,7 +70,9 @@ fn only_lift_off_lifts_off() {
     let kept = generate(&short(vec![])).unwrap();
     let of = |name: &str| kept.truth.base.iter().find(|value| value.name == name).unwrap().value;
     let load = (of("sprung_mass") + of("unsprung_mass")) * GRAVITY;
-    assert!(lifted.train.iter().any(|table| worst_pull(table) < -0.95 * load));
+    for table in lifted.train.iter().filter(|table| table.name != "train-sweep") {
+        assert!(worst_pull(table) < -0.95 * load, "{}: {} of {load} N", table.name, worst_pull(table));
+    }
     for table in kept.train.iter().chain(&kept.test) {
         assert!(worst_pull(table) > -0.9 * load, "{}: {} N", table.name, worst_pull(table));
     }
