@@ -27,8 +27,8 @@ const PAIRS: [[&str; 2]; 8] = [
     ["07", "23"],
 ];
 
-fn standard(name: String, effects: Vec<Hidden>, seed: u64) -> Case {
-    Case { name: name.clone(), ..Case::standard(&name, effects, seed) }
+fn standard(name: impl AsRef<str>, effects: Vec<Hidden>, seed: u64) -> Case {
+    Case::standard(name.as_ref(), effects, seed)
 }
 
 /// A few cases that a test can run each time: single effects, a pair, a cause without a name, a sensor's fault,
@@ -39,12 +39,12 @@ pub fn compact() -> Vec<Case> {
         .zip(single)
         .map(|(seed, id)| standard(format!("single-{id}"), vec![Hidden::new(id)], seed))
         .collect();
-    all.push(standard("pair-01-08".into(), vec![Hidden::new("01"), Hidden::new("08")], 21));
-    all.push(standard("unnamed-U1".into(), vec![Hidden::new("U1")], 22));
-    all.push(standard("sensor-34".into(), vec![Hidden::at("34", "wheel.force")], 23));
-    all.push(Case { clutter: 0, ..standard("none".into(), vec![], 24) });
-    all.push(standard("none-cluttered".into(), vec![], 25));
-    all.push(Case { clutter: 0, nominal_off: 0.1, ..standard("mismatch".into(), vec![], 26) });
+    all.push(standard("pair-01-08", vec![Hidden::new("01"), Hidden::new("08")], 21));
+    all.push(standard("unnamed-U1", vec![Hidden::new("U1")], 22));
+    all.push(standard("sensor-34", vec![Hidden::at("34", "wheel.force")], 23));
+    all.push(Case { clutter: 0, ..standard("none", vec![], 24) });
+    all.push(standard("none-cluttered", vec![], 25));
+    all.push(Case { clutter: 0, nominal_off: 0.1, ..standard("mismatch", vec![], 26) });
     all
 }
 

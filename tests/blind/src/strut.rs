@@ -99,7 +99,8 @@ impl Strut {
             force += stiffness * (x - x.clamp(-clearance, clearance));
         }
         if let Some(hump) = self.hump {
-            force += hump.at(x);
+            // Less its force at rest, where the rig has settled.
+            force += hump.at(x) - hump.at(0.0);
         }
         if let Some((size, period, phase)) = self.cogging {
             force += size * ((TAU * x / period + phase).sin() - phase.sin());
