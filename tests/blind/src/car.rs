@@ -138,9 +138,9 @@ impl Car {
         state[..4].copy_from_slice(&start);
         let mut friction = vec![0.0; self.contacts.len()];
         let mut motion = Motion::default();
+        let mut now = road.at(0.0);
         for k in 0..count {
             let time = k as f64 * step;
-            let now = road.at(time);
             let outside = |time: f64, road, friction| Outside {
                 time,
                 road,
@@ -159,6 +159,7 @@ impl Car {
             for i in 0..state.len() {
                 state[i] += step / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]);
             }
+            now = end;
             if !self.contacts.is_empty() {
                 let mut velocities = [state[1], state[3]];
                 settle(&self.contacts, &mut friction, [state[0], state[2]], &mut velocities, masses, step);

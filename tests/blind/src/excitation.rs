@@ -40,15 +40,15 @@ impl Profile {
 
     /// Value and rate of change at a time in seconds; outside of the profile it rests.
     pub fn at(&self, time: f64) -> (f64, f64) {
+        // Each profile begins with a standstill.
+        if time < STEP || self.knots.is_empty() {
+            return (0.0, 0.0);
+        }
         let place = time / STEP;
-        let index = place.floor();
-        let share = place - index;
-        let knot = |offset: i64| {
-            let last = self.knots.len() as i64 - 1;
-            let wanted = index as i64 + offset;
-            if last < 0 || wanted < 0 { 0.0 } else { self.knots[wanted.min(last) as usize] }
-        };
-        let (before, left, right, after) = (knot(-1), knot(0), knot(1), knot(2));
+        let index = place as usize;
+        let share = place - index as f64;
+        let knot = |k: usize| self.knots[k.min(self.knots.len() - 1)];
+        let (before, left, right, after) = (knot(index - 1), knot(index), knot(index + 1), knot(index + 2));
         let (rise_left, rise_right) = ((right - before) / 2.0, (after - left) / 2.0);
         let square = 3.0 * (right - left) - 2.0 * rise_left - rise_right;
         let cube = rise_left + rise_right - 2.0 * (right - left);
