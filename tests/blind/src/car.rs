@@ -1,0 +1,200 @@
+//! The quarter vehicle on its rig, integrated at 20 kHz.
+
+use crate::excitation::Profile;
+use crate::friction::{Contact, settle};
+use crate::strut::{Inner, Strut};
+
+/// Steps per second of all plants.
+pub const RATE: f64 = 20_000.0;
+
+/// Standard gravity, in m/s².
+const GRAVITY: f64 = 9.806_65;
+
+/// Body, strut, wheel, tyre.
+#[derive(Clone, Debug, Default)]
+pub struct Car {
+    /// Body, in kg.
+    pub sprung_mass: f64,
+    /// Wheel, in kg.
+    pub unsprung_mass: f64,
+    /// Between them.
+    pub strut: Strut,
+    /// Viscous friction of the body's guide, in N s/m.
+    pub guide_damping: f64,
+    /// Viscous friction of the wheel's guide, in N s/m.
+    pub wheel_guide_damping: f64,
+    /// Tyre, in N/m.
+    pub tire_stiffness: f64,
+    /// Tyre, in N/m².
+    pub tire_quadratic: f64,
+    /// Tyre, in N s/m.
+    pub tire_damping: f64,
+    /// Dry friction.
+    pub contacts: Vec<Contact>,
+    /// Actuator.
+    pub actuator: Actuator,
+}
+
+/// From the commanded force to the one that acts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Actuator {
+    /// In s, exact.
+    pub delay: f64,
+    /// Time constant in s; zero is none.
+    pub lag: f64,
+    /// Force for a commanded newton.
+    pub gain: f64,
+}
+
+impl Default for Actuator {
+    fn default() -> Self {
+        Self { delay: 0.0, lag: 0.0, gain: 1.0 }
+    }
+}
+
+/// What a rig did, every 1/[`RATE`] seconds.
+#[derive(Clone, Debug, Default)]
+pub struct Motion {
+    /// In m.
+    pub road: Vec<f64>,
+    /// In m/s.
+    pub road_velocity: Vec<f64>,
+    /// Commanded, in N.
+    pub command: Vec<f64>,
+    /// In m.
+    pub body: Vec<f64>,
+    /// In m/s.
+    pub body_velocity: Vec<f64>,
+    /// In m/s².
+    pub body_acceleration: Vec<f64>,
+    /// In m.
+    pub wheel: Vec<f64>,
+    /// In m/s.
+    pub wheel_velocity: Vec<f64>,
+    /// In m/s².
+    pub wheel_acceleration: Vec<f64>,
+    /// Dynamic, in N.
+    pub tire_force: Vec<f64>,
+}
+
+/// Positions and velocities of body and wheel, hidden states of the strut, force of the actuator.
+type State = [f64; 9];
+
+/// What acts from outside at one instant.
+#[derive(Clone, Copy)]
+struct Outside<'a> {
+    time: f64,
+    road: (f64, f64),
+    command: f64,
+    friction: &'a [f64],
+}
+
+impl Car {
+    /// Dynamic force that presses on the road; the tyre cannot pull.
+    fn tire_force(&self, compression: f64, velocity: f64) -> f64 {
+        let load = (self.sprung_mass + self.unsprung_mass) * GRAVITY;
+        // Beyond its vertex the parabola turns up again: there the tyre is long in the air.
+        let turned =
+            self.tire_quadratic > 0.0 && compression < -self.tire_stiffness / (2.0 * self.tire_quadratic);
+        let spring = compression * (self.tire_stiffness + self.tire_quadratic * compression);
+        if turned || spring <= -load {
+            return -load;
+        }
+        (spring + self.tire_damping * velocity).max(-load)
+    }
+
+    fn rates(&self, state: &State, outside: Outside<'_>) -> (State, f64) {
+        let [body, body_velocity, wheel, wheel_velocity, a, b, c, d, lagged] = *state;
+        let inner: Inner = [a, b, c, d];
+        let (x, v) = (body - wheel, body_velocity - wheel_velocity);
+        // The lever turns deflection into the strut's own length, and its force back (virtual work).
+        let lever = 1.0 + self.strut.linkage * x;
+        let length = x * (1.0 + 0.5 * self.strut.linkage * x);
+        let (passive, inner_rates) = self.strut.force(outside.time, length, lever * v, &inner);
+        let (active, lag_rate) = if self.actuator.lag > 0.0 {
+            (lagged, (self.actuator.gain * outside.command - lagged) / self.actuator.lag)
+        } else {
+            (self.actuator.gain * outside.command, 0.0)
+        };
+        let pulling = lever * (passive - active);
+        let tire = self.tire_force(outside.road.0 - wheel, outside.road.1 - wheel_velocity);
+        let mut on_body = -pulling - self.guide_damping * body_velocity;
+        let mut on_wheel = pulling + tire - self.wheel_guide_damping * wheel_velocity;
+        for (contact, force) in self.contacts.iter().zip(outside.friction) {
+            on_body -= contact.along[0] * force;
+            on_wheel -= contact.along[1] * force;
+        }
+        let [ra, rb, rc, rd] = inner_rates;
+        let (body_rate, wheel_rate) = (on_body / self.sprung_mass, on_wheel / self.unsprung_mass);
+        ([body_velocity, body_rate, wheel_velocity, wheel_rate, ra, rb, rc, rd, lag_rate], tire)
+    }
+
+    /// Runs for `duration` seconds from `start`: positions and velocities of body and wheel.
+    pub fn run(&self, road: &Profile, force: &Profile, duration: f64, start: [f64; 4]) -> Motion {
+        let step = 1.0 / RATE;
+        let masses = [self.sprung_mass, self.unsprung_mass];
+        let count = (duration * RATE).round() as usize + 1;
+        let mut state: State = [0.0; 9];
+        state[..4].copy_from_slice(&start);
+        let mut friction = vec![0.0; self.contacts.len()];
+        let mut motion = Motion::default();
+        let mut now = road.at(0.0);
+        for k in 0..count {
+            let time = k as f64 * step;
+            let outside = |time: f64, road, friction| Outside {
+                time,
+                road,
+                command: force.at(time - self.actuator.delay).0,
+                friction,
+            };
+            let (first, tire) = self.rates(&state, outside(time, now, &friction));
+            motion.push(&state, &first, now, force.at(time).0, tire);
+
+            let (middle, end) = (road.at(time + 0.5 * step), road.at(time + step));
+            let half = outside(time + 0.5 * step, middle, &friction);
+            let (second, _) = self.rates(&advanced(&state, &first, 0.5 * step), half);
+            let (third, _) = self.rates(&advanced(&state, &second, 0.5 * step), half);
+            let (fourth, _) =
+                self.rates(&advanced(&state, &third, step), outside(time + step, end, &friction));
+            for i in 0..state.len() {
+                state[i] += step / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]);
+            }
+            now = end;
+            if !self.contacts.is_empty() {
+                let mut velocities = [state[1], state[3]];
+                settle(&self.contacts, &mut friction, [state[0], state[2]], &mut velocities, masses, step);
+                // The correction acted during the step, on average for half of it.
+                state[0] += 0.5 * step * (velocities[0] - state[1]);
+                state[2] += 0.5 * step * (velocities[1] - state[3]);
+                [state[1], state[3]] = velocities;
+            }
+        }
+        motion
+    }
+}
+
+fn advanced(state: &State, rates: &State, step: f64) -> State {
+    let mut next = *state;
+    for (value, rate) in next.iter_mut().zip(rates) {
+        *value += step * rate;
+    }
+    next
+}
+
+impl Motion {
+    fn push(&mut self, state: &State, rates: &State, road: (f64, f64), command: f64, tire: f64) {
+        self.road.push(road.0);
+        self.road_velocity.push(road.1);
+        self.command.push(command);
+        self.body.push(state[0]);
+        self.body_velocity.push(state[1]);
+        self.body_acceleration.push(rates[1]);
+        self.wheel.push(state[2]);
+        self.wheel_velocity.push(state[3]);
+        self.wheel_acceleration.push(rates[3]);
+        self.tire_force.push(tire);
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,196 @@
+//! What is asked of the generator, and what it gives.
+
+use std::fmt::Write;
+
+use serde::{Deserialize, Serialize};
+
+use crate::catalogue::Place;
+
+/// A rig.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Plant {
+    /// The TUM quarter-vehicle rig with a linear strut, no friction and a linear tyre.
+    LinearQuarter,
+    /// The same with what TUM's Table 10 knows already: asymmetric damper, friction of strut and guide,
+    /// quadratic tyre.
+    PublishedQuarter,
+    /// Its strut alone: moved at one end, the force measured.
+    StrutDyno,
+}
+
+/// An effect to hide.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Hidden {
+    /// Number in [`crate::catalogue::ENTRIES`].
+    pub id: String,
+    /// The signal, for an effect of a sensor; otherwise empty.
+    pub signal: String,
+    /// 1 is a typical one; it is enlarged to meet the case's `ratio`.
+    pub size: f64,
+}
+
+impl Hidden {
+    /// Of typical size.
+    pub fn new(id: &str) -> Self {
+        Self { id: id.into(), signal: String::new(), size: 1.0 }
+    }
+
+    /// In the sensor of a signal.
+    pub fn at(id: &str, signal: &str) -> Self {
+        Self { id: id.into(), signal: signal.into(), size: 1.0 }
+    }
+}
+
+/// What is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Sensors {
+    /// Both accelerations, deflection, wheel force; road and commanded force.
+    Full,
+    /// All but the wheel force.
+    NoForceCell,
+    /// Acceleration of the body and deflection; road and commanded force.
+    Poor,
+}
+
+/// Data to make.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Case {
+    /// What it is called.
+    pub name: String,
+    /// The rig.
+    pub plant: Plant,
+    /// What is hidden in it.
+    pub effects: Vec<Hidden>,
+    /// Signal over white noise, in dB of the rms; none is no noise.
+    pub noise_db: Option<f64>,
+    /// Samples a second.
+    pub rate: f64,
+    /// How strong the small effects are that no model knows: 0, 1 or 2.
+    pub clutter: u32,
+    /// By how much the true parameters differ from the published ones, as a share.
+    pub nominal_off: f64,
+    /// How much larger an effect is than the clutter, at least, in what it changes of the signals; 0 takes the
+    /// effect as it is.
+    pub ratio: f64,
+    /// What is measured.
+    pub sensors: Sensors,
+    /// Length of each record, in s.
+    pub duration: f64,
+    /// Whether there is a column with the road's velocity, which no sensor measures.
+    pub road_velocity: bool,
+    /// Two cases with the same seed and the same wishes are the same.
+    pub seed: u64,
+}
+
+impl Case {
+    /// The linear rig under the conditions of the benchmark's targets: clutter 1, 40 dB, ratio 3, full sensors;
+    /// 1000 Hz, published parameters 3 % off.
+    pub fn standard(name: &str, effects: Vec<Hidden>, seed: u64) -> Self {
+        Self {
+            name: name.into(),
+            plant: Plant::LinearQuarter,
+            effects,
+            noise_db: Some(40.0),
+            rate: 1000.0,
+            clutter: 1,
+            nominal_off: 0.03,
+            ratio: 3.0,
+            sensors: Sensors::Full,
+            duration: 20.0,
+            road_velocity: false,
+            seed,
+        }
+    }
+}
+
+/// What a rig's logger wrote.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// `train-multisine`, say.
+    pub name: String,
+    /// Names as in the FMU, units, values.
+    pub columns: Vec<(String, String, Vec<f64>)>,
+}
+
+impl Table {
+    /// The values of a column.
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        self.columns.iter().find(|column| column.0 == name).map(|column| column.2.as_slice())
+    }
+
+    /// With a header `name [unit]`.
+    pub fn csv(&self) -> String {
+        let head: Vec<String> =
+            self.columns.iter().map(|(name, unit, _)| format!("{name} [{unit}]")).collect();
+        let mut text = head.join(",");
+        text.push('\n');
+        for row in 0..self.columns.first().map_or(0, |column| column.2.len()) {
+            for (k, column) in self.columns.iter().enumerate() {
+                let comma = if k == 0 { "" } else { "," };
+                // Nine digits are finer than any noise here, and half as long as all of them.
+                let value = (column.2[row] * 1e9).round() / 1e9;
+                write!(text, "{comma}{value}").expect("a string takes everything");
+            }
+            text.push('\n');
+        }
+        text
+    }
+}
+
+/// A value that a parameter has in truth.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Value {
+    /// As in the FMU; of a sensor `signal.gain`, say.
+    pub name: String,
+    /// SI.
+    pub unit: String,
+    /// In `unit`.
+    pub value: f64,
+}
+
+/// An effect that is there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Present {
+    /// Number in the catalogue, or `U…`.
+    pub id: String,
+    /// What it is.
+    pub name: String,
+    /// Where it sits.
+    pub place: Place,
+    /// The signal, for a sensor's effect; otherwise empty.
+    pub signal: String,
+    /// Over which variable it acts, if it has no number.
+    pub variable: String,
+    /// Its parameters.
+    pub parameters: Vec<Value>,
+    /// What it changes of the signals over what the clutter changes; none without clutter.
+    pub ratio: Option<f64>,
+}
+
+/// What is really there. Only the scorer may see it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Truth {
+    /// What was asked.
+    pub case: Case,
+    /// The hidden effects.
+    pub effects: Vec<Present>,
+    /// The true base parameters.
+    pub base: Vec<Value>,
+    /// Deviation of each column's noise.
+    pub noise: Vec<Value>,
+}
+
+/// A case's data.
+#[derive(Clone, Debug)]
+pub struct Generated {
+    /// To learn from.
+    pub train: Vec<Table>,
+    /// To judge with: other excitations.
+    pub test: Vec<Table>,
+    /// What the model starts with: the published parameters.
+    pub start: Vec<Value>,
+    /// Sealed.
+    pub truth: Truth,
+}

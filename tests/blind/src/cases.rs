@@ -1,0 +1,153 @@
+//! The lists of cases.
+
+use crate::case::{Case, Hidden, Plant, Sensors};
+
+/// Sensors that a fault can sit in.
+const SIGNALS: [&str; 4] =
+    ["body.acceleration", "wheel.acceleration", "suspension.deflection", "wheel.force"];
+
+/// Effects of the quarter car's parts.
+const PARTS: [&str; 21] = [
+    "01", "02", "03", "04", "05", "06", "07", "08", "09", "10", "12", "13", "14", "15", "16", "17", "19",
+    "21", "23", "24", "25",
+];
+
+/// Effects of a strut on a dyno.
+const ON_DYNO: [&str; 9] = ["01", "03", "04", "05", "06", "07", "08", "09", "32"];
+
+/// Pairs that can be told apart, and pairs that are easily confused.
+const PAIRS: [[&str; 2]; 8] = [
+    ["01", "08"],
+    ["04", "16"],
+    ["06", "19"],
+    ["01", "24"],
+    ["01", "12"],
+    ["01", "16"],
+    ["05", "06"],
+    ["07", "23"],
+];
+
+fn standard(name: impl AsRef<str>, effects: Vec<Hidden>, seed: u64) -> Case {
+    Case::standard(name.as_ref(), effects, seed)
+}
+
+/// A few cases that a test can run each time: single effects, a pair, a cause without a name, a sensor's fault,
+/// nothing at all, wrong parameters.
+pub fn compact() -> Vec<Case> {
+    let single = ["01", "04", "05", "06", "07", "08", "09", "12", "16", "17", "23", "25"];
+    let mut all: Vec<Case> = (1..)
+        .zip(single)
+        .map(|(seed, id)| standard(format!("single-{id}"), vec![Hidden::new(id)], seed))
+        .collect();
+    all.push(standard("pair-01-08", vec![Hidden::new("01"), Hidden::new("08")], 21));
+    all.push(standard("unnamed-U1", vec![Hidden::new("U1")], 22));
+    all.push(standard("sensor-34", vec![Hidden::at("34", "wheel.force")], 23));
+    all.push(Case { clutter: 0, ..standard("none", vec![], 24) });
+    all.push(standard("none-cluttered", vec![], 25));
+    all.push(Case { clutter: 0, nominal_off: 0.1, ..standard("mismatch", vec![], 26) });
+    all
+}
+
+/// The whole benchmark, each case with so many seeds.
+pub fn full(seeds: u64) -> Vec<Case> {
+    (0..seeds).flat_map(|seed| full_of(1000 + seed)).collect()
+}
+
+fn full_of(seed: u64) -> Vec<Case> {
+    let mut all = vec![];
+    for id in PARTS {
+        all.push(standard(format!("single-{id}-{seed}"), vec![Hidden::new(id)], seed));
+        let published = ["01", "02", "04", "16", "19"].contains(&id);
+        if !published {
+            let case = standard(format!("published-{id}-{seed}"), vec![Hidden::new(id)], seed);
+            all.push(Case { plant: Plant::PublishedQuarter, ..case });
+        }
+    }
+    all.push(standard(format!("single-20-{seed}"), vec![Hidden::new("20")], seed));
+    for id in ["33", "34", "35", "36", "37", "38", "38d"] {
+        for signal in SIGNALS {
+            all.push(standard(format!("sensor-{id}-{signal}-{seed}"), vec![Hidden::at(id, signal)], seed));
+        }
+    }
+    all.push(standard(format!("sensor-42-{seed}"), vec![Hidden::at("42", "road.position")], seed));
+    for id in ["U1", "U2", "U3", "U4"] {
+        all.push(standard(format!("unnamed-{id}-{seed}"), vec![Hidden::new(id)], seed));
+    }
+    for pair in PAIRS {
+        let effects = pair.map(Hidden::new).to_vec();
+        all.push(standard(format!("pair-{}-{}-{seed}", pair[0], pair[1]), effects, seed));
+    }
+    let triple = ["01", "08", "19"].map(Hidden::new).to_vec();
+    all.push(standard(format!("triple-01-08-19-{seed}"), triple, seed));
+    // As many without an effect as it takes to see a false alarm in a hundred over the seeds.
+    for part in 0..10 {
+        for clutter in [0, 1] {
+            let name = format!("none-{clutter}-{part}-{seed}");
+            all.push(Case { clutter, ..standard(name, vec![], seed * 100 + part) });
+        }
+    }
+    conditions(seed, &mut all);
+    for id in ON_DYNO {
+        let case = standard(format!("dyno-{id}-{seed}"), vec![Hidden::new(id)], seed);
+        all.push(Case { plant: Plant::StrutDyno, ..case });
+    }
+    let offset = standard(format!("dyno-33-{seed}"), vec![Hidden::at("33", "force")], seed);
+    all.push(Case { plant: Plant::StrutDyno, ..offset });
+    all.push(Case { plant: Plant::StrutDyno, ..standard(format!("dyno-none-{seed}"), vec![], seed) });
+    all
+}
+
+/// One condition at a time made worse, or better, for a few effects.
+fn conditions(seed: u64, all: &mut Vec<Case>) {
+    for id in ["01", "08", "12", "16"] {
+        let mut with = |change: &str, make: &dyn Fn(Case) -> Case| {
+            all.push(make(standard(format!("{change}-{id}-{seed}"), vec![Hidden::new(id)], seed)));
+        };
+        for noise in [70.0, 50.0, 30.0] {
+            with(&format!("noise-{noise}"), &|case| Case { noise_db: Some(noise), ..case });
+        }
+        for rate in [100.0, 250.0] {
+            with(&format!("rate-{rate}"), &|case| Case { rate, ..case });
+        }
+        for clutter in [0, 2] {
+            with(&format!("clutter-{clutter}"), &|case| Case { clutter, ..case });
+        }
+        for nominal_off in [0.1, 0.2] {
+            with(&format!("off-{nominal_off}"), &|case| Case { nominal_off, ..case });
+        }
+        with("no-force-cell", &|case| Case { sensors: Sensors::NoForceCell, ..case });
+        with("poor", &|case| Case { sensors: Sensors::Poor, ..case });
+        for (name, size) in [("small", 0.1), ("third", 0.35)] {
+            with(name, &|mut case| {
+                case.effects[0].size = size;
+                Case { ratio: 0.0, ..case }
+            });
+        }
+        with("ratio-10", &|case| Case { ratio: 10.0, ..case });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+
+    #[test]
+    fn every_case_has_its_own_name() {
+        for list in [compact(), full(3)] {
+            let names: HashSet<&str> = list.iter().map(|case| case.name.as_str()).collect();
+            assert_eq!(names.len(), list.len());
+        }
+    }
+
+    #[test]
+    fn every_effect_of_a_case_exists() {
+        for case in compact().iter().chain(&full(1)) {
+            for hidden in &case.effects {
+                let entry = crate::catalogue::Entry::find(&hidden.id).unwrap();
+                assert_eq!(entry.place == crate::catalogue::Place::Sensor, !hidden.signal.is_empty());
+            }
+        }
+    }
+}

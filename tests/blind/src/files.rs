@@ -1,0 +1,96 @@
+//! A case on disk: the data of a case in `data`, its truth in `sealed`.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use crate::case::{Generated, Plant, Truth};
+use crate::score::{Score, score};
+
+/// Where a report may be, below a case's folder.
+const REPORTS: [&str; 3] = ["report.json", "report/report.json", "data/report.json"];
+
+/// Writes a case's files and returns the folder.
+///
+/// # Errors
+/// If that fails.
+pub fn write(made: &Generated, below: &Path) -> Result<PathBuf, String> {
+    let folder = below.join(&made.truth.case.name);
+    let write = |path: PathBuf, text: String| {
+        let parent = path.parent().unwrap_or(below);
+        std::fs::create_dir_all(parent)
+            .and_then(|()| std::fs::write(&path, text))
+            .map_err(|error| format!("{} cannot be written: {error}", path.display()))
+    };
+    for table in made.train.iter().chain(&made.test) {
+        write(folder.join("data").join(format!("{}.csv", table.name)), table.csv())?;
+    }
+    write(folder.join("data/start.toml"), start(made))?;
+    let truth = serde_json::to_string_pretty(&made.truth).map_err(|error| error.to_string())?;
+    write(folder.join("sealed/truth.json"), truth)?;
+    Ok(folder)
+}
+
+/// The parameter set that the model starts with, in the form of the project's own.
+fn start(made: &Generated) -> String {
+    let (fmu, model, choice) = match made.truth.case.plant {
+        // That the tyre cannot pull is for the diagnosis to find out.
+        Plant::LinearQuarter | Plant::PublishedQuarter => {
+            ("BlindQuarterVehicle", "QuarterCar", "tire.lift_off = { value = false, source = \"start\" }")
+        }
+        Plant::StrutDyno => {
+            ("BlindStrutDyno", "ElementDyno", "element = { value = \"Strut\", source = \"start\" }")
+        }
+    };
+    let mut text = format!(
+        "fmu = \"{fmu}\"\nmodel = \"{model}\"\ntitle = \"What is known of the rig\"\nsource = \"TUM\"\n\n[values]\n{choice}\n"
+    );
+    for value in &made.start {
+        writeln!(
+            text,
+            "{} = {{ value = {:?}, unit = \"{}\", source = \"start\" }}",
+            value.name, value.value, value.unit
+        )
+        .expect("a string takes everything");
+    }
+    text
+}
+
+/// Judges the report in a case's folder.
+///
+/// # Errors
+/// If there is no truth or no report, or they cannot be read.
+pub fn judge(folder: &Path) -> Result<Score, String> {
+    let read = |path: &Path| {
+        std::fs::read_to_string(path).map_err(|error| format!("{} cannot be read: {error}", path.display()))
+    };
+    let sealed = folder.join("sealed/truth.json");
+    let truth: Truth = serde_json::from_str(&read(&sealed)?)
+        .map_err(|error| format!("{} is not a truth: {error}", sealed.display()))?;
+    let report =
+        REPORTS.iter().map(|name| folder.join(name)).find(|path| path.exists()).ok_or_else(|| {
+            format!("{} has no report: run the diagnosis and put its report.json there", folder.display())
+        })?;
+    score(&truth, &read(&report)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::{Case, Hidden};
+
+    #[test]
+    fn a_case_goes_to_disk_and_is_judged_there() {
+        let case = Case { duration: 4.0, rate: 100.0, ..Case::standard("case", vec![Hidden::new("01")], 5) };
+        let made = crate::generate(&case).unwrap();
+        let below = tempfile::tempdir().unwrap();
+        let folder = write(&made, below.path()).unwrap();
+        let csv = std::fs::read_to_string(folder.join("data/train-multisine.csv")).unwrap();
+        assert_eq!(csv.lines().count(), 402);
+        assert!(judge(&folder).unwrap_err().contains("no report"));
+        std::fs::write(folder.join("report.json"), r#"{"verdict": "no_effect"}"#).unwrap();
+        assert_eq!(judge(&folder).unwrap().outcome, crate::score::Outcome::Missed);
+        let truth = std::fs::read_to_string(folder.join("sealed/truth.json")).unwrap();
+        let truth: Truth = serde_json::from_str(&truth).unwrap();
+        assert_eq!((&truth.case, &truth.effects[0].id), (&case, &made.truth.effects[0].id));
+    }
+}

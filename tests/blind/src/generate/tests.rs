@@ -1,0 +1,122 @@
+use super::*;
+use crate::case::{Hidden, Sensors};
+
+fn short(effects: Vec<Hidden>) -> Case {
+    Case { duration: 6.0, ..Case::standard("test", effects, 11) }
+}
+
+fn worst_pull(table: &Table) -> f64 {
+    table.column("wheel.force").unwrap().iter().fold(0.0_f64, |least, f| least.min(*f))
+}
+
+#[test]
+fn a_seed_gives_the_same_data_again() {
+    let case = short(vec![Hidden::new("01")]);
+    let (one, other) = (generate(&case).unwrap(), generate(&case).unwrap());
+    assert_eq!(one.train, other.train);
+    assert_eq!(one.test, other.test);
+    assert_eq!(one.truth, other.truth);
+    assert_ne!(one.train, generate(&Case { seed: 12, ..case }).unwrap().train);
+}
+
+#[test]
+fn tables_have_the_names_of_the_fmu() {
+    let heads = |sensors| {
+        let made = generate(&Case { sensors, ..short(vec![]) }).unwrap();
+        made.train[0].csv().lines().next().unwrap().to_owned()
+    };
+    let full = "time [s],road.position [m],actuator.force [N],body.acceleration [m/s2],wheel.acceleration [m/s2],\
+                suspension.deflection [m],wheel.force [N]";
+    assert_eq!(heads(Sensors::Full), full);
+    assert_eq!(
+        heads(Sensors::Poor),
+        "time [s],road.position [m],actuator.force [N],body.acceleration [m/s2],suspension.deflection [m]"
+    );
+}
+
+/// Without effects, noise and clutter the records obey Newton's law with the true masses.
+#[test]
+fn the_sum_of_the_forces_is_in_the_record() {
+    let case = Case { noise_db: None, clutter: 0, ..short(vec![]) };
+    let made = generate(&case).unwrap();
+    let of = |name: &str| made.truth.base.iter().find(|value| value.name == name).unwrap().value;
+    for table in made.train.iter().chain(&made.test) {
+        let column = |name| table.column(name).unwrap();
+        let force = column("wheel.force");
+        for (k, force) in force.iter().enumerate() {
+            let inertia = of("sprung_mass") * column("body.acceleration")[k]
+                + of("unsprung_mass") * column("wheel.acceleration")[k];
+            assert!((inertia - force).abs() < 1e-8 * (1.0 + rms(column("wheel.force"))), "{inertia} {force}");
+        }
+    }
+}
+
+#[test]
+fn the_standstill_shows_the_noise_that_was_asked_for() {
+    let made = generate(&Case { duration: 20.0, ..short(vec![]) }).unwrap();
+    for noise in &made.truth.noise {
+        let columns = made.train.iter().map(|table| table.column(&noise.name).unwrap());
+        let mean = columns.clone().map(|all| rms(all).powi(2)).sum::<f64>() / 2.0;
+        assert!((mean.sqrt() / noise.value / 100.0 - 1.0).abs() < 0.05, "{}", noise.name);
+        // Before the end the anti-alias filter already sees what comes.
+        let still: Vec<f64> = columns.flat_map(|all| all[..480].to_vec()).collect();
+        assert!((rms(&still) / noise.value - 1.0).abs() < 0.1, "{}", noise.name);
+    }
+}
+
+#[test]
+fn only_lift_off_lifts_off() {
+    let lifted = generate(&short(vec![Hidden::new("20")])).unwrap();
+    let kept = generate(&short(vec![])).unwrap();
+    let of = |name: &str| kept.truth.base.iter().find(|value| value.name == name).unwrap().value;
+    let load = (of("sprung_mass") + of("unsprung_mass")) * GRAVITY;
+    for table in lifted.train.iter().filter(|table| table.name != "train-sweep") {
+        assert!(worst_pull(table) < -0.95 * load, "{}: {} of {load} N", table.name, worst_pull(table));
+    }
+    for table in kept.train.iter().chain(&kept.test) {
+        assert!(worst_pull(table) > -0.9 * load, "{}: {} N", table.name, worst_pull(table));
+    }
+}
+
+#[test]
+fn effects_outdo_the_clutter_and_every_one_can_be_hidden() {
+    for entry in crate::catalogue::ENTRIES {
+        let signal = match (entry.place, entry.id) {
+            (crate::catalogue::Place::Sensor, "42") => "road.position",
+            (crate::catalogue::Place::Sensor, _) => "body.acceleration",
+            _ => "",
+        };
+        let case = Case { duration: 4.0, ..short(vec![Hidden::at(entry.id, signal)]) };
+        let made = generate(&case).unwrap();
+        let ratio = made.truth.effects[0].ratio.unwrap();
+        for table in made.train.iter().chain(&made.test) {
+            assert!(
+                table.columns.iter().all(|column| column.2.iter().all(|x| x.is_finite())),
+                "{}",
+                entry.id
+            );
+        }
+        // The parabola of a tyre that shall still lift off is bounded.
+        assert!(ratio > 2.0 || ["19", "20"].contains(&entry.id), "{}: {ratio}", entry.id);
+    }
+}
+
+#[test]
+fn what_cannot_be_hidden_is_refused() {
+    let refused = |case: &Case| generate(case).unwrap_err();
+    assert!(refused(&short(vec![Hidden::new("99")])).contains("these can"));
+    assert!(refused(&short(vec![Hidden::at("34", "engine.speed")])).contains("body.acceleration"));
+    let dyno = Case { plant: Plant::StrutDyno, ..short(vec![Hidden::new("19")]) };
+    assert!(refused(&dyno).contains("another plant"));
+    assert!(refused(&Case { rate: 333.0, ..short(vec![]) }).contains("divides"));
+}
+
+#[test]
+fn the_dyno_and_the_published_rig_run() {
+    for (plant, id) in [(Plant::StrutDyno, "01"), (Plant::StrutDyno, "32"), (Plant::PublishedQuarter, "06")] {
+        let made = generate(&Case { plant, ..short(vec![Hidden::new(id)]) }).unwrap();
+        assert_eq!((made.train.len(), made.test.len()), (2, 3));
+        let last = made.train[0].columns.last().unwrap();
+        assert!(rms(&last.2) > 1.0, "{plant:?} {}: {}", last.0, rms(&last.2));
+    }
+}

@@ -1,0 +1,23 @@
+//! The blind benchmark: measured-looking data of rigs with hidden causes, and the score of whoever names them.
+//!
+//! It shares no code with the models or with the diagnosis: its own equations ([`car`], [`dyno`], [`strut`]),
+//! its own integrator at 20 kHz, friction that sticks ([`friction`]) instead of a tanh, exact delays, its own
+//! [`sensors`]. [`catalogue`] says what can be hidden, [`case`](mod@case) what is asked for, [`generate()`] makes it.
+
+pub mod car;
+pub mod case;
+pub mod cases;
+pub mod catalogue;
+pub mod dyno;
+pub mod excitation;
+pub mod files;
+pub mod friction;
+pub mod generate;
+pub mod random;
+pub mod rig;
+pub mod score;
+pub mod sensors;
+pub mod strut;
+
+pub use case::{Case, Generated, Hidden, Plant, Sensors, Table, Truth};
+pub use generate::generate;

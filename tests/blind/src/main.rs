@@ -1,0 +1,93 @@
+//! Makes the blind benchmark's cases, and scores reports.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use strut_blind::{Case, cases, files, generate, score};
+
+/// Data with hidden causes, and the score of whoever names them.
+#[derive(Parser)]
+#[command(version)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Show the cases' numbers and names
+    List {
+        /// The whole benchmark with so many seeds, not the compact list
+        #[arg(long)]
+        full: Option<u64>,
+    },
+    /// Write the data of cases, and their truth in a folder `sealed` of its own
+    Generate {
+        /// The case's number or name; several if given several times, all if not given
+        #[arg(long = "case")]
+        cases: Vec<String>,
+        /// The whole benchmark with so many seeds, not the compact list
+        #[arg(long)]
+        full: Option<u64>,
+        /// Where to: each case gets a folder there
+        #[arg(long)]
+        out: PathBuf,
+    },
+    /// Compare the reports in cases' folders with the truth
+    Score {
+        /// The cases' folders, each with a report.json
+        #[arg(required = true)]
+        folders: Vec<PathBuf>,
+    },
+}
+
+fn main() -> ExitCode {
+    match run(Arguments::parse().command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(command: Command) -> Result<(), String> {
+    let list = |full: Option<u64>| full.map_or_else(cases::compact, cases::full);
+    match command {
+        Command::List { full } => {
+            for (number, case) in list(full).iter().enumerate() {
+                println!("{number:4} {}", case.name);
+            }
+        }
+        Command::Generate { cases, full, out } => {
+            let all = list(full);
+            let wanted: Vec<&Case> = if cases.is_empty() {
+                all.iter().collect()
+            } else {
+                cases.iter().map(|wanted| find(&all, wanted)).collect::<Result<_, _>>()?
+            };
+            for case in wanted {
+                println!("{}", files::write(&generate(case)?, &out)?.display());
+            }
+        }
+        Command::Score { folders } => {
+            let mut scores = vec![];
+            for folder in folders {
+                scores.push(files::judge(&folder)?);
+            }
+            for judged in &scores {
+                eprintln!("{}: {:?}, {} called {}", judged.case, judged.outcome, judged.truth, judged.first);
+            }
+            print!("{}", score::markdown(&scores));
+        }
+    }
+    Ok(())
+}
+
+fn find<'a>(all: &'a [Case], wanted: &str) -> Result<&'a Case, String> {
+    let number = wanted.parse::<usize>().ok().and_then(|number| all.get(number));
+    number.or_else(|| all.iter().find(|case| case.name == wanted)).ok_or_else(|| {
+        format!("there is no case {wanted}: take a name or a number below {}, see `blind list`", all.len())
+    })
+}

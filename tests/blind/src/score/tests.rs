@@ -1,0 +1,121 @@
+use super::*;
+use crate::case::{Case, Value};
+
+fn truth(effects: &[(&str, Place, &str)]) -> Truth {
+    let present = |&(id, place, signal): &(&str, Place, &str)| Present {
+        id: id.into(),
+        name: String::new(),
+        place,
+        signal: signal.into(),
+        variable: "suspension.deflection".into(),
+        parameters: vec![Value { name: "strut.coulomb.force".into(), unit: "N".into(), value: 60.0 }],
+        ratio: None,
+    };
+    let case = Case::standard("test", vec![], 1);
+    Truth { case, effects: effects.iter().map(present).collect(), base: vec![], noise: vec![] }
+}
+
+fn named(effects: &[(&str, &str, &[&str])]) -> String {
+    let effects: Vec<serde_json::Value> = effects
+        .iter()
+        .map(|(id, element, alike)| {
+            let force = serde_json::json!({"name": "strut.coulomb.force", "low": 55.0, "high": 65.0});
+            serde_json::json!({"id": id, "element": element, "parameters": [force], "ambiguous_with": alike})
+        })
+        .collect();
+    serde_json::json!({"verdict": "named", "effects": effects, "seconds": 2.0}).to_string()
+}
+
+const FRICTION: (&str, Place, &str) = ("01", Place::Strut, "");
+const SPRING: (&str, Place, &str) = ("08", Place::Strut, "");
+const GAIN: (&str, Place, &str) = ("34", Place::Sensor, "wheel.force");
+
+fn came_out(effects: &[(&str, Place, &str)], report: &str) -> Outcome {
+    score(&truth(effects), report).unwrap().outcome
+}
+
+#[test]
+fn one_effect() {
+    let of = |report: &str| came_out(&[FRICTION], report);
+    assert_eq!(of(&named(&[("01", "strut", &[])])), Outcome::Correct);
+    assert_eq!(of(&named(&[("01", "strut", &["16 guide"])])), Outcome::OneOfTwo);
+    assert_eq!(of(&named(&[("16", "guide", &["01 strut"])])), Outcome::OneOfTwo);
+    assert_eq!(of(&named(&[("16", "guide", &["01", "04"])])), Outcome::OneOfMany);
+    assert_eq!(of(&named(&[("16", "guide", &[])])), Outcome::WrongName);
+    assert_eq!(of(&named(&[("01", "strut", &[]), ("16", "guide", &[])])), Outcome::TooMany);
+    assert_eq!(of(r#"{"verdict": "no_effect"}"#), Outcome::Missed);
+    assert_eq!(of(r#"{"verdict": "unnamed", "unnamed": {"location": "strut"}}"#), Outcome::Unnamed);
+}
+
+#[test]
+fn several_effects() {
+    let of = |report: &str| came_out(&[FRICTION, SPRING], report);
+    assert_eq!(of(&named(&[("08", "strut", &[]), ("01", "strut", &[])])), Outcome::Correct);
+    assert_eq!(of(&named(&[("01", "strut", &[])])), Outcome::TooFew);
+    assert_eq!(of(&named(&[("01", "strut", &[]), ("16", "guide", &[])])), Outcome::WrongName);
+}
+
+#[test]
+fn a_sensor_is_told_by_its_signal() {
+    assert_eq!(came_out(&[GAIN], &named(&[("34", "wheel.force", &[])])), Outcome::Correct);
+    assert_eq!(came_out(&[GAIN], &named(&[("34", "body.acceleration", &[])])), Outcome::WrongName);
+    let said = |report: &str| score(&truth(&[GAIN]), report).unwrap().sensor_or_plant;
+    assert_eq!(said(&named(&[("34", "body.acceleration", &[])])), Some(true));
+    assert_eq!(said(&named(&[("01", "strut", &[])])), Some(false));
+    let lost = ("38d", Place::Sensor, "wheel.force");
+    let report = r#"{"verdict": "bad_data", "data_problems": [{"signal": "wheel.force"}]}"#;
+    assert_eq!(came_out(&[lost], report), Outcome::Correct);
+}
+
+#[test]
+fn nothing_is_there() {
+    assert_eq!(came_out(&[], r#"{"verdict": "no_effect"}"#), Outcome::Correct);
+    assert_eq!(came_out(&[], r#"{"verdict": "parameter_mismatch"}"#), Outcome::Correct);
+    assert_eq!(came_out(&[], &named(&[("01", "strut", &[])])), Outcome::FalseAlarm);
+    assert_eq!(came_out(&[], r#"{"verdict": "model_inadequate"}"#), Outcome::FalseAlarm);
+}
+
+#[test]
+fn without_a_number_it_wants_no_name() {
+    let hump = [("U1", Place::Strut, "")];
+    let report =
+        r#"{"verdict": "unnamed", "unnamed": {"location": "strut", "variable": "suspension.deflection"}}"#;
+    let judged = score(&truth(&hump), report).unwrap();
+    assert_eq!(judged.outcome, Outcome::Unnamed);
+    assert_eq!((judged.location_right, judged.variable_right), (Some(true), Some(true)));
+    assert_eq!(came_out(&hump, &named(&[("01", "strut", &[])])), Outcome::WrongName);
+}
+
+#[test]
+fn intervals_are_counted_for_rightly_named_effects() {
+    let covered = |report: &str| score(&truth(&[FRICTION]), report).unwrap().covered;
+    assert_eq!(covered(&named(&[("01", "strut", &[])])), (1, 1));
+    assert_eq!(covered(&named(&[("16", "guide", &[])])), (0, 0));
+}
+
+/// Newcombe (1998), table I: 81 of 263 and 0 of 20.
+#[test]
+fn wilson_is_the_published_interval() {
+    let near = |(low, high): (f64, f64), a: f64, b: f64| (low - a).abs() < 5e-5 && (high - b).abs() < 5e-5;
+    assert!(near(wilson(81, 263), 0.2553, 0.3662), "{:?}", wilson(81, 263));
+    assert!(near(wilson(0, 20), 0.0, 0.1611), "{:?}", wilson(0, 20));
+}
+
+#[test]
+fn the_table_counts() {
+    let report = named(&[("01", "strut", &[])]);
+    let scores = [
+        score(&truth(&[FRICTION]), &report).unwrap(),
+        score(&truth(&[SPRING]), &report).unwrap(),
+        score(&truth(&[]), r#"{"verdict": "no_effect"}"#).unwrap(),
+    ];
+    let text = markdown(&scores);
+    assert!(text.contains("| correct, or one of two | ≥ 95 % | 50.0 % | 1/2 |"), "{text}");
+    assert!(text.contains("| false alarms with clutter | ≤ 5 % | 0.0 % | 0/1 |"), "{text}");
+    assert!(text.contains("| 08 | 01 (1) |"), "{text}");
+}
+
+#[test]
+fn what_is_no_report_is_refused() {
+    assert!(score(&truth(&[]), "{}").unwrap_err().contains("verdict"));
+}

@@ -1,0 +1,217 @@
+//! From the true signal to what the record shows.
+
+use std::f64::consts::PI;
+
+use crate::car::RATE;
+use crate::random::Random;
+
+/// What a sensor does to its signal; by default nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sensor {
+    /// First-order time constant, in s.
+    pub lag: f64,
+    /// A second one, of the clutter, in s.
+    pub bandwidth: f64,
+    /// Time by which the signal comes late, in s; exact, and negative if the others are late.
+    pub skew: f64,
+    /// Shown over true.
+    pub gain: f64,
+    /// In the signal's unit.
+    pub offset: f64,
+    /// In the signal's unit for a second.
+    pub drift: f64,
+    /// Deviation of the white noise, in the signal's unit.
+    pub noise: f64,
+    /// Step of the converter; zero is none.
+    pub quantum: f64,
+    /// Largest value to each side.
+    pub range: f64,
+    /// Chance that a sample begins a dropout of up to 50 ms, during which the last value stays.
+    pub dropout: f64,
+}
+
+impl Default for Sensor {
+    fn default() -> Self {
+        Self {
+            lag: 0.0,
+            bandwidth: 0.0,
+            skew: 0.0,
+            gain: 1.0,
+            offset: 0.0,
+            drift: 0.0,
+            noise: 0.0,
+            quantum: 0.0,
+            range: f64::INFINITY,
+            dropout: 0.0,
+        }
+    }
+}
+
+impl Sensor {
+    /// The samples that it shows of `signal`, which has [`RATE`] samples a second, at `rate` a second.
+    pub fn measure(&self, signal: &[f64], rate: f64, random: &mut Random) -> Vec<f64> {
+        let slow = delayed(&lagged(&lagged(signal, self.lag), self.bandwidth), self.skew);
+        let mut shown = decimated(&slow, rate);
+        for (k, value) in shown.iter_mut().enumerate() {
+            let drifted = self.offset + self.drift * k as f64 / rate;
+            // Noise is drawn even if it is nothing, so that the rest of the stream stays where it is.
+            let noisy = self.gain * *value + drifted + self.noise * random.normal();
+            let clipped = noisy.clamp(-self.range, self.range);
+            *value =
+                if self.quantum > 0.0 { (clipped / self.quantum).round() * self.quantum } else { clipped };
+        }
+        if self.dropout > 0.0 {
+            self.drop_out(&mut shown, rate, random);
+        }
+        shown
+    }
+
+    fn drop_out(&self, shown: &mut [f64], rate: f64, random: &mut Random) {
+        let mut k = 1;
+        while k < shown.len() {
+            if random.unit() < self.dropout {
+                let length = (random.between(0.02, 0.05) * rate).ceil() as usize;
+                let end = (k + length).min(shown.len());
+                let last = shown[k - 1];
+                shown[k..end].fill(last);
+                k = end;
+            }
+            k += 1;
+        }
+    }
+}
+
+/// Exact for a signal that is linear between samples.
+fn lagged(signal: &[f64], time_constant: f64) -> Vec<f64> {
+    if time_constant <= 0.0 {
+        return signal.to_vec();
+    }
+    let ratio = 1.0 / (RATE * time_constant);
+    let keep = (-ratio).exp();
+    let average = (1.0 - keep) / ratio;
+    let mut out = vec![signal[0]; signal.len()];
+    for k in 1..signal.len() {
+        out[k] = keep * out[k - 1] + (average - keep) * signal[k - 1] + (1.0 - average) * signal[k];
+    }
+    out
+}
+
+/// `delay` seconds later, straight lines between the samples.
+fn delayed(signal: &[f64], delay: f64) -> Vec<f64> {
+    if delay == 0.0 {
+        return signal.to_vec();
+    }
+    let last = signal.len() - 1;
+    let at = |k: f64| signal[(k.max(0.0) as usize).min(last)];
+    (0..signal.len())
+        .map(|k| {
+            let place = k as f64 - delay * RATE;
+            let share = place - place.floor();
+            at(place.floor()) * (1.0 - share) + at(place.floor() + 1.0) * share
+        })
+        .collect()
+}
+
+/// Every so many samples, after an anti-alias filter (cut-off 0.4 of the rate, without phase; the same for all
+/// signals, so that linear relations between them stay).
+fn decimated(signal: &[f64], rate: f64) -> Vec<f64> {
+    let every = (RATE / rate).round() as usize;
+    let reach = 4 * every;
+    let cut_off = 0.4 / every as f64;
+    let window = |k: f64| 0.5 + 0.5 * (PI * k / (reach as f64 + 1.0)).cos();
+    let sinc =
+        |k: f64| if k == 0.0 { 1.0 } else { (2.0 * PI * cut_off * k).sin() / (2.0 * PI * cut_off * k) };
+    let taps: Vec<f64> =
+        (0..=2 * reach).map(|k| k as f64 - reach as f64).map(|k| window(k) * sinc(k)).collect();
+    let sum: f64 = taps.iter().sum();
+    let last = signal.len() - 1;
+    (0..signal.len())
+        .step_by(every)
+        .map(|centre| {
+            let around = |k: usize| signal[(centre + k).saturating_sub(reach).min(last)];
+            let weighted: f64 = if centre >= reach && centre + reach <= last {
+                taps.iter().zip(&signal[centre - reach..]).map(|(tap, value)| tap * value).sum()
+            } else {
+                taps.iter().enumerate().map(|(k, tap)| tap * around(k)).sum()
+            };
+            weighted / sum
+        })
+        .collect()
+}
+
+/// Root mean square.
+pub fn rms(signal: &[f64]) -> f64 {
+    (signal.iter().map(|x| x * x).sum::<f64>() / signal.len().max(1) as f64).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+
+    fn sine(frequency: f64, seconds: f64) -> Vec<f64> {
+        let count = (seconds * RATE) as usize + 1;
+        (0..count).map(|k| (TAU * frequency * k as f64 / RATE).sin()).collect()
+    }
+
+    fn shown(sensor: &Sensor, signal: &[f64]) -> Vec<f64> {
+        sensor.measure(signal, 1000.0, &mut Random::new(1, "test"))
+    }
+
+    #[test]
+    fn a_perfect_sensor_shows_the_signal() {
+        for rate in [100.0, 250.0, 1000.0] {
+            let signal = sine(5.0, 4.0);
+            let seen = Sensor::default().measure(&signal, rate, &mut Random::new(1, "test"));
+            assert_eq!(seen.len(), (4.0 * rate) as usize + 1);
+            let truth = |k: usize| (TAU * 5.0 * k as f64 / rate).sin();
+            for (k, seen) in seen.iter().enumerate().take(seen.len() / 2).skip(seen.len() / 4) {
+                assert!((seen - truth(k)).abs() < 5e-3, "{rate} Hz: {seen} for {}", truth(k));
+            }
+        }
+    }
+
+    #[test]
+    fn what_would_fold_is_filtered_out() {
+        let seen = Sensor::default().measure(&sine(90.0, 4.0), 100.0, &mut Random::new(1, "test"));
+        assert!(rms(&seen[50..350]) < 0.01, "{}", rms(&seen[50..350]));
+    }
+
+    #[test]
+    fn noise_is_as_large_as_asked() {
+        let seen = shown(&Sensor { noise: 0.3, ..Sensor::default() }, &vec![0.0; 800_000]);
+        assert!((rms(&seen) / 0.3 - 1.0).abs() < 0.02);
+    }
+
+    #[test]
+    fn a_skew_of_whole_samples_is_exact() {
+        let (plain, late) = (Sensor::default(), Sensor { skew: 5e-3, ..Sensor::default() });
+        let (first, second) = (shown(&plain, &sine(7.0, 1.0)), shown(&late, &sine(7.0, 1.0)));
+        for k in 100..900 {
+            assert!((second[k] - first[k - 5]).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_lag_has_the_phase_and_size_of_theory() {
+        let time_constant = 0.01;
+        let seen = shown(&Sensor { lag: time_constant, ..Sensor::default() }, &sine(10.0, 4.0));
+        let omega_t = TAU * 10.0 * time_constant;
+        for (k, seen) in seen.iter().enumerate().take(3000).skip(2000) {
+            let phase = TAU * 10.0 * k as f64 / 1000.0 - omega_t.atan();
+            let truth = phase.sin() / (1.0 + omega_t * omega_t).sqrt();
+            assert!((seen - truth).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn converters_have_steps_and_ends_and_lose_samples() {
+        let signal = sine(1.0, 4.0);
+        let seen = shown(&Sensor { quantum: 0.25, range: 0.75, ..Sensor::default() }, &signal);
+        assert!(seen.iter().all(|x| (x * 4.0).fract() == 0.0 && x.abs() <= 0.75));
+        let stuck = shown(&Sensor { dropout: 0.01, ..Sensor::default() }, &signal);
+        let repeated = stuck.windows(2).filter(|pair| pair[0] == pair[1]).count();
+        assert!((200..2500).contains(&repeated), "{repeated}");
+    }
+}
