@@ -29,7 +29,7 @@ fn lopsided() -> Parameters<f64> {
     p
 }
 
-/// The same with every effect on.
+/// The same with effects of each kind on.
 fn nonlinear() -> Parameters<f64> {
     let mut p = lopsided();
     p.strut.front.asymmetry = Asymmetry { ratio: 0.3, smoothing: 0.005 };
@@ -38,6 +38,8 @@ fn nonlinear() -> Parameters<f64> {
     p.strut.rear.coulomb = Coulomb { force: 90.0, velocity: 0.01 };
     p.tire.front.coulomb = Coulomb { force: 60.0, velocity: 0.008 };
     (p.tire.front.quadratic, p.tire.rear.quadratic) = (1.5e6, 2e6);
+    p.strut.front.orifice.coefficient = 300.0;
+    p.strut.rear.knee.ratio = -0.4;
     p
 }
 
@@ -241,7 +243,7 @@ proptest! {
     fn without_damping_energy_stays(x in states()) {
         let mut p = nonlinear();
         for strut in [&mut p.strut.front, &mut p.strut.rear] {
-            (strut.damping, strut.coulomb.force) = (0.0, 0.0);
+            (strut.damping, strut.coulomb.force, strut.orifice.coefficient) = (0.0, 0.0, 0.0);
         }
         for tire in [&mut p.tire.front, &mut p.tire.rear] {
             (tire.damping, tire.coulomb.force) = (0.0, 0.0);

@@ -137,12 +137,15 @@ fn oil_and_masses_make_a_mode_of_252_hertz_with_a_damping_ratio_of_0_24() {
 }
 
 /// Every effect at work.
-const EFFECTS: [(&str, f64); 5] = [
+const EFFECTS: [(&str, f64); 8] = [
     ("strut.asymmetry.ratio", 0.3),
     ("strut.coulomb.force", 60.0),
     ("guide.coulomb.force", 20.0),
     ("tire.coulomb.force", 30.0),
     ("tire.quadratic", 1e5),
+    ("strut.orifice.coefficient", 300.0),
+    ("strut.knee.ratio", -0.4),
+    ("guide.damping", 30.0),
 ];
 
 /// Kinetic energy, that of both springs over a road at `w`, and that of the oil.
