@@ -4,10 +4,12 @@ import cases
 import cases_ajala
 import cases_full_car
 import cases_kogut
+import cases_konieczny
 import cases_of_time
 import cases_sensors
 import cases_tum
 from controllers import LqrController, ModalSkyhook, Skyhook
+from eccentric import EccentricDrive, ExcitationSpeedController
 from excitation import ExcitationMotor
 from force_controllers import ForcePid, ForceTwoDof, ForceTwoDofLpv
 from full_car import FullCar
@@ -22,7 +24,9 @@ from sources import FrequencySource, VoltageSource
 
 MODELS = {model.__name__: model for model in (
     AngleSensorChain,
+    EccentricDrive,
     ExcitationMotor,
+    ExcitationSpeedController,
     ForcePid,
     ForceTwoDof,
     ForceTwoDofLpv,
@@ -47,8 +51,8 @@ MODELS = {model.__name__: model for model in (
     VoltageSource,
 )}
 
-CASES = [case for module in (cases, cases_ajala, cases_full_car, cases_kogut, cases_of_time, cases_sensors, cases_tum)
-         for case in module.CASES]
+CASES = [case for module in (cases, cases_ajala, cases_full_car, cases_kogut, cases_konieczny, cases_of_time,
+                             cases_sensors, cases_tum) for case in module.CASES]
 
 
 def model_of(case):
