@@ -28,11 +28,6 @@ fn references() {
     print!("{}", strut::python("tests/masters/fmpy_references.py", [strut::fmus()]));
 }
 
-#[test]
-fn published_numbers() {
-    print!("{}", strut::python("tests/masters/fmpy_numbers.py", [strut::fmus()]));
-}
-
 /// The references that the FMUs are measured against are what their script makes.
 #[test]
 fn references_can_be_made_again() {

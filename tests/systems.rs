@@ -23,6 +23,14 @@ connected! {
     tum_active_in_fmpy: "fmpy" "tum-active";
     tum_active_in_libcosimpy: "libcosimpy" "tum-active";
     tum_active_in_ecos: "ecos" "tum-active";
+    ajala_two_dof_in_fmpy: "fmpy" "ajala-two-dof";
+    ajala_two_dof_in_libcosimpy: "libcosimpy" "ajala-two-dof";
+    ajala_two_dof_in_ecos: "ecos" "ajala-two-dof";
+    konieczny_open_loop_in_fmpy: "fmpy" "konieczny-open-loop";
+    konieczny_open_loop_in_libcosimpy: "libcosimpy" "konieczny-open-loop";
+    konieczny_open_loop_in_ecos: "ecos" "konieczny-open-loop";
+    sas_in_libcosimpy: "libcosimpy" "sas";
+    sas_in_ecos: "ecos" "sas";
 }
 
 /// Those that have no reference as a whole.

@@ -83,6 +83,8 @@ pub struct Fit<'a> {
     pub coordinates: Vec<Coordinate>,
     /// Standard deviation of the residuals of each output.
     pub sigma: Vec<f64>,
+    /// States whose values at the start are estimated; what friction and bushes remember is soon forgotten.
+    states: Vec<usize>,
     bounds: Vec<(f64, f64)>,
 }
 
@@ -121,7 +123,10 @@ impl<'a> Fit<'a> {
         sigma: Vec<f64>,
     ) -> Self {
         let bounds = coordinates.iter().map(|coordinate| coordinate.bounds).collect();
-        Self { plant, dynamics, records, coordinates, sigma, bounds }
+        let remembered = |name: &str| name.starts_with("hysteresis.");
+        let states = plant.states.iter().enumerate().filter(|(_, state)| !remembered(&state.name));
+        let states = states.map(|(index, _)| index).collect();
+        Self { plant, dynamics, records, coordinates, sigma, states, bounds }
     }
 
     fn sections(&self) -> Vec<(usize, &'a Recorded, &'a Range<usize>)> {
@@ -180,7 +185,8 @@ impl<'a> Fit<'a> {
 
     /// The same point with the states at the start of each section that fit best.
     pub fn settled(&self, point: Point) -> Point {
-        let bare = Self { coordinates: Vec::new(), bounds: Vec::new(), sigma: self.sigma.clone(), ..*self };
+        let (plant, dynamics, records) = (self.plant, self.dynamics, self.records);
+        let bare = Self::new(plant, dynamics, records, Vec::new(), self.sigma.clone());
         let mut best = (bare.cost(&point), point);
         for _ in 0..3 {
             let (_, trace) = bare.linearise(&best.1);
@@ -245,7 +251,8 @@ impl<'a> Fit<'a> {
                 Handle::Output(..) => {}
             }
         }
-        seeds.extend((0..self.plant.states.len()).map(|state| (coordinates + state, Seed::State(state))));
+        let states = self.states.iter().enumerate();
+        seeds.extend(states.map(|(number, state)| (coordinates + number, Seed::State(*state))));
         seeds
     }
 
@@ -259,7 +266,7 @@ impl<'a> Fit<'a> {
         section: &Range<usize>,
         extra: &[&Signals],
     ) -> Section {
-        let (own, states) = (self.coordinates.len(), self.plant.states.len());
+        let (own, states) = (self.coordinates.len(), self.states.len());
         let n = own + extra.len();
         let drive = record.drive(section, &point.inputs);
         let start = &point.starts[index];
@@ -431,8 +438,8 @@ impl Problem for Fit<'_> {
         }
         for (start, elimination) in moved.starts.iter_mut().zip(&trace.sections) {
             let change = &elimination.constant + &elimination.linear * &step;
-            for (state, change) in start.iter_mut().zip(change.iter()) {
-                *state -= change;
+            for (state, change) in self.states.iter().zip(change.iter()) {
+                start[*state] -= change;
             }
         }
         moved

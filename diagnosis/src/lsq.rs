@@ -136,6 +136,8 @@ impl Stop {
     pub const EXACT: Self = Self { iterations: 2000, cost: 0.0, step: 1e-14 };
     /// As closely as noise deserves.
     pub const NOISY: Self = Self { iterations: 30, cost: 1e-5, step: 1e-6 };
+    /// Well enough to compare causes.
+    pub const ROUGH: Self = Self { iterations: 10, cost: 2e-3, step: 1e-4 };
 }
 
 /// A minimum.

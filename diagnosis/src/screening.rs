@@ -146,7 +146,10 @@ impl World<'_> {
         for (screened, mut found) in screened.iter_mut().zip(found) {
             found.sort_by(|a, b| b.0.total_cmp(&a.0));
             screened.gain = found.first().map_or(0.0, |(gain, _)| *gain);
-            screened.starts = found.into_iter().take(2).map(|(_, point)| point).collect();
+            // A second start where it may lead as far.
+            let near = 0.5 * screened.gain;
+            screened.starts =
+                found.into_iter().take(2).filter(|(gain, _)| *gain >= near).map(|(_, point)| point).collect();
         }
         screened.sort_by(|a, b| b.gain.total_cmp(&a.gain));
         Ok(screened)

@@ -132,7 +132,7 @@ impl World<'_> {
     fn tried(&self, null: &Fitted, screened: &Screened) -> Tried {
         let mut terms = null.terms.clone();
         terms.push(screened.term);
-        let fitted = self.fitted(&terms, &screened.starts, Stop::NOISY);
+        let fitted = self.fitted(&terms, &screened.starts, Stop::ROUGH);
         let (evidence, score) = match &fitted {
             Ok(fitted) => (self.evidence(null, fitted), self.score(null, fitted)),
             Err(_) => (Evidence::default(), f64::NEG_INFINITY),
@@ -188,7 +188,8 @@ impl World<'_> {
             let Some(chosen) = chosen else { break };
             let Ok(fitted) = chosen.fitted else { break };
             found.accepted.push(Accepted { term: chosen.term, evidence: chosen.evidence, rivals });
-            current = fitted;
+            // The others were fitted well enough to be compared; this one is to be built on.
+            current = self.fitted(&fitted.terms, &[fitted.point.clone()], Stop::NOISY)?;
             if matches!(chosen.term, Term::Table(_)) {
                 break;
             }

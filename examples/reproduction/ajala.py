@@ -1,18 +1,15 @@
 """Ajala, Bestle, Rauh: electro-hydraulic active suspension. No parameter value is printed: figures only."""
 
-import math
-
+import ajala_force
 import full_car
 import numpy as np
 from jacobi import System
 from output import plt
+from published import missing, taken
 from sheet import Claim, Figure, Section
+from spectra import LINES, STEP, lines_of, multisine
 from ssp import read
 
-STEP = 1e-3
-# One period of the excitation in s: lines 0.1 Hz apart.
-PERIOD = 10.0
-LINES = np.arange(3, 251) / PERIOD
 VARIANTS = {
     "passive": ("ajala-two-dof", {"actuator.pump.locked": True}),
     "PID-H": ("ajala-pid-h", {}),
@@ -25,17 +22,6 @@ STYLE = {
     "PID-L": {"color": "tab:orange", "linestyle": "--"},
     "2-DOF": {"color": "black"},
 }
-
-def multisine():
-    """Heights and velocities of a road with all lines, over one period; phases by Schroeder."""
-    time = np.arange(round(PERIOD / STEP)) * STEP
-    angles = math.tau * np.outer(time, LINES) - math.pi * np.arange(len(LINES)) ** 2 / len(LINES)
-    amplitude = 1e-3 / LINES
-    return time, np.sin(angles) @ amplitude, np.cos(angles) @ (amplitude * math.tau * LINES)
-
-
-def lines_of(values, time):
-    return np.exp(-1j * math.tau * np.outer(LINES, time)) @ values
 
 
 def response(fmus, variant, settling=3):
@@ -139,11 +125,25 @@ def full_car_claims(results):
 
 
 def section(fmus):
+    loops = {label: ajala_force.closed_loop(fmus, fmu) for label, fmu in ajala_force.CONTROLLERS.items()}
     responses = {label: response(fmus, label) for label in VARIANTS}
+    records = {label: ajala_force.on_the_rig(fmus, label == "passive") for label in ("passive", "controlled")}
     cars = {name: full_car.simulate(fmus, name) for name in full_car.SYSTEMS}
+    claims = [
+        *ajala_force.loop_claims(loops),
+        *quarter_car_claims(responses),
+        *ajala_force.rig_claims(records),
+        *full_car_claims(cars),
+    ]
     figures = [
+        Figure("ajala-loops.png", "The closed force loops (Ajala Fig. 2b)", lambda: ajala_force.draw_loops(loops)),
         Figure("ajala-responses.png", "Road to body and tyre (Ajala Fig. 4)", lambda: draw_responses(responses)),
+        Figure(
+            "ajala-forces.png",
+            "Wanted and measured force of an actuator that is moved (Ajala Fig. 6)",
+            lambda: ajala_force.draw_records(records),
+        ),
         Figure("ajala-full-car.png", "Modal accelerations at 70 km/h (Ajala Fig. 8)", lambda: full_car.plot(cars)),
     ]
     title = "Ajala: electro-hydraulic active suspension"
-    return Section(title, [], [*quarter_car_claims(responses), *full_car_claims(cars)], figures)
+    return Section(title, [], claims, figures, list(taken(fmus, "ajala")), list(missing("ajala")))

@@ -1,20 +1,90 @@
 """Konieczny, electrohydraulic full active suspension."""
 
+from ctypes import c_double
+
 import numpy as np
-from measure import linearise, parameters
+from measure import exchanged, linearise, parameters
 from output import plt
+from published import missing, taken
 from sheet import Claim, Figure, Number, Section
 from ssp import open_system
 
 # Eq. 4.2: the characteristic polynomial from s^5 down to the constant; then the eigenvalues as printed.
 POLYNOMIAL = [177, 15713, 300095, 6612388, 14887015, 8559185]
 EIGENVALUES = [-1, -1.439, -7.495 + 20.570j, -79.786 + 77.775j]
+# Eq. 3.2, states z_2, its rate, z_1, its rate, pressure, power; inputs v, w. In the units of the source.
+A = [
+    [0, 1, 0, 0, 0, 0],
+    [-231, -46, 23, 40, 2504, -401800],
+    [0, 0, 0, 1, 0, 0],
+    [305, 50, -1248, -77, -3493, 596600],
+    [2, -1, -6, 1, -53, 10220],
+    [0, 0, 0, 0, 0, -1],
+]
+B = [[0, 0], [4442, 212], [0, 0], [-6879, 949], [47, 4], [0, 0]]
 MODES = [(0.15915, 1.0), (0.22894, 1.0), (3.4843, 0.34234), (17.733, 0.71607)]
 
 
+def derived(fmus):
+    """Notations and section 2: what follows from other printed numbers."""
+    found = parameters(fmus, "KoniecznyServoHydraulicActuator")
+    reason = "4 E/(V_t + V_p) of the printed values is 10^12 times as large"
+    yield Number("hydraulic coefficient α", "Notations", 44.4495, found["coefficient"], 0.00006, "N/m⁵", reason)
+    stroke = found["cylinder.volume"] / found["cylinder.area"]
+    yield Number("cylinder stroke h, as V_t/A_a", "Notations", 0.06, stroke, 0.00006, "m")
+    yield Number("spool diameter d, as l/π", "Notations", 0.005, found["valve.perimeter"] / np.pi, 0.000006, "m")
+    yield Number("C_d = π/(π + 2)", "eq. 2.9", 0.611, np.pi / (np.pi + 2), 0.0006)
+    rig = parameters(fmus, "KoniecznyQuarterCar")
+    yield Number("unsprung over sprung mass", "2.2", 0.13, rig["unsprung_mass"] / rig["sprung_mass"], 0.006)
+    taylor = found["coefficient"] * found["flow_gain"]
+    reason = "the tangent (2.23) at rest; a regression over an interval has less"
+    yield Number("Φ over the spool's position, tangent", "eq. 2.24", 4.666e13, taylor, 0.6e10, "Pa/(m s)", reason)
+    on_pressure, on_spool = regression(fmus)
+    reason = "how the interval was sampled is not printed; this is a uniform grid, sines bring 4.87e13 and −343"
+    yield Number("Φ over the spool's position, regression", "eq. 2.24", 4.666e13, on_spool, 0.6e10, "Pa/(m s)", reason)
+    yield Number("Φ over the pressure, regression", "eq. 2.24", -341.2, on_pressure, 0.06, "1/s", reason)
+    chosen = found["coefficient"] * np.array(
+        [found["valve.regression.flow_gain"], -found["valve.regression.pressure_coefficient"]]
+    )
+    where = "of the FMU's law Regression"
+    yield Number(f"Φ over the spool's position {where}", "eq. 2.24", 4.666e13, chosen[0], 0.6e10, "Pa/(m s)")
+    yield Number(f"Φ over the pressure {where}", "eq. 2.24", -341.2, chosen[1], 0.06, "1/s")
+
+
+def regression(fmus):
+    """Φ of eq. 2.18 fitted by a plane over ±7 MPa and ±0.25 mm: slopes over pressure and spool."""
+    pressures, spools = np.linspace(-7e6, 7e6, 101), np.linspace(-0.25e-3, 0.25e-3, 101)
+    points = [(pressure, spool) for pressure in pressures for spool in spools]
+    with exchanged(fmus, "KoniecznyServoHydraulicActuator") as (fmu, description, _):
+        states = [entry.variable.derivative.name for entry in description.derivatives]
+
+        def rate(pressure, spool):
+            values = {"pressure": pressure, "spool.position": spool}
+            fmu.setContinuousStates((c_double * 2)(*(values[name] for name in states)), 2)
+            rates = (c_double * 2)()
+            fmu.getDerivatives(rates, 2)
+            return rates[states.index("pressure")]
+
+        # What leaks does not depend on the spool.
+        flow = [rate(*point) - rate(point[0], 0.0) for point in points]
+    slopes, *_ = np.linalg.lstsq(np.array(points), np.array(flow), rcond=None)
+    return slopes
+
+
 def identified(fmus):
-    """Section 4: the identified model, through model exchange."""
-    matrix = linearise(fmus, "ServoSuspensionIdentified").a
+    """Sections 3 and 4: the identified model, through model exchange."""
+    linear = linearise(fmus, "ServoSuspensionIdentified", ["voltage", "road.position"])
+    matrix = linear.a
+    sizes = parameters(fmus, "ServoSuspensionIdentified")
+    length, pressure, power = (sizes[f"{what}_unit"] for what in ("length", "pressure", "power"))
+    units = np.array([length, length, length, length, pressure, power])
+    for name, printed, found in (
+        ("A", np.array(A, float), linear.a * units / units[:, None]),
+        ("B", np.array(B, float), linear.b * np.array([1.0, length]) / units[:, None]),
+    ):
+        wrong = int(np.count_nonzero(np.abs(found - printed) > 1e-9 * np.abs(printed)))
+        what = f"entries of {name} that are as printed, of {printed.size}"
+        yield Number(what, "eq. 3.2", printed.size, printed.size - wrong, 0.1)
     for power, printed, found in zip(range(5, -1, -1), POLYNOMIAL, np.poly(matrix)[1:], strict=True):
         yield Number(f"characteristic polynomial, coefficient of s^{power}", "4.2", printed, found, 0.5)
     values = sorted((value for value in np.linalg.eigvals(matrix) if value.imag >= 0), key=abs)
@@ -105,6 +175,14 @@ def run(fmus, name, stop, signals):
 
 
 def claims(fmus, sweep):
+    undamped = {"strut.stiffness": 8000.0, "tire.stiffness": 44800.0, "strut.damping": 0.0, "tire.damping": 0.0}
+    body, wheel = sorted({round(mode[0], 6) for mode in linearise(fmus, "KoniecznyQuarterCar", start=undamped).modes()})
+    yield Claim(
+        "with the predicted stiffnesses, 8000 and 44800 N/m, the modes are near 1.5 Hz and 11 Hz",
+        "Notations, 2.2",
+        f"{body:.2f} Hz and {wheel:.2f} Hz",
+        abs(body / 1.5 - 1.0) < 0.1 and abs(wheel / 11.0 - 1.0) < 0.1,
+    )
     frequencies = np.geomspace(0.1, 100.0, 4000)
     response = gains(fmus, frequencies)["identified"][:, 0]
     peak = float(frequencies[np.argmax(response)])
@@ -142,4 +220,6 @@ def section(fmus):
         Figure("konieczny-gains.png", "Frequency responses (Konieczny Fig. 5 and 10)", lambda: draw_gains(fmus)),
     ]
     title = "Konieczny: electrohydraulic full active suspension"
-    return Section(title, [*identified(fmus), *locked(fmus)], list(claims(fmus, sweep)), figures)
+    numbers = [*derived(fmus), *identified(fmus), *locked(fmus)]
+    given = list(taken(fmus, "konieczny")), list(missing("konieczny"))
+    return Section(title, numbers, list(claims(fmus, sweep)), figures, *given)

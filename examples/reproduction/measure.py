@@ -13,17 +13,38 @@ from jacobi import Component
 
 
 def parameters(fmus, name, start=None):
-    """The variables of an initialised FMU."""
+    """The numbers of an initialised FMU."""
     component = Component(name, Path(fmus) / f"{name}.fmu")
     for variable, value in (start or {}).items():
         component.set(variable, value)
     component.fmu.setupExperiment(startTime=0.0)
     component.fmu.enterInitializationMode()
     component.fmu.exitInitializationMode()
-    names = [variable.name for variable in component.variables.values() if variable.type == "Real"]
-    values = component.fmu.getReal(component.references(names))
+    found = {}
+    for kind, read in {"Real": component.fmu.getReal, "Integer": component.fmu.getInteger}.items():
+        names = [variable.name for variable in component.variables.values() if variable.type == kind]
+        found.update(zip(names, read(component.references(names)), strict=True))
     component.close(failed=False)
-    return dict(zip(names, values, strict=True))
+    return found
+
+
+def stepped(fmus, name, output, inputs, seconds, size=1e-3, start=None):
+    """An output after each step. Inputs are numbers, or functions of the time at which a step begins."""
+    component = Component(name, Path(fmus) / f"{name}.fmu")
+    for variable, value in (start or {}).items():
+        component.set(variable, value)
+    component.fmu.setupExperiment(startTime=0.0)
+    component.fmu.enterInitializationMode()
+    component.fmu.exitInitializationMode()
+    driven, read = component.references(inputs), component.references([output])
+    values = []
+    for index in range(round(seconds / size)):
+        time = index * size
+        component.fmu.setReal(driven, [value(time) if callable(value) else value for value in inputs.values()])
+        component.fmu.doStep(currentCommunicationPoint=time, communicationStepSize=size)
+        values.append(component.fmu.getReal(read)[0])
+    component.close(failed=False)
+    return np.array(values)
 
 
 @dataclass

@@ -28,7 +28,9 @@ Every published number and what the figures claim, read off the FMUs. `cargo tes
 python examples/reproduction/reproduce.py
 ```
 
-✓: agrees to the printed digits. ✗: does not, and why."""
+✓: agrees to the printed digits. ✗: does not, and why. At the end of each section stand the printed numbers that nothing
+is calculated for, as the FMUs have them, and those that cannot be compared. What a source quotes of other works is left
+out."""
 
 
 def main():

@@ -1,6 +1,6 @@
 """A system of FMUs in a master that others have written, against the monolithic reference.
 
-    python connected.py fmpy|libcosimpy|ecos quanser-lqr|tum-active FOLDER
+    python connected.py fmpy|libcosimpy|ecos SYSTEM FOLDER
 
 All three are Jacobi masters with a fixed step, so they must agree with the example's to the last digits, and
 with the reference up to the coupling error. How large that is follows without the reference, from the same
@@ -35,8 +35,8 @@ class ExchangedAfterwards(System):
 def fmpy(path, step, count, signals):
     """FMPy 0.3.32.
 
-    Its first exchange comes after the first step, which is taken with zero inputs: nothing else here,
-    where everything starts at rest. Parameter bindings are not applied. Only what the system declares as
+    Its first exchange comes after the first step, which is taken with zero inputs: nothing else
+    where everything starts at rest with zero. Parameter bindings are not applied. Only what the system declares as
     connectors is recorded. A row bears the time at which its step began; the clock is added up, which may make
     for one step more than was asked for.
     """

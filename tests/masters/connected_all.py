@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 from connected import AGREEMENT, MASTERS
-from connected_systems import COMPOSED
+from connected_systems import REFERENCED
 
 sys.path.insert(0, str(Path(__file__).parent.parent.parent / "examples"))
 from jacobi import System  # noqa: E402
@@ -27,6 +27,10 @@ STEP, COUNT = 1e-3, 1000
 # rounding apart the error control goes in other steps: what then differs is within its tolerance, which is 1e-7
 # (with 1e-10 it is 1e-10).
 APART = {"tum-rig": 1e-5}
+
+
+# In the first step, which FMPy takes with zero inputs, the wheel of `sas` hangs in the air: nothing like the reference.
+COMPARED = {"fmpy": [name for name in REFERENCED if name != "sas"], "libcosimpy": REFERENCED, "ecos": REFERENCED}
 
 
 class FirstStepAlone(System):
@@ -65,7 +69,7 @@ def main():
     (master, _), scheme = MASTERS[name], SCHEMES[name]
     failures, seen = [], 0
     for path in sorted(folder.glob("*.ssp")):
-        if path.stem in COMPOSED:
+        if path.stem in COMPARED[name]:
             continue
         signals = list(outputs(path))
         found = master(path, STEP, COUNT, signals)

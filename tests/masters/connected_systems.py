@@ -1,5 +1,6 @@
-"""The connected systems: composed as in the examples, and their reference solutions."""
+"""The connected systems: composed as in the examples or as their files have them, and their reference solutions."""
 
+import json
 import sys
 from pathlib import Path
 
@@ -10,8 +11,15 @@ sys.path.insert(0, str(Path(__file__).parent.parent.parent / "examples"))
 import quanser_lqr  # noqa: E402
 import tum_active  # noqa: E402
 from jacobi import System  # noqa: E402
+from ssp import open_system  # noqa: E402
 
 COMPOSED = {"quanser-lqr": quanser_lqr, "tum-active": tum_active}
+# All that have a reference as a whole.
+REFERENCED = [
+    path.stem
+    for path in sorted((REFERENCE / "cases").glob("*.json"))
+    if json.loads(path.read_text(encoding="utf-8"))["kind"] == "coupled"
+]
 # What the examples change in an FMU, as the system's file does. The road and the rig are as they come.
 PARAMETERS = {"quanser-lqr": {"controller.switch_on_time": 5.0}, "tum-active": {}}
 
@@ -47,5 +55,7 @@ class Reference:
 
 
 def compose(name, folder, kind=System, parameters=None):
+    if name not in COMPOSED:
+        return open_system(folder, name, parameters, kind)
     module = COMPOSED[name]
     return kind(folder, module.COMPONENTS, module.CONNECTIONS, PARAMETERS[name] | (parameters or {}))

@@ -3,6 +3,7 @@
 import math
 
 from cases import single
+from eccentric import EccentricDrive, ExcitationSpeedController
 from parameter_sets import V0
 from sas import MrRotaryBrake, SasRig
 from table import indexed
@@ -23,6 +24,19 @@ EFFECTS = {"pivot.coulomb.torque": 0.8, "pivot.coulomb.speed": 0.1, "tire.quadra
 # b(0) of Table 1 times I. The rest of Fig. 9 is lost: b(1) = 13.5 b(0) (2700 to 200 samples), levelling off, is
 # assumed.
 PROFILE = [round(0.1921 * I2 * (1.0 + 12.5 * u * (3.0 - u) / 2.0), 4) for u in (k / 20 for k in range(21))]
+
+
+BRAKE = indexed("profile", PROFILE) | {"response_time": 0.01}
+
+# All of the drive but the eccentric (eq. 15) and all of its controller is assumed, as the parameter sets say.
+DRIVE = {
+    "motor.supply_voltage": 24.0, "motor.resistance": 1.0, "motor.torque_constant": 0.07, "motor.inertia": 1.5e-4,
+    "gear.ratio": 6.0, "eccentric.mean_height": 0.0425, "eccentric.eccentricity": 0.0025, "eccentric.inertia": 2.2e-4,
+    "eccentric.coulomb.torque": 0.1, "eccentric.coulomb.speed": 0.5}
+SPEED_CONTROLLER = {
+    "position.gain": 10.0, "position.limit": 1.0, "velocity.feedforward": 0.0175, "velocity.proportional": 0.03,
+    "velocity.integral": 0.8, "velocity.derivative": 0.0, "velocity.derivative_filter": 0.02, "duty_limit": 1.0,
+    "period": 0.01}
 
 
 def driven(amplitude, torque, frequency):
@@ -53,6 +67,18 @@ CASES = [
                "duty": {"sines": [[0.7, 1.3, 0.4]], "steps": [[0.3, 0.5005]]},
                "relative.speed": {"sines": [[2.0, 2.9, 0.1]], "steps": []}},
            stop=1.5, every=5, step=2e-3, package="KogutMrRotaryBrake",
-           parameters=indexed("profile", PROFILE) | {"response_time": 0.01}, settings={"pwm.bits": 8},
+           parameters=BRAKE, settings={"pwm.bits": 8},
            description="Duty cycles from beyond one end to beyond the other, in 255 steps."),
+    single("eccentric-drive", EccentricDrive, {
+               "duty": {"sines": [[0.6, 1.1, 0.3]], "steps": [[0.9, 0.6005], [-1.6, 0.9005]]},
+               "tire.force": {"sines": [[120.0, 3.7, 0.2]], "steps": [[261.0, -1.0]]}},
+           stop=1.5, every=5, step=2e-3, package="KogutEccentricDrive", parameters=DRIVE, settings={"pwm.bits": 8},
+           description="Both directions, duty cycles beyond one, loaded by a tyre."),
+    single("excitation-speed-controller", ExcitationSpeedController, {
+               "frequency_reference": {"sines": [[0.5, 1.3, 0.4]], "steps": [[1.5, -1.0], [9.0, 0.6005], [-8.0, 0.8005]]},
+               "eccentric.angle": {"sines": [[0.6, 1.1, 0.1]], "steps": [[3.0, 0.3005]]},
+               "eccentric.speed": {"sines": [[6.0, 1.7, 0.9]], "steps": []}},
+           stop=1.2, every=13, error=1e-12, package="KogutExcitationSpeedController", parameters=SPEED_CONTROLLER,
+           changed={"velocity.derivative": 5e-4, "duty_limit": 0.6},
+           description="Limits of the position tracking and of the duty cycle, with a derivative."),
 ]

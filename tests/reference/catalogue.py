@@ -5,10 +5,12 @@ import cases_ajala
 import cases_effects
 import cases_full_car
 import cases_kogut
+import cases_konieczny
 import cases_of_time
 import cases_sensors
 import cases_tum
 from controllers import LqrController, ModalSkyhook, Skyhook
+from eccentric import EccentricDrive, ExcitationSpeedController
 from effects import QuarterCarWithEffects
 from excitation import ExcitationMotor
 from force_controllers import ForcePid, ForceTwoDof, ForceTwoDofLpv
@@ -24,7 +26,9 @@ from sources import FrequencySource, VoltageSource
 
 MODELS = {model.__name__: model for model in (
     AngleSensorChain,
+    EccentricDrive,
     ExcitationMotor,
+    ExcitationSpeedController,
     ForcePid,
     ForceTwoDof,
     ForceTwoDofLpv,
@@ -50,8 +54,8 @@ MODELS = {model.__name__: model for model in (
     VoltageSource,
 )}
 
-CASES = [case for module in (cases, cases_ajala, cases_effects, cases_full_car, cases_kogut, cases_of_time, cases_sensors, cases_tum)
-         for case in module.CASES]
+CASES = [case for module in (cases, cases_ajala, cases_effects, cases_full_car, cases_kogut, cases_konieczny,
+                             cases_of_time, cases_sensors, cases_tum) for case in module.CASES]
 
 
 def model_of(case):

@@ -5,6 +5,8 @@ components are one system: nothing is exchanged, so there is no coupling error. 
 with the roads' values from the right.
 """
 
+import math
+
 from integrate import Smooth, advance
 
 
@@ -26,6 +28,7 @@ class System(Smooth):
             self.slices[name] = slice(first, first + len(components[name].states))
             first += len(components[name].states)
         self.size = first
+        self.max_step = min(components[name].max_step for name in self.parts)
         self.names = driving + [f"{name}.{column}" for name in self.parts
                                 for column in components[name].states + components[name].outputs]
         position = {name: index for index, name in enumerate(self.names)}
@@ -97,14 +100,24 @@ class System(Smooth):
                 for value in (part.output([], [0.0] * len(part.inputs) + memory[name], ()) if memory[name]
                               else [0.0] * len(part.outputs))]
 
-    def run(self, stop, step, every, solver, start=None):
-        """Rows (time and the values of all signals) every so many ticks, and a look at each tick: {"modes": …}."""
-        x, count = start or [0.0] * self.size, round(stop / step)
+    def begin(self, start):
+        known = [f"{name}.{state}" for name in self.parts for state in self.components[name].states]
+        assert set(start) <= set(known), start
+        return [start.get(state, 0.0) for state in known]
+
+    def run(self, stop, step, every, solver, start=None, longest=10):
+        """Rows (time and the values of all signals) every so many steps, and how often there was which mode.
+
+        `start` are values of states other than zero. Where nothing is sampled and no row is due, up to `longest` steps
+        are one piece.
+        """
+        x, count = self.begin(start or {}), round(stop / step)
+        stride = math.gcd(longest, every, *(round(self.components[name].period / step) for name in self.sampled))
         marks = sorted({mark for name in self.roads for mark in self.components[name].breaks(stop)})
         memory = {name: None for name in self.sampled}
         rows, modes = [], {}
-        for k in range(count + 1):
-            t0, t1 = k * step, (k + 1) * step
+        for k in range(0, count + 1, stride):
+            t0, t1 = k * step, (k + stride) * step
             at_tick = [value for name in self.roads for value in self.components[name](t0, t0 + 1e-9)]
             values, _, mode = self.sweep(x, at_tick + self.held(memory))
             for name in self.sampled:

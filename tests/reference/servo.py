@@ -5,7 +5,7 @@
     Nonlinear   Q = u_1 l C_d sqrt((P_z - sign(u_1) P_r) / rho)                           (2.9)
     Linear      Q = u_1 l C_d sqrt(P_z / rho)                                             (2.23)
     Regression  Q = g u_1 - c P_r                                                         (2.24)
-    supply      Q_z = sign(u_1) Q,  power P_z Q_z
+    supply      Q_z = sign(u_1) Q, in the regression g |u_1| (left open; so it is continuous); power P_z Q_z
 
 Where the root of (2.9) ends: with s = P_z - sign(u_1) P_r, sqrt(s) becomes s / sqrt(p_lam) within |s| < p_lam and
 -sqrt(-s) below.
@@ -64,7 +64,10 @@ class Actuator:
         return self.alpha * (flow - self.area * velocity - self.leakage * pressure), (aim - spool) / self.tau
 
     def from_supply(self, pressure, spool, mode):
-        flow = self.flow(pressure, spool, mode) * (1.0 if mode[0] else -1.0)
+        if self.law == "Regression":
+            flow = self.plane[0] * abs(spool)
+        else:
+            flow = self.flow(pressure, spool, mode) * (1.0 if mode[0] else -1.0)
         return [flow, self.supply * flow]
 
 

@@ -19,7 +19,7 @@ class Source:
         self.p, self.shape = parameters, settings["shape"]
         self.start, self.offset = parameters["start_time"], parameters["offset"]
 
-    def __call__(self, t):
+    def __call__(self, t, _branch=None):
         tau = t - self.start
         return [self.offset if tau < 0.0 else getattr(self, self.shape)(tau)]
 

@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use strut_model::{About, Equation, Experiment, Kind, Model, Now, Real, Stimulus, Variables, bundles};
+use strut_model::{About, Equation, Experiment, Kind, Model, Now, Real, Variables, bundles};
 
 use crate::elements::{Gas, Pump};
 
-use super::pump_hydraulic_actuator::{Input, Options, Power, Rotor, Speed};
+use super::pump_hydraulic_actuator::{Input, Options, Power, PumpHydraulicActuator, Rotor, Speed};
 
 /// The linearised and reduced actuator, Ajala eq. 18: a mass on a spring and a damper (eq. 25, 26).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,14 +144,8 @@ impl Model for PumpHydraulicActuatorLinear {
              2.09 Hz and a damping ratio of 0.67; the reasons stand in the parameter set.",
         ],
         experiment: Experiment {
-            stop: 2.0,
-            step: 1e-3,
-            tolerance: 1e-7,
-            stimuli: &[
-                ("suspension.velocity", Stimulus::Sine { amplitude: 0.3, frequency: 1.5 }),
-                ("motor.torque", Stimulus::Step { at: 1.0, height: 1.0 }),
-            ],
             plot: &["force", "motor.speed", "pressure.difference"],
+            ..PumpHydraulicActuator::ABOUT.experiment
         },
         ..About::DEFAULT
     };

@@ -3,18 +3,16 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use strut_model::{
-    About, Equation, Experiment, Kind, Model, Nothing, Now, Real, Stimulus, Variables, bundles,
-};
+use strut_model::{About, Equation, Kind, Model, Nothing, Now, Real, Variables, bundles};
 
 use crate::elements::{Gas, Piston, Pump, Valves};
 use crate::signals::{Pressures, Pushing, Speed, Torque, Travel};
 
 use super::filters::{self, LowPassRate, MAX_ORDER, Pid, PidMemory, Section, waiting};
 use super::force_pid::{Limit, Output};
-use super::force_two_dof::{Disturbance, Options};
+use super::force_two_dof::{Disturbance, ForceTwoDof, Options};
 
-/// The controller of [`ForceTwoDof`](super::ForceTwoDof) with a model that is scheduled by what is measured: Ajala 4,
+/// The controller of [`ForceTwoDof`] with a model that is scheduled by what is measured: Ajala 4,
 /// Fig. 5, eq. 45 and 46.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceTwoDofLpv {
@@ -161,16 +159,7 @@ impl Model for ForceTwoDofLpv {
             "Reference and measured force are deviations from the static force. A pressure below a hundredth of \
              the charge pressure is taken for that. Limits act as in ForceTwoDof.",
         ],
-        experiment: Experiment {
-            stop: 1.0,
-            step: 1e-3,
-            stimuli: &[
-                ("force_reference", Stimulus::Step { at: 0.1, height: 100.0 }),
-                ("suspension.deflection", Stimulus::Sine { amplitude: 0.002, frequency: 2.0 }),
-            ],
-            plot: &["motor.torque"],
-            ..Experiment::DEFAULT
-        },
+        experiment: ForceTwoDof::ABOUT.experiment,
         ..About::DEFAULT
     };
 

@@ -1,3 +1,5 @@
+use std::f64::consts::TAU;
+
 use proptest::prelude::*;
 use strut_model::{Bundle, Declarations, Value};
 
