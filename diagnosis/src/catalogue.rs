@@ -16,6 +16,8 @@ pub struct Cause {
     pub name: &'static str,
     /// Its law in plain text.
     pub equation: &'static str,
+    /// Numbers of causes that it contains as a limit: they are preferred where they explain nearly as much.
+    pub contains: &'static [&'static str],
     /// A setting that has to be on.
     pub setting: Option<&'static str>,
     /// Its parameters; the first one is how much of it there is.

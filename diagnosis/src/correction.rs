@@ -182,8 +182,8 @@ mod tests {
             correction.set(Fault::Delay, delay);
             let y = |t: f64| (20.0 * t).sin() + 0.3 * (55.0 * t).cos();
             let delayed = correction.applied(&sine(1000, 1e-3, y), 1e-3);
-            for k in 30..970 {
-                prop_assert!((delayed[k] - y(k as f64 * 1e-3 - delay)).abs() < 1e-4);
+            for (k, value) in delayed.iter().enumerate().skip(30).take(940) {
+                prop_assert!((value - y(k as f64 * 1e-3 - delay)).abs() < 1e-4);
             }
         }
 

@@ -1,7 +1,5 @@
 //! From records to findings: base fit, search, and what is told about it.
 
-use nalgebra::DMatrix;
-
 use crate::correction::Fault;
 use crate::fit::{self, Handle, Residuals};
 use crate::hypothesis::{Fitted, World};
@@ -156,19 +154,11 @@ pub(crate) fn outputs(world: &World<'_>, fitted: &Fitted) -> Vec<Vec<Vec<f64>>> 
         .collect()
 }
 
-/// The covariance of a fit's coordinates; none if one is not determined.
-pub fn covariance(fitted: &Fitted) -> Option<DMatrix<f64>> {
-    fit::covariance(&fitted.linear, &fitted.trace.scores)
-}
-
 /// Value and half the 95 % interval of each coordinate.
 pub fn intervals(fitted: &Fitted) -> Vec<(Handle, f64, f64)> {
-    let covariance = covariance(fitted);
-    let half = |index: usize| match &covariance {
-        Some(matrix) => 1.96 * matrix[(index, index)].max(0.0).sqrt(),
-        None => f64::INFINITY,
-    };
+    let covariance = fit::covariance(&fitted.linear, &fitted.trace.scores);
     let handles = fitted.coordinates.iter().enumerate();
+    let half = |index: usize| 1.96 * covariance[(index, index)].max(0.0).sqrt();
     handles.map(|(index, it)| (it.handle, fitted.point.get(it.handle), half(index))).collect()
 }
 

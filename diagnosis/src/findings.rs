@@ -132,8 +132,10 @@ pub struct Evidence {
     pub block_t: f64,
     /// Student's t of the gain over the blocks of the held-out data.
     pub held_out_t: f64,
-    /// Share of the residual's power that it explains on the held-out data.
+    /// Share of the starting model's error power that it explains on the held-out data.
     pub explained: f64,
+    /// Largest rise of Φ among the signals of the held-out data.
+    pub phi_gain: f64,
 }
 
 /// Share of the error's power on held-out data that does not go by chance, however few the blocks are.
@@ -142,22 +144,24 @@ const BY_FAR: f64 = 0.25;
 impl Evidence {
     /// What has to be exceeded, in every gate. The information criterion alone is never the verdict: small unmodelled
     /// effects pass it on every record.
-    pub const REQUIRED: Self = Self { delta_bic: 20.0, block_t: 3.5, held_out_t: 3.0, explained: 0.01 };
+    pub const REQUIRED: Self =
+        Self { delta_bic: 20.0, block_t: 3.5, held_out_t: 3.0, explained: 0.01, phi_gain: 0.015 };
 
     /// The first gate that is not passed, in words.
     pub fn refusal(&self) -> Option<String> {
-        let Self { delta_bic, block_t, held_out_t, explained } = *self;
+        let Self { delta_bic, block_t, held_out_t, explained, phi_gain } = *self;
         let passed = |found: f64, required: f64| found > required;
+        let by_far = passed(explained, BY_FAR) && held_out_t > 0.0;
         if !passed(delta_bic, Self::REQUIRED.delta_bic) {
             Some(format!("explains too little for its parameters (BIC falls by {delta_bic:.0})"))
         } else if !passed(block_t, Self::REQUIRED.block_t) {
             Some(format!("no steady gain over the training data (t = {block_t:.1})"))
-        } else if !passed(held_out_t, Self::REQUIRED.held_out_t)
-            && !(passed(explained, BY_FAR) && held_out_t > 0.0)
-        {
+        } else if !(passed(held_out_t, Self::REQUIRED.held_out_t) || by_far) {
             Some(format!("no gain on held-out data (t = {held_out_t:.1})"))
         } else if !passed(explained, Self::REQUIRED.explained) {
             Some(format!("too small to matter ({:.1} % of the error)", 100.0 * explained))
+        } else if !passed(phi_gain, Self::REQUIRED.phi_gain) {
+            Some(format!("too small to matter (Φ rises by {phi_gain:.3})"))
         } else {
             None
         }

@@ -328,12 +328,12 @@ impl<'a> Fit<'a> {
                 *score += jacobian.rows(first, rows).tr_mul(&residual.rows(first, rows));
             }
         }
-        eliminate(h, scores, n)
+        eliminate(&h, &scores, n)
     }
 }
 
 /// The normal equations without the states at the start.
-fn eliminate(h: DMatrix<f64>, scores: Vec<DVector<f64>>, n: usize) -> Section {
+fn eliminate(h: &DMatrix<f64>, scores: &[DVector<f64>], n: usize) -> Section {
     let states = h.ncols() - n;
     let g: DVector<f64> = scores.iter().fold(DVector::zeros(n + states), |sum, score| sum + score);
     let mut c = h.view((n, n), (states, states)).into_owned();
@@ -451,14 +451,22 @@ impl Problem for Fit<'_> {
 }
 
 /// The covariance of the coordinates at a minimum, whatever the residuals' correlation within a block of time:
-/// `H⁻¹ (Σ s sᵀ) H⁻¹`; none if a coordinate is not determined.
-pub fn covariance(linear: &Linear, scores: &[DVector<f64>]) -> Option<DMatrix<f64>> {
-    let inverse = linear.covariance()?;
+/// `H⁻¹ (Σ s sᵀ) H⁻¹`; infinite for a coordinate that is not determined.
+pub fn covariance(linear: &Linear, scores: &[DVector<f64>]) -> DMatrix<f64> {
+    let mut inverse = linear.covariance();
     let n = inverse.ncols();
-    let mean = scores.iter().fold(DVector::zeros(n), |sum, score| sum + score) / scores.len() as f64;
+    let unknown: Vec<usize> = (0..n).filter(|index| inverse[(*index, *index)].is_infinite()).collect();
+    for index in &unknown {
+        inverse[(*index, *index)] = 0.0;
+    }
+    let mean = scores.iter().fold(DVector::zeros(n), |sum, score| sum + score) / scores.len().max(1) as f64;
     let spread = scores.iter().fold(DMatrix::zeros(n, n), |sum, score| {
         let deviation = score - &mean;
         sum + &deviation * deviation.transpose()
     });
-    Some(&inverse * spread * &inverse)
+    let mut covariance = &inverse * spread * &inverse;
+    for index in unknown {
+        covariance[(index, index)] = f64::INFINITY;
+    }
+    covariance
 }

@@ -13,6 +13,10 @@ use crate::rig::Rig;
 /// Points of a table without a name.
 pub const POINTS: usize = 11;
 
+/// Standard deviation of a channel's timing in seconds: filters and multiplexers of any measurement make such delays,
+/// and they are no fault.
+const TIMING: f64 = 4e-4;
+
 /// Something that is added to the starting model.
 #[derive(Clone, Copy, Debug)]
 pub enum Term {
@@ -139,10 +143,19 @@ impl World<'_> {
                 known.map_or((value, value.abs().max(1e-6)), |(_, mean, deviation)| (*mean, *deviation));
             coordinates.push(Coordinate { handle: Handle::Parameter(index), bounds, prior: Some(prior) });
         }
+        for measured in self.train.first().map_or(&[][..], |record| &record.measured) {
+            let handle = Handle::Output(measured.output, Fault::Delay);
+            coordinates.push(Coordinate {
+                handle,
+                bounds: self.fault_bounds(handle),
+                prior: Some((0.0, TIMING)),
+            });
+        }
         for term in terms {
             for coordinate in self.own_coordinates(*term) {
-                if !coordinates.iter().any(|other| other.handle == coordinate.handle) {
-                    coordinates.push(coordinate);
+                match coordinates.iter_mut().find(|other| other.handle == coordinate.handle) {
+                    Some(other) => *other = coordinate,
+                    None => coordinates.push(coordinate),
                 }
             }
         }

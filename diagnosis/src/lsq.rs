@@ -64,15 +64,29 @@ impl Linear {
         DVector::from_fn(self.r.ncols(), |j, _| self.r.column(j).norm())
     }
 
-    /// `(RᵀR)⁻¹`, the covariance for residuals of variance one; none if a direction is not determined.
-    pub fn covariance(&self) -> Option<DMatrix<f64>> {
+    /// `(RᵀR)⁻¹`, the covariance for residuals of variance one. Coordinates that are not determined have a variance of
+    /// infinity and are taken as known for the others.
+    pub fn covariance(&self) -> DMatrix<f64> {
         let n = self.r.ncols();
         let norms = self.column_norms();
-        if (0..n).any(|i| self.r[(i, i)].abs() <= 1e-12 * norms[i] || norms[i] == 0.0) {
-            return None;
+        let determined: Vec<usize> =
+            (0..n).filter(|i| norms[*i] > 0.0 && self.r[(*i, *i)].abs() > 1e-12 * norms[*i]).collect();
+        let m = determined.len();
+        let mut covariance = DMatrix::from_diagonal(&DVector::repeat(n, f64::INFINITY));
+        let reduced = DMatrix::from_fn(n, m, |row, column| self.r[(row, determined[column])]);
+        if m == 0 {
+            return covariance;
         }
-        let inverse = self.r.solve_upper_triangular(&DMatrix::identity(n, n))?;
-        Some(&inverse * inverse.transpose())
+        let upper = reduced.qr().r();
+        if let Some(inverse) = upper.solve_upper_triangular(&DMatrix::identity(m, m)) {
+            let product = &inverse * inverse.transpose();
+            for (i, row) in determined.iter().enumerate() {
+                for (j, column) in determined.iter().enumerate() {
+                    covariance[(*row, *column)] = product[(i, j)];
+                }
+            }
+        }
+        covariance
     }
 
     /// The step that is least in `‖R d + q‖² + λ‖D d‖²` over the free coordinates; others stay.
@@ -158,7 +172,7 @@ pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum
     let mut point = start;
     let mut cost = problem.cost(&point);
     let (mut linear, mut trace) = problem.linearise(&point);
-    let mut scale = unit_where_zero(linear.column_norms());
+    let mut scale = unit_where_zero(&linear.column_norms());
     let mut lambda = 1e-3;
     let mut iterations = 1;
     while iterations < stop.iterations {
@@ -197,7 +211,7 @@ pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum
     Minimum { point, cost, linear, iterations }
 }
 
-fn unit_where_zero(norms: DVector<f64>) -> DVector<f64> {
+fn unit_where_zero(norms: &DVector<f64>) -> DVector<f64> {
     norms.map(|norm| if norm > 0.0 { norm } else { 1.0 })
 }
 

@@ -4,6 +4,7 @@
 //! derivatives are those of the integration itself, so that they belong to the outputs to the last digit.
 
 mod integrate;
+mod jet;
 
 use strut_model::{Bundle, Declaration, Declarations, Model, SettingDeclaration, Settings, Value};
 
@@ -29,7 +30,7 @@ pub struct Plant {
     pub settings: Vec<SettingDeclaration>,
     /// The declared choices.
     pub choices: Vec<Value>,
-    prepare: fn(&[Value]) -> Result<Box<dyn Dynamics>, String>,
+    prepare: Prepare,
 }
 
 impl Plant {
@@ -86,6 +87,9 @@ impl Plant {
         self.settings.iter().position(|it| it.name == name)
     }
 }
+
+/// Makes equations from choices.
+type Prepare = fn(&[Value]) -> Result<Box<dyn Dynamics>, String>;
 
 /// What drives a plant: one signal for each input, evenly sampled, straight between the samples.
 #[derive(Clone, Debug, PartialEq)]

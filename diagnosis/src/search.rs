@@ -10,7 +10,7 @@ use crate::fit::{Handle, Residuals};
 use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
 use crate::recorded::Recorded;
-use crate::screening::Screened;
+use crate::screening::{Screened, rms};
 
 /// Causes that are fitted in a round.
 const FITTED: usize = 10;
@@ -18,6 +18,8 @@ const FITTED: usize = 10;
 const TABLES: usize = 3;
 /// Causes at most.
 const MOST: usize = 4;
+/// Errors that are larger by less than this factor are nearly the same.
+const NEARLY: f64 = 1.02;
 /// Blocks of time over which gains are compared, in seconds.
 const BLOCK: f64 = 0.5;
 
@@ -88,8 +90,9 @@ impl World<'_> {
         student(&null.gains(&other, self.block(), &other.mean_squares()))
     }
 
-    /// What speaks for one fit over another, of which it is an extension.
-    pub fn evidence(&self, null: &Fitted, fitted: &Fitted) -> Evidence {
+    /// What speaks for one fit over another, of which it is an extension; how much it explains is counted in the errors
+    /// of the starting model.
+    pub fn evidence(&self, base: &Fitted, null: &Fitted, fitted: &Fitted) -> Evidence {
         let more = fitted.coordinates.len().saturating_sub(null.coordinates.len());
         let counts = self.errors(&null.train).effective_counts();
         let (before, after) =
@@ -102,8 +105,23 @@ impl World<'_> {
             delta_bic: gain - more as f64 * total.max(1.0).ln(),
             block_t: self.steadiness(&null.train, &fitted.train),
             held_out_t: self.steadiness(&null.test, &fitted.test),
-            explained: 1.0 - after / before.max(f64::MIN_POSITIVE),
+            explained: (before - after) / self.power(&base.test, self.test).max(f64::MIN_POSITIVE),
+            phi_gain: self.phi_gain(null, fitted),
         }
+    }
+
+    /// The largest rise of Φ among the signals of the held-out data.
+    fn phi_gain(&self, null: &Fitted, fitted: &Fitted) -> f64 {
+        let roots = |it: &Fitted| -> Vec<f64> {
+            self.errors(&it.test).mean_squares().into_iter().map(f64::sqrt).collect()
+        };
+        let (before, after) = (roots(null), roots(fitted));
+        let rows = before.iter().zip(&after).enumerate();
+        rows.map(|(row, (before, after))| {
+            let values = self.test.iter().flat_map(|record| record.measured[row].values.iter().copied());
+            (before - after) / rms(&values.collect::<Vec<_>>()).max(f64::MIN_POSITIVE)
+        })
+        .fold(0.0, f64::max)
     }
 
     /// Rank of a fit among those on top of the same: half its fall of the information criterion, over all data.
@@ -129,12 +147,12 @@ impl World<'_> {
         student(&all)
     }
 
-    fn tried(&self, null: &Fitted, screened: &Screened) -> Tried {
+    fn tried(&self, base: &Fitted, null: &Fitted, screened: &Screened) -> Tried {
         let mut terms = null.terms.clone();
         terms.push(screened.term);
         let fitted = self.fitted(&terms, &screened.starts, Stop::ROUGH);
         let (evidence, score) = match &fitted {
-            Ok(fitted) => (self.evidence(null, fitted), self.score(null, fitted)),
+            Ok(fitted) => (self.evidence(base, null, fitted), self.score(null, fitted)),
             Err(_) => (Evidence::default(), f64::NEG_INFINITY),
         };
         Tried { term: screened.term, fitted, evidence, score }
@@ -176,7 +194,8 @@ impl World<'_> {
             let screened = self.screened(&current)?;
             let promising = self.promising(&screened, &current);
             progress(&format!("fitting {} causes", promising.len()));
-            let mut tried: Vec<Tried> = promising.par_iter().map(|it| self.tried(&current, it)).collect();
+            let mut tried: Vec<Tried> =
+                promising.par_iter().map(|it| self.tried(&found.base, &current, it)).collect();
             tried.sort_by(|a, b| b.score.total_cmp(&a.score));
             if found.screened.is_empty() {
                 found.screened = screened;
@@ -189,7 +208,7 @@ impl World<'_> {
             let Ok(fitted) = chosen.fitted else { break };
             found.accepted.push(Accepted { term: chosen.term, evidence: chosen.evidence, rivals });
             // The others were fitted well enough to be compared; this one is to be built on.
-            current = self.fitted(&fitted.terms, &[fitted.point.clone()], Stop::NOISY)?;
+            current = self.fitted(&fitted.terms, std::slice::from_ref(&fitted.point), Stop::NOISY)?;
             if matches!(chosen.term, Term::Table(_)) {
                 break;
             }
@@ -221,17 +240,14 @@ impl World<'_> {
         }
     }
 
-    /// One with fewer parameters that is a part of the best and explains the data as well.
+    /// One with fewer parameters that is a part of the best and explains nearly as much.
     fn simplest<'b>(&self, best: &'b Tried, passing: &[&'b Tried]) -> &'b Tried {
-        let Ok(fitted) = &best.fitted else { return best };
-        let handles = |it: &Fitted| it.coordinates.iter().map(|it| it.handle).collect::<BTreeSet<Handle>>();
-        let own = handles(fitted);
         let mut chosen = best;
         for other in passing {
-            if let Ok(simpler) = &other.fitted
-                && handles(simpler).is_subset(&own)
+            if let (Ok(fitted), Ok(simpler)) = (&chosen.fitted, &other.fitted)
+                && contains(chosen.term, other.term, &parts(fitted), &parts(simpler))
                 && simpler.coordinates.len() < fitted.coordinates.len()
-                && self.apart(fitted, simpler) < 2.5
+                && (self.apart(fitted, simpler) < 2.5 || self.total(simpler) < NEARLY * self.total(fitted))
             {
                 chosen = other;
             }
@@ -239,13 +255,18 @@ impl World<'_> {
         chosen
     }
 
+    /// Weighted power of all errors.
+    fn total(&self, fitted: &Fitted) -> f64 {
+        self.power(&fitted.train, self.train) + self.power(&fitted.test, self.test)
+    }
+
     /// Those that explain the data as well as the chosen one, and are not the same with something more.
     fn rivals(&self, chosen: &Tried, passing: &[&Tried]) -> Vec<Term> {
         let Ok(best) = &chosen.fitted else { return Vec::new() };
-        let handles: BTreeSet<Handle> = best.coordinates.iter().map(|it| it.handle).collect();
+        let own = parts(best);
         let rival = |other: &&&Tried| {
             let Ok(fitted) = &other.fitted else { return false };
-            let more = handles.iter().all(|handle| fitted.coordinates.iter().any(|it| it.handle == *handle));
+            let more = contains(other.term, chosen.term, &parts(fitted), &own);
             other.term != chosen.term
                 && !matches!(other.term, Term::Table(_))
                 && !more
@@ -288,7 +309,7 @@ impl World<'_> {
             let without = self.without(found, index)?;
             let screened = self.screened(&without)?;
             let candidates = screened.iter().filter(|it| rivals.contains(&it.term));
-            for tried in candidates.map(|it| self.tried(&without, it)) {
+            for tried in candidates.map(|it| self.tried(&found.base, &without, it)) {
                 let Ok(fitted) = &tried.fitted else { continue };
                 if tried.evidence.refusal().is_some() {
                     continue;
@@ -315,7 +336,7 @@ impl World<'_> {
         let mut index = 0;
         while index < found.accepted.len() && found.accepted.len() > 1 {
             let without = self.without(found, index)?;
-            let evidence = self.evidence(&without, &found.extended);
+            let evidence = self.evidence(&found.base, &without, &found.extended);
             if evidence.refusal().is_some() {
                 found.accepted.remove(index);
                 found.extended = without;
@@ -326,6 +347,22 @@ impl World<'_> {
         }
         Ok(())
     }
+}
+
+/// Whether a term can do all that another one can: by what it changes, or as the catalogue says.
+fn contains(larger: Term, smaller: Term, more: &BTreeSet<Handle>, fewer: &BTreeSet<Handle>) -> bool {
+    let by_name = match (larger, smaller) {
+        (Term::Cause(larger), Term::Cause(smaller)) => {
+            larger.element == smaller.element && larger.contains.contains(&smaller.id)
+        }
+        _ => false,
+    };
+    by_name || fewer.is_subset(more)
+}
+
+/// What a fit has changed.
+fn parts(fitted: &Fitted) -> BTreeSet<Handle> {
+    fitted.coordinates.iter().map(|it| it.handle).collect()
 }
 
 /// Keeps the last word on each term.

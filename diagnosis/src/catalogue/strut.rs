@@ -10,6 +10,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "Coulomb friction",
         equation: "F = F_c tanh(v/v_0)",
+        contains: &[],
         setting: None,
         parts: &[
             part("strut.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
@@ -22,6 +23,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "Stribeck friction",
         equation: "F = (F_c + (F_s - F_c) exp(-(v/v_s)^2)) tanh(v/v_0)",
+        contains: &["01"],
         setting: None,
         parts: &[
             part("strut.stribeck.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
@@ -36,6 +38,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "friction with presliding (Dahl)",
         equation: "F' = sigma v |1 - sgn(v) F/F_c|^n sgn(1 - sgn(v) F/F_c)",
+        contains: &["01"],
         setting: None,
         parts: &[
             part("hysteresis.presliding.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
@@ -49,6 +52,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "asymmetric damper",
         equation: "F = d (v + alpha |v|)",
+        contains: &[],
         setting: None,
         parts: &[part("strut.asymmetry.ratio", Scale::ONE, (-0.9, 0.9), &[0.2])],
         experiment: "stand still, and compare the ride height with that in motion",
@@ -58,6 +62,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "damper knee",
         equation: "F = d (v + r dz(v, v_k))",
+        contains: &[],
         setting: None,
         parts: &[
             part("strut.knee.ratio", Scale::ONE, (-0.95, 5.0), &[-0.4]),
@@ -70,6 +75,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "orifice damping",
         equation: "F = c v |v|",
+        contains: &[],
         setting: None,
         parts: &[part("strut.orifice.coefficient", Scale::ORIFICE, (0.0, 10.0), &[0.1])],
         experiment: "sweep the amplitude",
@@ -79,6 +85,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "Maxwell branch",
         equation: "F = k_1 xi, xi' = v - xi/tau",
+        contains: &[],
         setting: None,
         parts: &[
             part("hysteresis.maxwell.stiffness", Scale::STIFFNESS, (0.0, 100.0), &[0.1]),
@@ -91,6 +98,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "nonlinear spring",
         equation: "F = k_2 x^2 + k_3 x^3",
+        contains: &[],
         setting: None,
         parts: &[
             part("strut.spring.cubic", Scale::CUBIC, (-5.0, 5.0), &[0.05]),
@@ -103,6 +111,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "bump or rebound stop",
         equation: "F = k_b (|x| - x_b) beyond x_b",
+        contains: &[],
         setting: None,
         parts: &[
             part("strut.stop.stiffness", Scale::STIFFNESS, (0.0, 300.0), &[2.0]),
@@ -116,6 +125,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "damper fade",
         equation: "d(t) = d (1 - alpha (1 - exp(-t/tau)))",
+        contains: &[],
         setting: None,
         parts: &[
             part("strut.fade.ratio", Scale::ONE, (0.0, 0.9), &[0.2]),
@@ -128,6 +138,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "load-dependent friction",
         equation: "F = F_c (1 + beta x) tanh(v/v_0)",
+        contains: &["01"],
         setting: None,
         parts: &[
             part("strut.load_dependence.slope", Scale::PER_DEFLECTION, (-0.8, 0.8), &[0.3]),
@@ -141,6 +152,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "play in a damper bush",
         equation: "F = dz(x - w, g)/c, w' = F/d",
+        contains: &["13"],
         setting: None,
         parts: &[
             part("hysteresis.mount.gap", Scale::DEFLECTION, (1e-4, 2.0), &[0.02, 0.1, 0.3]),
@@ -153,6 +165,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "soft damper mount",
         equation: "F = (x - w)/c, w' = F/d",
+        contains: &[],
         setting: None,
         parts: &[part("hysteresis.mount.compliance", Scale::COMPLIANCE, (3e-3, 10.0), &[0.02, 0.1])],
         experiment: "sweep to high frequencies",
@@ -162,6 +175,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "kinematic ratio",
         equation: "i = 1 + i_1 x on spring and damper",
+        contains: &[],
         setting: None,
         parts: &[part("strut.linkage.slope", Scale::PER_DEFLECTION, (-0.3, 0.3), &[0.05])],
         experiment: "measure the wheel's travel over the strut's",
@@ -171,6 +185,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "dry yield force with hysteresis",
         equation: "F = F_y tanh(v/v_y + beta x)",
+        contains: &["01", "02"],
         setting: None,
         parts: &[
             part("strut.yield.force", Scale::FORCE, (0.0, 10.0), &[0.3]),
@@ -184,6 +199,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "constant force",
         equation: "F = F_0",
+        contains: &[],
         setting: None,
         parts: &[part("strut.preload", Scale::FORCE, (-10.0, 10.0), &[0.1])],
         experiment: "stand still with the force cell unloaded: what remains is the cell's",
@@ -193,6 +209,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Guide,
         name: "viscous guide",
         equation: "F = d_g v_s",
+        contains: &[],
         setting: None,
         parts: &[part("guide.damping", Scale::DAMPING, (0.0, 5.0), &[0.1])],
         experiment: "sweep the amplitude",
@@ -202,6 +219,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Guide,
         name: "guide friction",
         equation: "F = F_g tanh(v_s/v_0)",
+        contains: &[],
         setting: None,
         parts: &[
             part("guide.coulomb.force", Scale::FORCE, (0.0, 5.0), &[0.1]),
@@ -214,6 +232,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::WheelGuide,
         name: "viscous wheel guide",
         equation: "F = d_g v_u",
+        contains: &[],
         setting: None,
         parts: &[part("wheel_guide.damping", Scale::DAMPING, (0.0, 5.0), &[0.1])],
         experiment: "sweep the amplitude",
@@ -223,6 +242,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::WheelGuide,
         name: "wheel-guide friction",
         equation: "F = F_g tanh(v_u/v_0)",
+        contains: &[],
         setting: None,
         parts: &[
             part("wheel_guide.coulomb.force", Scale::FORCE, (0.0, 5.0), &[0.1]),

@@ -8,6 +8,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Tire,
         name: "progressive tyre",
         equation: "F = q c^2",
+        contains: &[],
         setting: None,
         parts: &[part("tire.quadratic", Scale::QUADRATIC, (-5.0, 5.0), &[0.05])],
         experiment: "compare two static loads",
@@ -17,6 +18,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Tire,
         name: "lift-off",
         equation: "F >= -F_0",
+        contains: &[],
         setting: Some("tire.lift_off"),
         parts: &[],
         experiment: "drop the wheel, or drive over a large bump",
@@ -26,6 +28,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Tire,
         name: "tyre friction",
         equation: "F = F_t tanh(c'/v_0)",
+        contains: &[],
         setting: None,
         parts: &[
             part("tire.coulomb.force", Scale::FORCE, (0.0, 5.0), &[0.1]),

@@ -1,9 +1,9 @@
 //! The classical Runge–Kutta method over the samples of a record, for any scalar.
 
-use nalgebra::SMatrix;
-use num_dual::{Derivative, Dual64, DualSVec64};
+use num_dual::Dual64;
 use strut_model::{Bundle, Declarations, Model, Now, Real};
 
+use super::jet::Jet;
 use super::{DIRECTIONS, Drive, Seed, Signals, outputs_of};
 
 /// Longest step of the integration in seconds, whatever the record's sampling.
@@ -179,11 +179,7 @@ fn lift<R: Real, A: Bundle<f64>, B: Bundle<R>>(bundle: &A) -> B {
     B::from_fn(|i| R::from(numbers[i]))
 }
 
-type Dual = DualSVec64<DIRECTIONS>;
-
-fn dual(value: f64, tangent: [f64; DIRECTIONS]) -> Dual {
-    Dual::new(value, Derivative::some(SMatrix::<f64, DIRECTIONS, 1>::from(tangent)))
-}
+type Dual = Jet<DIRECTIONS>;
 
 /// The direction of one seed.
 fn direction(index: usize) -> [f64; DIRECTIONS] {
@@ -200,7 +196,7 @@ pub(super) fn derivatives<M: Model>(
 ) -> Vec<Signals> {
     assert!(seeds.len() <= DIRECTIONS, "{} seeds are more than {DIRECTIONS}", seeds.len());
     let seeded = |value: f64, seed: &dyn Fn(&Seed) -> bool| match seeds.iter().position(seed) {
-        Some(index) => dual(value, direction(index)),
+        Some(index) => Dual { value, slopes: direction(index) },
         None => Dual::from(value),
     };
     let mut run = Run::<M, Dual>::new(
@@ -228,11 +224,11 @@ pub(super) fn derivatives<M: Model>(
         if changes[i].is_empty() {
             return Dual::from(value);
         }
-        let mut tangent = [0.0; DIRECTIONS];
+        let mut slopes = [0.0; DIRECTIONS];
         for (index, signal) in &changes[i] {
-            tangent[*index] = between(signal);
+            slopes[*index] = between(signal);
         }
-        dual(value, tangent)
+        Dual { value, slopes }
     };
     let mut signals = vec![vec![Vec::with_capacity(drive.len()); outputs_of::<M>()]; seeds.len()];
     for sample in 0..drive.len() {
@@ -241,7 +237,7 @@ pub(super) fn derivatives<M: Model>(
             |i| input(i, sample, 0.0),
             |output, value| {
                 for (index, signals) in signals.iter_mut().enumerate() {
-                    signals[output].push(value.eps.0.map_or(0.0, |tangent| tangent[index]));
+                    signals[output].push(value.slopes[index]);
                 }
             },
         );

@@ -20,7 +20,7 @@ pub struct Gate {
 }
 
 /// All gates.
-pub fn gates(evidence: &Evidence) -> [Gate; 4] {
+pub fn gates(evidence: &Evidence) -> [Gate; 5] {
     let gate = |name, meaning, found: f64, required: f64, print: fn(f64) -> String| Gate {
         name,
         meaning,
@@ -52,10 +52,17 @@ pub fn gates(evidence: &Evidence) -> [Gate; 4] {
         ),
         gate(
             "Size",
-            "share of the residual’s power it explains",
+            "share of the starting model’s error power it explains",
             evidence.explained,
             REQUIRED.explained,
             percent,
+        ),
+        gate(
+            "Relevance",
+            "largest rise of Φ among the signals of the held-out data",
+            evidence.phi_gain,
+            REQUIRED.phi_gain,
+            number,
         ),
     ]
 }

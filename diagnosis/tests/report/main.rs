@@ -212,6 +212,7 @@ fn every_field_and_verdict_is_described_in_the_readme() {
         ("block_t", required.block_t),
         ("held_out_t", required.held_out_t),
         ("explained", required.explained),
+        ("phi_gain", required.phi_gain),
     ] {
         assert!(section.contains(&format!("| `{gate}` | 1 | {limit} |")), "the limit of {gate}");
     }
@@ -245,6 +246,7 @@ fn with_numbers(mut findings: Findings, numbers: &[f64]) -> Findings {
         let evidence = &mut effect.evidence;
         (evidence.delta_bic, evidence.block_t, evidence.held_out_t) = (next(), next(), next());
         evidence.explained = next();
+        evidence.phi_gain = next();
     }
     for parameter in &mut findings.base_parameters {
         (parameter.before, parameter.after, parameter.low, parameter.high) = (next(), next(), next(), next());

@@ -51,7 +51,13 @@ fn friction() -> Effect {
             parameter("strut.coulomb.force", "N", 56.21, 54.8, 57.6),
             parameter("strut.coulomb.velocity", "m/s", 0.0079, 0.0071, 0.0088),
         ],
-        evidence: Evidence { delta_bic: 18_240.0, block_t: 11.2, held_out_t: 7.31, explained: 0.943 },
+        evidence: Evidence {
+            delta_bic: 18_240.0,
+            block_t: 11.2,
+            held_out_t: 7.31,
+            explained: 0.943,
+            phi_gain: 0.21,
+        },
         ambiguous_with: vec![],
         experiment: None,
     }
@@ -97,6 +103,7 @@ fn candidates() -> Vec<Candidate> {
             block_t: 1.3,
             held_out_t: 0.4,
             explained: 0.004,
+            phi_gain: 0.002,
         };
         Candidate {
             id: id.into(),
@@ -190,7 +197,13 @@ pub fn sample(verdict: Verdict) -> Findings {
             cogging.element = "actuator".into();
             cogging.equation = "F_act += A sin(2 pi x / p + phi)".into();
             cogging.parameters = vec![parameter("actuator.cogging.amplitude", "N", 11.4, 9.9, 12.9)];
-            cogging.evidence = Evidence { delta_bic: 312.0, block_t: 4.6, held_out_t: 3.4, explained: 0.062 };
+            cogging.evidence = Evidence {
+                delta_bic: 312.0,
+                block_t: 4.6,
+                held_out_t: 3.4,
+                explained: 0.062,
+                phi_gain: 0.04,
+            };
             findings.effects = vec![friction(), cogging];
             findings.summary =
                 "A friction of 56 N in the strut explains 94 % of what the linear model gets wrong on \
