@@ -5,9 +5,10 @@ mod pictures;
 use crate::catalogue::Table;
 use crate::diagnosis::{Diagnosis, intervals, phi, root_mean_square};
 use crate::findings::{
-    BaseParameter, Candidate, Curve, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal, Verdict,
+    BaseParameter, Candidate, Curve, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal, Start,
+    Verdict,
 };
-use crate::fit::Handle;
+use crate::fit::{Handle, Point, Residuals};
 use crate::hypothesis::{Fitted, POINTS, Term};
 use crate::naming::{self, name};
 use crate::search::Accepted;
@@ -21,7 +22,7 @@ impl Diagnosis<'_> {
     /// Everything that is told.
     pub fn findings(&self, data_problems: Vec<DataProblem>, seconds: f64) -> Findings {
         let world = &self.world;
-        let signals = self.signals();
+        let (signals, starts) = self.signals();
         let base_parameters = self.base_parameters();
         let named: Vec<&Accepted> =
             self.found.accepted.iter().filter(|it| !matches!(it.term, Term::Table(_))).collect();
@@ -59,6 +60,7 @@ impl Diagnosis<'_> {
             base_parameters,
             pictures: self.pictures(),
             signals,
+            starts,
             unnamed,
             experiment,
             data_problems,
@@ -103,18 +105,39 @@ impl Diagnosis<'_> {
         list
     }
 
-    fn signals(&self) -> Vec<Signal> {
+    /// The point of the held-out records as they were measured, and the errors there.
+    fn measured(&self, terms: &[Term], point: &Point) -> Option<(Point, Residuals)> {
+        let dynamics = self.world.dynamics(terms).ok()?;
+        let sections = self.measured.iter().map(|record| record.sections.len()).sum();
+        let start: Vec<f64> = self.world.rig.plant.states.iter().map(|state| state.start).collect();
+        let fit = self.world.fit(&*dynamics, self.measured, Vec::new());
+        let settled = fit.settled(Point { starts: vec![start; sections], ..point.clone() });
+        let residuals = fit.residuals(&settled);
+        Some((settled, residuals))
+    }
+
+    /// The errors of the starting, the fitted and the extended model, and where the last one starts.
+    fn signals(&self) -> (Vec<Signal>, Vec<Start>) {
         let world = &self.world;
-        let Some(first) = world.test.first() else { return Vec::new() };
+        let extended = &self.found.extended;
+        let all = (
+            self.measured(&[], &self.before),
+            self.measured(&[], &self.found.base.point),
+            self.measured(&extended.terms, &extended.point),
+        );
+        let (Some((_, before)), Some((_, fitted)), Some((point, after))) = all else {
+            return (Vec::new(), Vec::new());
+        };
+        let rows = self.measured.first().map_or(0, |record| record.measured.len());
         let of = |row: usize| {
-            let declared = &world.rig.plant.outputs[first.measured[row].output];
-            let all = |residuals: &[Vec<Vec<f64>>]| -> Vec<f64> {
-                residuals.iter().flat_map(|record| record[row].clone()).collect()
+            let first = &self.measured[0].measured[row];
+            let declared = &world.rig.plant.outputs[first.output];
+            let all = |residuals: &Residuals| -> Vec<f64> {
+                residuals.iter().flat_map(|record| record[row].iter().copied()).collect()
             };
             let measured: Vec<f64> =
-                world.test.iter().flat_map(|it| it.measured[row].values.clone()).collect();
-            let (before, fitted) = (all(&self.before), all(&self.found.base.test));
-            let after = all(&self.found.extended.test);
+                self.measured.iter().flat_map(|it| it.measured[row].values.iter().copied()).collect();
+            let (before, fitted, after) = (all(&before), all(&fitted), all(&after));
             Signal {
                 name: declared.name.clone(),
                 unit: declared.unit.symbol.into(),
@@ -124,11 +147,20 @@ impl Diagnosis<'_> {
                 rms_before: root_mean_square(&before),
                 rms_fitted: root_mean_square(&fitted),
                 rms_after: root_mean_square(&after),
-                noise_floor: first.measured[row].noise_floor,
+                noise_floor: first.noise_floor,
                 repeatability: None,
             }
         };
-        (0..first.measured.len()).map(of).collect()
+        let names = || world.rig.plant.states.iter().map(|state| state.name.clone());
+        let sections =
+            self.measured.iter().flat_map(|record| record.sections.iter().map(move |it| (record, it)));
+        let starts = sections.zip(&point.starts).map(|((record, section), states)| Start {
+            record: record.name.clone(),
+            time: section.start as f64 * record.step,
+            end: section.end as f64 * record.step,
+            states: names().zip(states.iter().copied()).collect(),
+        });
+        ((0..rows).map(of).collect(), starts.collect())
     }
 
     fn effect(&self, accepted: &Accepted) -> Effect {

@@ -1,7 +1,7 @@
 //! From records to findings: base fit, search, and what is told about it.
 
 use crate::correction::Fault;
-use crate::fit::{self, Handle, Residuals};
+use crate::fit::{self, Handle, Point, Residuals};
 use crate::hypothesis::{Fitted, World};
 use crate::lsq::Stop;
 use crate::plant::Drive;
@@ -14,15 +14,18 @@ use crate::search::Found;
 pub struct Diagnosis<'a> {
     /// What it was about.
     pub world: World<'a>,
-    /// The starting model as it was given, on the held-out data.
-    pub before: Residuals,
+    /// The held-out records as they were measured.
+    pub measured: &'a [Recorded],
+    /// The starting model as it was given.
+    pub before: Point,
     /// What was found.
     pub found: Found,
     /// Signals that had to be turned over before anything fitted.
     pub reversed: Vec<Handle>,
 }
 
-/// Diagnoses a rig from records. `known` are parameters' indices with a value and its standard deviation that were
+/// Diagnoses a rig from records. `train` and `test` are conditioned; `measured` are the latter as they were measured,
+/// on which the errors are told. `known` are parameters' indices with a value and its standard deviation that were
 /// measured otherwise; `only`, unless empty, the numbers of the causes that are looked at.
 ///
 /// # Errors
@@ -31,6 +34,7 @@ pub fn diagnose<'a>(
     rig: &'a Rig,
     train: &'a [Recorded],
     test: &'a [Recorded],
+    measured: &'a [Recorded],
     known: Vec<(usize, f64, f64)>,
     only: &[String],
     progress: &(dyn Fn(&str) + Sync),
@@ -53,10 +57,7 @@ pub fn diagnose<'a>(
         let bare = world.fit(&*dynamics, train, Vec::new());
         bare.settled(world.origin())
     };
-    let before = {
-        let point = world.held_out_point(&*dynamics, &start);
-        world.fit(&*dynamics, test, Vec::new()).residuals(&point)
-    };
+    let before = start.clone();
     progress("fitting the starting model's parameters");
     let mut reversed = Vec::new();
     let mut base = world.fitted(&[], &[start.clone()], Stop::NOISY)?;
@@ -83,7 +84,7 @@ pub fn diagnose<'a>(
         typical(rig, train, &all)
     };
     let found = world.search(base, progress)?;
-    Ok(Diagnosis { world, before, found, reversed })
+    Ok(Diagnosis { world, measured, before, found, reversed })
 }
 
 /// Whether every signal is met at least roughly.

@@ -1,5 +1,7 @@
 //! What a diagnosis finds: the contents of `report.json`.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 /// Version of the format of `report.json`: raised when a reader of an older one would misunderstand it.
@@ -26,6 +28,8 @@ pub struct Findings {
     pub base_parameters: Vec<BaseParameter>,
     /// The model's errors on the held-out data, before and after.
     pub signals: Vec<Signal>,
+    /// The extended model's states where the simulation of each held-out stretch starts.
+    pub starts: Vec<Start>,
     /// A cause without a name.
     pub unnamed: Option<Curve>,
     /// What would settle doubts.
@@ -55,6 +59,7 @@ impl Findings {
             effects: Vec::new(),
             base_parameters: Vec::new(),
             signals: Vec::new(),
+            starts: Vec::new(),
             unnamed: None,
             experiment: None,
             data_problems: problems,
@@ -210,6 +215,19 @@ pub struct Signal {
     pub noise_floor: f64,
     /// Root mean square of the difference of two repeats, over √2; where there are repeats.
     pub repeatability: Option<f64>,
+}
+
+/// Where a simulation starts.
+#[derive(Clone, Debug, Serialize)]
+pub struct Start {
+    /// The file.
+    pub record: String,
+    /// Time since the record's first sample in seconds.
+    pub time: f64,
+    /// Time at which the stretch ends.
+    pub end: f64,
+    /// Values of the FMU's states by their names, SI.
+    pub states: BTreeMap<String, f64>,
 }
 
 /// A force, or another quantity, over a variable.

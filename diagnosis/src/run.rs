@@ -78,7 +78,7 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
     bar.set_message("taking the noise off the inputs");
     let conditioned = |records: &[Recorded]| records.iter().map(Recorded::conditioned).collect::<Vec<_>>();
     let (train, judging) = (conditioned(&records), conditioned(&test));
-    let diagnosis = diagnose(&rig, &train, &judging, known, &arguments.effects, &progress)?;
+    let diagnosis = diagnose(&rig, &train, &judging, &test, known, &arguments.effects, &progress)?;
     bar.set_message("writing the report");
     let findings = diagnosis.findings(problems, clock.elapsed().as_secs_f64());
     report::write(&findings, &arguments.out).map_err(|error| error.to_string())?;

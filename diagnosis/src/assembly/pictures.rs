@@ -6,6 +6,8 @@ use crate::findings::{Binned, Pictures, Spectrum, Trace};
 use crate::recorded::derivative;
 use crate::rig::Missing;
 
+/// Seconds of a record that are shown.
+const TRACE: f64 = 20.0;
 /// Samples of a segment of a spectrum: a power of two.
 const SEGMENT: usize = 2048;
 /// Bins of a variable.
@@ -27,13 +29,18 @@ impl Diagnosis<'_> {
             let simulated = |residuals: &[f64]| -> Vec<f64> {
                 measured.values.iter().zip(residuals).map(|(value, residual)| value - residual).collect()
             };
+            let shown = measured.values.len().min((TRACE / record.step) as usize);
+            let part = |mut values: Vec<f64>| {
+                values.truncate(shown);
+                values
+            };
             Trace {
                 signal: declared.name.clone(),
                 unit: declared.unit.symbol.into(),
-                time: (0..measured.values.len()).map(|k| k as f64 * record.step).collect(),
-                measured: measured.values.clone(),
-                before: simulated(&base[row]),
-                after: simulated(&extended[row]),
+                time: (0..shown).map(|k| k as f64 * record.step).collect(),
+                measured: part(measured.values.clone()),
+                before: part(simulated(&base[row])),
+                after: part(simulated(&extended[row])),
             }
         })
         .collect()

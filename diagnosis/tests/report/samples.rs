@@ -32,6 +32,7 @@ pub fn empty(verdict: Verdict) -> Findings {
         effects: vec![],
         base_parameters: vec![],
         signals: vec![],
+        starts: vec![],
         unnamed: None,
         experiment: None,
         data_problems: vec![],
