@@ -134,9 +134,11 @@ pub trait Problem {
     fn bounds(&self) -> &[(f64, f64)];
 }
 
-/// When to stop.
+/// How to start and when to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
+    /// Damping of the first step: the larger, the more careful.
+    pub damping: f64,
     /// Linearisations at most.
     pub iterations: usize,
     /// Relative fall of the cost below which it ends.
@@ -147,11 +149,11 @@ pub struct Stop {
 
 impl Stop {
     /// To the last digit.
-    pub const EXACT: Self = Self { iterations: 2000, cost: 0.0, step: 1e-14 };
+    pub const EXACT: Self = Self { damping: 100.0, iterations: 2000, cost: 0.0, step: 1e-14 };
     /// As closely as noise deserves.
-    pub const NOISY: Self = Self { iterations: 30, cost: 1e-5, step: 1e-6 };
+    pub const NOISY: Self = Self { damping: 1e-3, iterations: 30, cost: 1e-5, step: 1e-6 };
     /// Well enough to compare causes.
-    pub const ROUGH: Self = Self { iterations: 10, cost: 2e-3, step: 1e-4 };
+    pub const ROUGH: Self = Self { damping: 1e-3, iterations: 10, cost: 2e-3, step: 1e-4 };
 }
 
 /// A minimum.
@@ -173,7 +175,7 @@ pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum
     let mut cost = problem.cost(&point);
     let (mut linear, mut trace) = problem.linearise(&point);
     let mut scale = unit_where_zero(&linear.column_norms());
-    let mut lambda = 1e-3;
+    let mut lambda = stop.damping;
     let mut iterations = 1;
     while iterations < stop.iterations {
         let at = problem.coordinates(&point);
