@@ -11,10 +11,14 @@ use crate::findings::{
 use crate::fit::{Handle, Point, Residuals};
 use crate::hypothesis::{Fitted, POINTS, Term};
 use crate::naming::{self, name};
+use crate::recorded::{Recorded, Source};
+use crate::screening::rms;
 use crate::search::Accepted;
 
 /// Relative change of a base parameter that matters, if it is significant.
 const MISMATCH: f64 = 0.03;
+/// Difference of two excitations, over their magnitude, below which one is a repetition of the other.
+const SAME: f64 = 0.05;
 /// Φ of the best signal on held-out data below which nothing is to be believed.
 const INADEQUATE: f64 = 0.2;
 
@@ -148,7 +152,7 @@ impl Diagnosis<'_> {
                 rms_fitted: root_mean_square(&fitted),
                 rms_after: root_mean_square(&after),
                 noise_floor: first.noise_floor,
-                repeatability: None,
+                repeatability: repeatability(self.measured, row),
             }
         };
         let names = || world.rig.plant.states.iter().map(|state| state.name.clone());
@@ -248,6 +252,32 @@ impl Diagnosis<'_> {
         });
         screened.collect()
     }
+}
+
+/// Root mean square of the difference of the first two records with the same excitation, over √2: no model can do
+/// better than a repetition does.
+fn repeatability(records: &[Recorded], row: usize) -> Option<f64> {
+    let pairs = records
+        .iter()
+        .enumerate()
+        .flat_map(|(index, one)| records[..index].iter().map(move |two| (one, two)));
+    let (one, two) = pairs.into_iter().find(|(one, two)| same_excitation(one, two))?;
+    let values = one.measured[row].values.iter().zip(&two.measured[row].values);
+    let differences: Vec<f64> = values.map(|(one, two)| one - two).collect();
+    Some(root_mean_square(&differences) / 2.0_f64.sqrt())
+}
+
+/// Whether every measured input is the same but for noise.
+fn same_excitation(one: &Recorded, two: &Recorded) -> bool {
+    one.len() == two.len()
+        && (one.step - two.step).abs() < 1e-6 * one.step
+        && one.inputs.iter().zip(&two.inputs).all(|(one, two)| match (one, two) {
+            (Source::Measured(one), Source::Measured(two)) => {
+                let differences: Vec<f64> = one.iter().zip(two).map(|(one, two)| one - two).collect();
+                rms(&differences) < SAME * rms(one)
+            }
+            _ => true,
+        })
 }
 
 fn summary(

@@ -9,7 +9,6 @@ use crate::findings::Evidence;
 use crate::fit::{Handle, Residuals};
 use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
-use crate::recorded::Recorded;
 use crate::screening::{Screened, rms};
 
 /// Causes that are fitted in a round.
@@ -63,18 +62,6 @@ pub struct Found {
 }
 
 impl World<'_> {
-    /// Weighted power of errors, in variances.
-    pub fn power(&self, residuals: &Residuals, records: &[Recorded]) -> f64 {
-        let mut sum = 0.0;
-        for (record, signals) in records.iter().zip(residuals) {
-            for (measured, signal) in record.measured.iter().zip(signals) {
-                let weight = self.sigma[measured.output].powi(-2);
-                sum += weight * signal.iter().filter(|e| e.is_finite()).map(|e| e * e).sum::<f64>();
-            }
-        }
-        sum
-    }
-
     fn block(&self) -> usize {
         let step = self.train.first().map_or(1.0, |record| record.step);
         ((BLOCK / step).round() as usize).max(4)
@@ -100,12 +87,15 @@ impl World<'_> {
         let gain: f64 =
             counts.iter().zip(before.iter().zip(&after)).map(|(n, (b, a))| n * (b / a).ln()).sum();
         let total: f64 = counts.iter().sum();
-        let (before, after) = (self.power(&null.test, self.test), self.power(&fitted.test, self.test));
+        let squares = |it: &Fitted| self.errors(&it.test).mean_squares();
+        let (unit, before, after) = (squares(base), squares(null), squares(fitted));
+        let shares =
+            unit.iter().zip(before.iter().zip(&after)).map(|(unit, (before, after))| (before - after) / unit);
         Evidence {
             delta_bic: gain - more as f64 * total.max(1.0).ln(),
             block_t: self.steadiness(&null.train, &fitted.train),
             held_out_t: self.steadiness(&null.test, &fitted.test),
-            explained: (before - after) / self.power(&base.test, self.test).max(f64::MIN_POSITIVE),
+            explained: shares.sum::<f64>() / unit.len().max(1) as f64,
             phi_gain: self.phi_gain(null, fitted),
         }
     }
@@ -161,8 +151,8 @@ impl World<'_> {
     /// Those of the screened terms that are worth a fit.
     fn promising<'b>(&self, screened: &'b [Screened], null: &Fitted) -> Vec<&'b Screened> {
         let worth = |it: &&Screened| it.gain > 12.0_f64.max(0.004 * 2.0 * null.cost);
-        let is_table = |it: &&Screened| matches!(it.term, Term::Table(_));
-        let (tables, named): (Vec<_>, Vec<_>) = screened.iter().filter(worth).partition(is_table);
+        let (tables, named): (Vec<_>, Vec<_>) =
+            screened.iter().filter(worth).partition(|it| is_table(it.term));
         // What has no derivative where it is absent may screen badly: it is tried all the same.
         let hidden = screened.iter().filter(|it| {
             matches!(it.term, Term::Cause(cause) if HIDDEN.contains(&cause.id)) && it.gain > 4.0
@@ -201,7 +191,7 @@ impl World<'_> {
                 found.screened = screened;
             }
             let passing: Vec<&Tried> = tried.iter().filter(|it| it.evidence.refusal().is_none()).collect();
-            let chosen = self.chosen(&passing).cloned();
+            let chosen = self.chosen(&found.base, &passing).cloned();
             let rivals = chosen.as_ref().map_or_else(Vec::new, |chosen| self.rivals(chosen, &passing));
             merge(&mut found.tried, tried);
             let Some(chosen) = chosen else { break };
@@ -209,7 +199,7 @@ impl World<'_> {
             found.accepted.push(Accepted { term: chosen.term, evidence: chosen.evidence, rivals });
             // The others were fitted well enough to be compared; this one is to be built on.
             current = self.fitted(&fitted.terms, std::slice::from_ref(&fitted.point), Stop::NOISY)?;
-            if matches!(chosen.term, Term::Table(_)) {
+            if is_table(chosen.term) {
                 break;
             }
         }
@@ -219,35 +209,43 @@ impl World<'_> {
             progress("trying rivals in the place of each cause");
             self.swap(&mut found)?;
         }
+        self.unname(&mut found);
         Ok(found)
     }
 
-    /// The best of those that pass: with a name if there is one that is not clearly worse than a table.
-    fn chosen<'b>(&self, passing: &[&'b Tried]) -> Option<&'b Tried> {
-        let named = passing.iter().find(|it| !matches!(it.term, Term::Table(_)));
-        let table = passing.iter().find(|it| matches!(it.term, Term::Table(_)));
-        match (named, table) {
-            (Some(named), Some(table)) => {
-                let (Ok(with_name), Ok(without)) = (&named.fitted, &table.fitted) else { return Some(named) };
-                let power = |it: &Fitted| self.power(&it.train, self.train) + self.power(&it.test, self.test);
-                let clearly =
-                    self.apart(without, with_name) > 4.0 && power(without) < 0.85 * power(with_name);
-                Some(if clearly { table } else { self.simplest(named, passing) })
-            }
-            (Some(named), None) => Some(self.simplest(named, passing)),
-            (None, Some(table)) => Some(table),
-            (None, None) => None,
+    /// The best of those with a name that pass; without any, the best table.
+    fn chosen<'b>(&self, base: &Fitted, passing: &[&'b Tried]) -> Option<&'b Tried> {
+        let named = passing.iter().find(|it| !is_table(it.term));
+        named.map(|it| self.simplest(base, it, passing)).or_else(|| passing.first().copied())
+    }
+
+    /// Puts a table alone in the place of everything that was found, if it explains clearly more than one cause with a
+    /// name, or as much as several of them: names that only together do what one curve does are not the cause.
+    fn unname(&self, found: &mut Found) {
+        let tables = found.tried.iter().filter(|it| is_table(it.term) && it.evidence.refusal().is_none());
+        let tables = tables.filter_map(|it| Some((it, it.fitted.as_ref().ok()?)));
+        let alone = tables.filter(|(_, fitted)| fitted.terms.len() == 1);
+        let best = alone.max_by(|a, b| a.0.score.total_cmp(&b.0.score));
+        let Some((table, fitted)) = best else { return };
+        let named = found.accepted.iter().filter(|it| !is_table(it.term)).count();
+        let factor = if named > 1 { 1.1 } else { 0.85 };
+        let enough = self.left(&found.base, fitted) < factor * self.left(&found.base, &found.extended);
+        if enough && named > 0 && (named > 1 || self.apart(fitted, &found.extended) > 4.0) {
+            let accepted = Accepted { term: table.term, evidence: table.evidence, rivals: Vec::new() };
+            found.extended = fitted.clone();
+            found.accepted = vec![accepted];
         }
     }
 
     /// One with fewer parameters that is a part of the best and explains nearly as much.
-    fn simplest<'b>(&self, best: &'b Tried, passing: &[&'b Tried]) -> &'b Tried {
+    fn simplest<'b>(&self, base: &Fitted, best: &'b Tried, passing: &[&'b Tried]) -> &'b Tried {
         let mut chosen = best;
         for other in passing {
             if let (Ok(fitted), Ok(simpler)) = (&chosen.fitted, &other.fitted)
                 && contains(chosen.term, other.term, &parts(fitted), &parts(simpler))
                 && simpler.coordinates.len() < fitted.coordinates.len()
-                && (self.apart(fitted, simpler) < 2.5 || self.total(simpler) < NEARLY * self.total(fitted))
+                && (self.apart(fitted, simpler) < 2.5
+                    || self.left(base, simpler) < NEARLY * self.left(base, fitted))
             {
                 chosen = other;
             }
@@ -255,9 +253,14 @@ impl World<'_> {
         chosen
     }
 
-    /// Weighted power of all errors.
-    fn total(&self, fitted: &Fitted) -> f64 {
-        self.power(&fitted.train, self.train) + self.power(&fitted.test, self.test)
+    /// Errors left, in those of the starting model: two where nothing is gained.
+    fn left(&self, base: &Fitted, fitted: &Fitted) -> f64 {
+        let of = |unit: &Residuals, residuals: &Residuals| {
+            let (unit, squares) = (self.errors(unit).mean_squares(), self.errors(residuals).mean_squares());
+            unit.iter().zip(&squares).map(|(unit, square)| square / unit).sum::<f64>()
+                / unit.len().max(1) as f64
+        };
+        of(&base.train, &fitted.train) + of(&base.test, &fitted.test)
     }
 
     /// Those that explain the data as well as the chosen one, and are not the same with something more.
@@ -267,10 +270,7 @@ impl World<'_> {
         let rival = |other: &&&Tried| {
             let Ok(fitted) = &other.fitted else { return false };
             let more = contains(other.term, chosen.term, &parts(fitted), &own);
-            other.term != chosen.term
-                && !matches!(other.term, Term::Table(_))
-                && !more
-                && self.apart(best, fitted) < 2.5
+            other.term != chosen.term && !is_table(other.term) && !more && self.apart(best, fitted) < 2.5
         };
         passing.iter().filter(rival).map(|it| it.term).collect()
     }
@@ -349,6 +349,10 @@ impl World<'_> {
     }
 }
 
+fn is_table(term: Term) -> bool {
+    matches!(term, Term::Table(_))
+}
+
 /// Whether a term can do all that another one can: by what it changes, or as the catalogue says.
 fn contains(larger: Term, smaller: Term, more: &BTreeSet<Handle>, fewer: &BTreeSet<Handle>) -> bool {
     let by_name = match (larger, smaller) {
@@ -365,10 +369,15 @@ fn parts(fitted: &Fitted) -> BTreeSet<Handle> {
     fitted.coordinates.iter().map(|it| it.handle).collect()
 }
 
-/// Keeps the last word on each term.
+/// Keeps the last word on each term; of tables the first, when each is alone.
 fn merge(all: &mut Vec<Tried>, new: Vec<Tried>) {
-    all.retain(|old| !new.iter().any(|it| it.term == old.term));
-    all.extend(new);
+    for it in new {
+        match all.iter_mut().find(|old| old.term == it.term) {
+            Some(old) if !is_table(it.term) => *old = it,
+            Some(_) => {}
+            None => all.push(it),
+        }
+    }
 }
 
 /// Terms that nothing shows of while they are absent: they begin to act beyond a threshold.

@@ -63,9 +63,9 @@ class Linear:
         return np.array([self.c @ np.linalg.solve(math.tau * 1j * f * eye - self.a, self.b) + self.d for f in frequencies])
 
     def modes(self):
-        """Natural frequency in Hz and damping ratio of each eigenvalue, the slowest first."""
+        """Natural frequency in Hz and damping ratio of each eigenvalue, the slowest first; states that rest have none."""
         values = sorted(np.linalg.eigvals(self.a), key=abs)
-        return [(abs(value) / math.tau, -value.real / abs(value)) for value in values]
+        return [(abs(value) / math.tau, -value.real / abs(value)) for value in values if abs(value) > 1e-9]
 
 
 @contextmanager

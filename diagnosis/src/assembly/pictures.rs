@@ -7,7 +7,7 @@ use crate::recorded::derivative;
 use crate::rig::Missing;
 
 /// Seconds of a record that are shown.
-const TRACE: f64 = 20.0;
+const TRACE: f64 = 10.0;
 /// Samples of a segment of a spectrum: a power of two.
 const SEGMENT: usize = 2048;
 /// Bins of a variable.
