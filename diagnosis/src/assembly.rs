@@ -236,7 +236,7 @@ impl Diagnosis<'_> {
                 Some(tried) => match (&tried.fitted, tried.evidence.refusal()) {
                     (Err(error), _) => error.clone(),
                     (Ok(_), Some(refusal)) => refusal,
-                    (Ok(_), None) => "another cause explains it better".into(),
+                    (Ok(_), None) => "another cause explains it better, or is much larger".into(),
                 },
             };
             Candidate {

@@ -139,7 +139,7 @@ pub struct Evidence {
     pub held_out_t: f64,
     /// Share of the starting model's error power that it explains on the held-out data.
     pub explained: f64,
-    /// Largest rise of Φ among the signals of the held-out data.
+    /// Largest rise of Φ among the signals, on the training or the held-out data, whichever is less.
     pub phi_gain: f64,
 }
 

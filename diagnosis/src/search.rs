@@ -9,14 +9,20 @@ use crate::findings::Evidence;
 use crate::fit::{Handle, Residuals};
 use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
+use crate::recorded::Recorded;
 use crate::screening::{Screened, rms};
 
 /// Causes that are fitted in a round.
-const FITTED: usize = 10;
-/// Tables among them.
-const TABLES: usize = 3;
+const FITTED: usize = 7;
+/// Share of the best cause's screened gain below which none is fitted.
+const BEHIND: f64 = 0.15;
+/// Tables that are fitted where names do not suffice.
+const TABLES: usize = 2;
 /// Causes at most.
 const MOST: usize = 4;
+/// Share of the largest cause's rise of Φ below which a further one is not told from the small effects that every real
+/// rig has.
+const BESIDE: f64 = 0.35;
 /// Errors that are larger by less than this factor are nearly the same.
 const NEARLY: f64 = 1.02;
 /// Blocks of time over which gains are compared, in seconds.
@@ -100,18 +106,18 @@ impl World<'_> {
         }
     }
 
-    /// The largest rise of Φ among the signals of the held-out data.
+    /// The largest rise of Φ among the signals: on the training or the held-out data, whichever is less.
     fn phi_gain(&self, null: &Fitted, fitted: &Fitted) -> f64 {
-        let roots = |it: &Fitted| -> Vec<f64> {
-            self.errors(&it.test).mean_squares().into_iter().map(f64::sqrt).collect()
+        let of = |records: &[Recorded], null: &Residuals, fitted: &Residuals| {
+            let roots = |it: &Residuals| self.errors(it).mean_squares().into_iter().map(f64::sqrt);
+            let rows = roots(null).zip(roots(fitted)).enumerate();
+            let gains = rows.map(|(row, (before, after))| {
+                let values = records.iter().flat_map(|record| record.measured[row].values.iter().copied());
+                (before - after) / rms(&values.collect::<Vec<_>>()).max(f64::MIN_POSITIVE)
+            });
+            gains.fold(0.0, f64::max)
         };
-        let (before, after) = (roots(null), roots(fitted));
-        let rows = before.iter().zip(&after).enumerate();
-        rows.map(|(row, (before, after))| {
-            let values = self.test.iter().flat_map(|record| record.measured[row].values.iter().copied());
-            (before - after) / rms(&values.collect::<Vec<_>>()).max(f64::MIN_POSITIVE)
-        })
-        .fold(0.0, f64::max)
+        of(self.train, &null.train, &fitted.train).min(of(self.test, &null.test, &fitted.test))
     }
 
     /// Rank of a fit among those on top of the same: half its fall of the information criterion, over all data.
@@ -148,22 +154,36 @@ impl World<'_> {
         Tried { term: screened.term, fitted, evidence, score }
     }
 
-    /// Those of the screened terms that are worth a fit.
-    fn promising<'b>(&self, screened: &'b [Screened], null: &Fitted) -> Vec<&'b Screened> {
-        let worth = |it: &&Screened| it.gain > 12.0_f64.max(0.004 * 2.0 * null.cost);
-        let (tables, named): (Vec<_>, Vec<_>) =
-            screened.iter().filter(worth).partition(|it| is_table(it.term));
+    /// Those of the screened terms with a name that are worth a fit: what screens far below the best, or below what
+    /// matters at all, is left out.
+    fn promising<'b>(&self, base: &Fitted, screened: &'b [Screened]) -> Vec<&'b Screened> {
+        let named: Vec<&Screened> = screened.iter().filter(|it| !is_table(it.term)).collect();
+        let best = named.first().map_or(0.0, |it| it.gain);
+        let least = worth(base).max(BEHIND * best);
+        let mut chosen: Vec<&Screened> =
+            named.iter().copied().filter(|it| it.gain > least).take(FITTED).collect();
         // What has no derivative where it is absent may screen badly: it is tried all the same.
-        let hidden = screened.iter().filter(|it| {
-            matches!(it.term, Term::Cause(cause) if HIDDEN.contains(&cause.id)) && it.gain > 4.0
+        let hidden = named.into_iter().filter(|it| {
+            matches!(it.term, Term::Cause(cause) if HIDDEN.contains(&cause.id)) && it.gain > 0.2 * worth(base)
         });
-        let mut chosen: Vec<&Screened> = named.into_iter().take(FITTED).collect();
-        for it in hidden.chain(tables.into_iter().take(TABLES)) {
+        for it in hidden {
             if !chosen.iter().any(|other| other.term == it.term) {
                 chosen.push(it);
             }
         }
         chosen
+    }
+
+    /// The tables that are worth a fit beside a gain.
+    fn curves<'b>(&self, base: &Fitted, screened: &'b [Screened], gain: f64) -> Vec<&'b Screened> {
+        let least = worth(base).max(gain);
+        screened.iter().filter(|it| is_table(it.term) && it.gain > least).take(TABLES).collect()
+    }
+
+    fn try_all(&self, base: &Fitted, null: &Fitted, screened: &[&Screened]) -> Vec<Tried> {
+        let mut tried: Vec<Tried> = screened.par_iter().map(|it| self.tried(base, null, it)).collect();
+        tried.sort_by(|a, b| b.score.total_cmp(&a.score));
+        tried
     }
 
     /// Looks for causes.
@@ -182,15 +202,20 @@ impl World<'_> {
         while found.accepted.len() < MOST {
             progress("comparing every cause to what is missing");
             let screened = self.screened(&current)?;
-            let promising = self.promising(&screened, &current);
+            let promising = self.promising(&found.base, &screened);
             progress(&format!("fitting {} causes", promising.len()));
-            let mut tried: Vec<Tried> =
-                promising.par_iter().map(|it| self.tried(&found.base, &current, it)).collect();
-            tried.sort_by(|a, b| b.score.total_cmp(&a.score));
+            let mut tried = self.try_all(&found.base, &current, &promising);
+            let largest = found.accepted.iter().map(|it| it.evidence.phi_gain).fold(0.0, f64::max);
+            let passes =
+                |it: &Tried| it.evidence.refusal().is_none() && it.evidence.phi_gain > BESIDE * largest;
+            if !tried.iter().any(passes) {
+                let curves = self.curves(&found.base, &screened, 0.0);
+                tried.extend(self.try_all(&found.base, &current, &curves));
+            }
             if found.screened.is_empty() {
                 found.screened = screened;
             }
-            let passing: Vec<&Tried> = tried.iter().filter(|it| it.evidence.refusal().is_none()).collect();
+            let passing: Vec<&Tried> = tried.iter().filter(|it| passes(it)).collect();
             let chosen = self.chosen(&found.base, &passing).cloned();
             let rivals = chosen.as_ref().map_or_else(Vec::new, |chosen| self.rivals(chosen, &passing));
             merge(&mut found.tried, tried);
@@ -209,6 +234,7 @@ impl World<'_> {
             progress("trying rivals in the place of each cause");
             self.swap(&mut found)?;
         }
+        progress("drawing curves in the place of names");
         self.unname(&mut found);
         Ok(found)
     }
@@ -222,10 +248,13 @@ impl World<'_> {
     /// Puts a table alone in the place of everything that was found, if it explains clearly more than one cause with a
     /// name, or as much as several of them: names that only together do what one curve does are not the cause.
     fn unname(&self, found: &mut Found) {
-        let tables = found.tried.iter().filter(|it| is_table(it.term) && it.evidence.refusal().is_none());
-        let tables = tables.filter_map(|it| Some((it, it.fitted.as_ref().ok()?)));
-        let alone = tables.filter(|(_, fitted)| fitted.terms.len() == 1);
-        let best = alone.max_by(|a, b| a.0.score.total_cmp(&b.0.score));
+        let Some(first) = found.accepted.first().filter(|it| !is_table(it.term)) else { return };
+        let named = found.screened.iter().find(|it| it.term == first.term);
+        let curves = self.curves(&found.base, &found.screened, named.map_or(0.0, |it| it.gain));
+        let tried = self.try_all(&found.base, &found.base, &curves);
+        merge(&mut found.tried, tried.clone());
+        let passing = tried.iter().filter(|it| it.evidence.refusal().is_none());
+        let best = passing.filter_map(|it| Some((it, it.fitted.as_ref().ok()?))).next();
         let Some((table, fitted)) = best else { return };
         let named = found.accepted.iter().filter(|it| !is_table(it.term)).count();
         let factor = if named > 1 { 1.1 } else { 0.85 };
@@ -369,15 +398,15 @@ fn parts(fitted: &Fitted) -> BTreeSet<Handle> {
     fitted.coordinates.iter().map(|it| it.handle).collect()
 }
 
-/// Keeps the last word on each term; of tables the first, when each is alone.
+/// Keeps the last word on each term.
 fn merge(all: &mut Vec<Tried>, new: Vec<Tried>) {
-    for it in new {
-        match all.iter_mut().find(|old| old.term == it.term) {
-            Some(old) if !is_table(it.term) => *old = it,
-            Some(_) => {}
-            None => all.push(it),
-        }
-    }
+    all.retain(|old| !new.iter().any(|it| it.term == old.term));
+    all.extend(new);
+}
+
+/// The least fall of the sum of squares that may matter.
+fn worth(base: &Fitted) -> f64 {
+    12.0_f64.max(0.005 * 2.0 * base.cost)
 }
 
 /// Terms that nothing shows of while they are absent: they begin to act beyond a threshold.

@@ -59,7 +59,7 @@ pub fn gates(evidence: &Evidence) -> [Gate; 5] {
         ),
         gate(
             "Relevance",
-            "largest rise of Φ among the signals of the held-out data",
+            "largest rise of Φ among the signals, on either data",
             evidence.phi_gain,
             REQUIRED.phi_gain,
             number,
