@@ -6,6 +6,7 @@ use std::path::Path;
 use strut_model::Value;
 
 use crate::diagnosis::Diagnosis;
+use crate::file::replace;
 use crate::fit::Handle;
 use crate::naming;
 use crate::rig::Rig;
@@ -105,17 +106,4 @@ impl Diagnosis<'_> {
         }
         if fmu { build_fmu::pack(&build_fmu::strut(), &set, folder) } else { Ok(()) }
     }
-}
-
-/// Writes a file beside and gives it its name when it is complete.
-///
-/// # Errors
-/// What the system says.
-pub fn replace(path: &Path, text: &str) -> std::io::Result<()> {
-    use std::io::Write;
-    let folder = path.parent().filter(|it| !it.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = tempfile::NamedTempFile::new_in(folder)?;
-    file.write_all(text.as_bytes())?;
-    file.persist(path)?;
-    Ok(())
 }

@@ -14,6 +14,7 @@ pub mod correction;
 pub mod data;
 pub mod diagnosis;
 pub mod extend;
+pub mod file;
 pub mod findings;
 pub mod fit;
 pub mod hypothesis;

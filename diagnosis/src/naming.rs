@@ -1,5 +1,6 @@
 //! What terms are called, by the catalogue's numbers.
 
+use crate::catalogue::{causes, tables};
 use crate::correction::Fault;
 use crate::fit::Handle;
 use crate::hypothesis::Term;
@@ -50,6 +51,18 @@ pub fn name(term: Term, plant: &Plant) -> Name {
         },
         Term::Fault(handle) => of_fault(handle, plant),
     }
+}
+
+/// Numbers of all that may be the matter with a plant, ascending.
+pub fn numbers(plant: &Plant) -> Vec<String> {
+    let inputs = (0..plant.inputs.len()).flat_map(|it| Fault::ALL.map(|fault| Handle::Input(it, fault)));
+    let outputs = (0..plant.outputs.len()).flat_map(|it| Fault::ALL.map(|fault| Handle::Output(it, fault)));
+    let faults = inputs.chain(outputs).map(Term::Fault);
+    let terms = causes(plant).map(Term::Cause).chain(tables(plant).map(Term::Table)).chain(faults);
+    let mut numbers: Vec<String> = terms.map(|term| name(term, plant).id).collect();
+    numbers.sort();
+    numbers.dedup();
+    numbers
 }
 
 fn of_fault(handle: Handle, plant: &Plant) -> Name {

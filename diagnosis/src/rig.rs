@@ -5,6 +5,7 @@ use strut_physics::PARAMETER_SETS;
 use strut_physics::rigs::{ElementDyno, QuarterCar};
 
 use crate::catalogue::{self, Element};
+use crate::data::table::did_you_mean;
 use crate::plant::Plant;
 
 /// A rig to be diagnosed: a plant with the values of a parameter set.
@@ -181,7 +182,9 @@ impl Rig {
                 values: Default::default(),
             });
         }
-        Err(format!("there is no rig `{name}`; there are {}", Self::names().join(", ")))
+        let names = Self::names();
+        let hint = did_you_mean(name, names.iter().map(String::as_str));
+        Err(format!("there is no rig `{name}` (`diagnose rigs` lists them){hint}"))
     }
 
     /// Names of all published rigs.

@@ -11,10 +11,12 @@ use strut_model::ParameterSet;
 
 use crate::cli::{Arguments, Command, DiagnosisArguments, SimulateArguments};
 use crate::data::map::Map;
+use crate::data::table::did_you_mean;
 use crate::diagnosis::diagnose;
-use crate::extend::replace;
+use crate::file::replace;
 use crate::findings::{DataProblem, Findings};
 use crate::import::{align, import};
+use crate::naming;
 use crate::recorded::Recorded;
 use crate::report;
 use crate::rig::Rig;
@@ -49,8 +51,19 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs.max(1)).build_global();
         pool.map_err(|error| format!("cannot start {jobs} threads: {error}"))?;
     }
+    // A diagnosis takes a while: what would not be written is told at once.
+    if arguments.out.exists() && !arguments.out.is_dir() {
+        return Err(format!(
+            "`{}` is a file: choose a folder for the report with --out",
+            arguments.out.display()
+        ));
+    }
     let rig = rig(arguments)?;
     let known = arguments.known.iter().map(|text| known(&rig, text)).collect::<Result<Vec<_>, _>>()?;
+    let numbers = naming::numbers(&rig.plant);
+    if let Some(wrong) = arguments.effects.iter().find(|it| !numbers.contains(it)) {
+        return Err(format!("--effects {wrong}: {} has the effects {}", rig.name, numbers.join(", ")));
+    }
     let map = match &arguments.map {
         None => Map::default(),
         Some(path) => Map::parse(&read(path)?).map_err(|error| format!("{}: {error}", path.display()))?,
@@ -62,12 +75,14 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
         problems.extend(imported.problems);
         records.extend(imported.recorded);
     }
-    if problems.iter().any(|problem| problem.fatal) {
+    if let Some(fatal) = problems.iter().find(|problem| problem.fatal) {
+        let text = format!("{}, {}: {}", fatal.record, fatal.signal, fatal.text);
         let findings =
             Findings::of_bad_data(&rig.name, names(&arguments.train), names(&arguments.test), problems);
         report::write(&findings, &arguments.out).map_err(|error| error.to_string())?;
         print!("{}", report::terminal(&findings));
-        return Err(format!("the data cannot be used; see {}", arguments.out.join("report.html").display()));
+        let page = arguments.out.join("report.html");
+        return Err(format!("the data cannot be used; {text}; the whole list: {}", page.display()));
     }
     align(&mut records)?;
     let test: Vec<Recorded> = records.split_off(arguments.train.len());
@@ -126,31 +141,63 @@ fn known(rig: &Rig, text: &str) -> Result<(usize, f64, f64), String> {
         .base()
         .into_iter()
         .find(|index| rig.plant.parameters[*index].name == name.trim())
-        .ok_or_else(|| format!("--known {text}: {} has no base parameter `{}`", rig.name, name.trim()))?;
-    if deviation.is_nan() || deviation <= 0.0 {
-        return Err(format!("--known {text}: the deviation has to be positive"));
+        .ok_or_else(|| {
+            let names = rig.base().into_iter().map(|index| rig.plant.parameters[index].name.as_str());
+            let hint = did_you_mean(name.trim(), names);
+            format!("--known {text}: {} has no parameter `{}` that is fitted{hint}", rig.name, name.trim())
+        })?;
+    if !value.is_finite() || !deviation.is_finite() || deviation <= 0.0 {
+        return Err(format!("--known {text}: the value has to be finite, its deviation finite and positive"));
     }
     Ok((index, value, deviation))
 }
 
 fn simulate(arguments: &SimulateArguments) -> Result<(), String> {
     let rig = Rig::published(&arguments.rig)?;
-    let hidden = arguments.hide.iter().map(|text| {
-        let wrong = || format!("--hide {text}: write NAME=VALUE, as in strut.coulomb.force=60");
-        let (name, value) = text.split_once('=').ok_or_else(wrong)?;
-        Ok((name.trim().to_owned(), value.trim().parse::<f64>().map_err(|_| wrong())?))
-    });
-    let hidden = hidden.collect::<Result<Vec<_>, String>>()?;
+    let hidden = arguments.hide.iter().map(|text| hidden(&rig, text)).collect::<Result<Vec<_>, _>>()?;
+    if !arguments.noise.is_finite() || arguments.noise < 0.0 {
+        return Err(format!(
+            "--noise {}: the share of a signal has to be finite and not negative",
+            arguments.noise
+        ));
+    }
     let experiment = Experiment { hidden, noise: arguments.noise, seed: arguments.seed };
+    // All of them first: a mistake leaves nothing behind.
+    let records = [(1, "train.csv"), (2, "test.csv")]
+        .map(|(number, name)| virtual_rig::record(&rig, &experiment, number).map(|text| (name, text)));
+    let records = records.into_iter().collect::<Result<Vec<_>, _>>()?;
     fs::create_dir_all(&arguments.out)
-        .map_err(|error| format!("cannot make `{}`: {error}", arguments.out.display()))?;
-    for (number, name) in [(1, "train.csv"), (2, "test.csv")] {
+        .map_err(|error| format!("cannot make the folder `{}`: {error}", arguments.out.display()))?;
+    for (name, text) in records {
         let path = arguments.out.join(name);
-        let text = virtual_rig::record(&rig, &experiment, number)?;
         replace(&path, &text).map_err(|error| format!("cannot write `{}`: {error}", path.display()))?;
         println!("{}", path.display());
     }
     Ok(())
+}
+
+/// `strut.coulomb.force=60`.
+fn hidden(rig: &Rig, text: &str) -> Result<(String, f64), String> {
+    let wrong = || format!("--hide {text}: write NAME=VALUE, as in strut.coulomb.force=60");
+    let (name, value) = text.split_once('=').ok_or_else(wrong)?;
+    let (name, value) = (name.trim(), value.trim().parse::<f64>().map_err(|_| wrong())?);
+    let index = rig.plant.parameter(name).ok_or_else(|| {
+        let hint = did_you_mean(name, rig.plant.parameters.iter().map(|it| it.name.as_str()));
+        format!("--hide {text}: {} has no parameter `{name}`{hint}", rig.name)
+    })?;
+    let declared = &rig.plant.parameters[index];
+    let (low, high) = (declared.min.unwrap_or(f64::MIN), declared.max.unwrap_or(f64::MAX));
+    if !(low..=high).contains(&value) {
+        let unit = declared.unit.symbol;
+        let limits = match (declared.min, declared.max) {
+            (Some(low), Some(high)) => format!("from {low} to {high} {unit}"),
+            (Some(low), None) => format!("at least {low} {unit}"),
+            (None, Some(high)) => format!("at most {high} {unit}"),
+            (None, None) => "finite".into(),
+        };
+        return Err(format!("--hide {text}: {name} has to be {limits}"));
+    }
+    Ok((name.to_owned(), value))
 }
 
 fn read(path: &Path) -> Result<String, String> {

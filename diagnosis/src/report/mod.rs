@@ -11,9 +11,10 @@ pub use json::json;
 pub use page::html;
 pub use terminal::terminal;
 
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::file::replace;
 use crate::findings::Findings;
 
 /// Why a report could not be written.
@@ -47,20 +48,7 @@ pub fn write(findings: &Findings, folder: &Path) -> Result<(), ReportError> {
         .map_err(|cause| ReportError::Folder { folder: folder.to_owned(), cause })?;
     for (name, text) in [("report.json", json(findings)), ("report.html", html(findings))] {
         let path = folder.join(name);
-        replace(&path, folder, &text).map_err(|cause| ReportError::File { path, cause })?;
+        replace(&path, &text).map_err(|cause| ReportError::File { path, cause })?;
     }
-    Ok(())
-}
-
-/// A file in the same folder is written first and takes the name when it is complete.
-fn replace(path: &Path, folder: &Path, text: &str) -> io::Result<()> {
-    let mut builder = tempfile::Builder::new();
-    // A temporary file is its owner's alone; a report is for whoever may read the folder.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.prefix(".report").tempfile_in(folder)?;
-    file.write_all(text.as_bytes())?;
-    file.as_file().sync_all()?;
-    file.persist(path).map_err(|failure| failure.error)?;
     Ok(())
 }

@@ -1,0 +1,67 @@
+//! What one iteration of a fit costs: residuals of a record and their derivatives with respect to all parameters of a
+//! rig that are fitted first and to the states at the start.
+//!
+//! ```text
+//! cargo run --release --package strut-diagnosis --example linearise -- tum-quarter-vehicle record.csv
+//! ```
+//! prints JSON: median time, what was derived, and the information on each parameter, which is the diagonal of JᵀJ
+//! after the states at the start have been eliminated.
+
+use std::path::Path;
+use std::time::Instant;
+
+use strut_diagnosis::correction::Correction;
+use strut_diagnosis::data::map::Map;
+use strut_diagnosis::fit::{Coordinate, Fit, Handle, Point};
+use strut_diagnosis::import::import;
+use strut_diagnosis::lsq::Problem;
+use strut_diagnosis::rig::Rig;
+
+/// Repetitions of which the median counts.
+const RUNS: usize = 11;
+
+fn main() -> Result<(), String> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [rig, record] = &arguments[..] else { return Err("give the name of a rig and a record".into()) };
+    let rig = Rig::published(rig)?;
+    let imported = import(&rig, Path::new(record), &Map::default())?;
+    let record = imported.recorded.ok_or("the record cannot be used")?;
+    let dynamics = rig.plant.prepare(&rig.choices)?;
+    let base = rig.base();
+    let coordinate = |index: &usize| Coordinate {
+        handle: Handle::Parameter(*index),
+        bounds: (f64::NEG_INFINITY, f64::INFINITY),
+        prior: None,
+    };
+    let start: Vec<f64> = rig.plant.states.iter().map(|state| state.start).collect();
+    let point = Point {
+        parameters: rig.parameters.clone(),
+        inputs: vec![Correction::default(); rig.plant.inputs.len()],
+        outputs: vec![Correction::default(); rig.plant.outputs.len()],
+        starts: vec![start; record.sections.len()],
+    };
+    let records = [record];
+    let sigma = vec![1.0; rig.plant.outputs.len()];
+    let fit = Fit::new(&rig.plant, &*dynamics, &records, base.iter().map(coordinate).collect(), sigma);
+    let mut times = Vec::new();
+    let mut information = Vec::new();
+    for _ in 0..RUNS {
+        let clock = Instant::now();
+        let (linear, _) = fit.linearise(&point);
+        times.push(clock.elapsed().as_secs_f64());
+        information = linear.column_norms().iter().map(|norm| norm * norm).collect();
+    }
+    times.sort_by(f64::total_cmp);
+    let names: Vec<&str> = base.iter().map(|index| rig.plant.parameters[*index].name.as_str()).collect();
+    let signals: Vec<&str> =
+        records[0].measured.iter().map(|it| rig.plant.outputs[it.output].name.as_str()).collect();
+    let told = serde_json::json!({
+        "seconds": times[RUNS / 2],
+        "samples": records[0].len(),
+        "parameters": names,
+        "signals": signals,
+        "information": information,
+    });
+    println!("{told}");
+    Ok(())
+}
