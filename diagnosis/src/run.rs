@@ -14,11 +14,16 @@ use crate::data::map::Map;
 use crate::diagnosis::diagnose;
 use crate::extend::replace;
 use crate::findings::{DataProblem, Findings};
-use crate::import::{align, import};
+use crate::import::{align, choose_drive, import};
 use crate::recorded::Recorded;
 use crate::report;
 use crate::rig::Rig;
 use crate::virtual_rig::{self, Experiment};
+
+/// Time between two samples of a virtual rig's record in seconds.
+const STEP: f64 = 1e-3;
+/// Length of a virtual rig's record in seconds.
+const LENGTH: f64 = 20.0;
 
 /// Does what the command line says; failures are told on stderr.
 ///
@@ -49,12 +54,15 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs.max(1)).build_global();
         pool.map_err(|error| format!("cannot start {jobs} threads: {error}"))?;
     }
-    let rig = rig(arguments)?;
+    let mut rig = rig(arguments)?;
     let known = arguments.known.iter().map(|text| known(&rig, text)).collect::<Result<Vec<_>, _>>()?;
     let map = match &arguments.map {
         None => Map::default(),
         Some(path) => Map::parse(&read(path)?).map_err(|error| format!("{}: {error}", path.display()))?,
     };
+    if let Some(first) = arguments.train.first() {
+        choose_drive(&mut rig, first, &map)?;
+    }
     let mut problems: Vec<DataProblem> = Vec::new();
     let mut records = Vec::new();
     for path in arguments.train.iter().chain(&arguments.test) {
@@ -141,7 +149,8 @@ fn simulate(arguments: &SimulateArguments) -> Result<(), String> {
         Ok((name.trim().to_owned(), value.trim().parse::<f64>().map_err(|_| wrong())?))
     });
     let hidden = hidden.collect::<Result<Vec<_>, String>>()?;
-    let experiment = Experiment { hidden, noise: arguments.noise, seed: arguments.seed };
+    let experiment =
+        Experiment { hidden, noise: arguments.noise, seed: arguments.seed, step: STEP, length: LENGTH };
     fs::create_dir_all(&arguments.out)
         .map_err(|error| format!("cannot make `{}`: {error}", arguments.out.display()))?;
     for (number, name) in [(1, "train.csv"), (2, "test.csv")] {
