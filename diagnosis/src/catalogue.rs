@@ -1,5 +1,6 @@
 //! The catalogue of causes: which parameters they switch on, how large they may be, what they are confused with.
 
+mod guided;
 mod strut;
 mod tire;
 
@@ -37,6 +38,8 @@ pub enum Element {
     WheelGuide,
     /// Between wheel and road.
     Tire,
+    /// Between two arms that turn about it: forces are moments in N.m, deflections angles in rad.
+    Pivot,
 }
 
 impl Element {
@@ -47,6 +50,7 @@ impl Element {
             Self::Guide => "guide",
             Self::WheelGuide => "wheel_guide",
             Self::Tire => "tire",
+            Self::Pivot => "pivot",
         }
     }
 }
@@ -146,7 +150,7 @@ pub fn causes(plant: &Plant) -> impl Iterator<Item = &'static Cause> {
         cause.parts.iter().all(|part| plant.parameter(part.parameter).is_some())
             && cause.setting.is_none_or(|setting| plant.setting(setting).is_some())
     };
-    strut::CAUSES.iter().chain(tire::CAUSES).filter(has)
+    strut::CAUSES.iter().chain(tire::CAUSES).chain(guided::CAUSES).filter(has)
 }
 
 /// Every cause without a name that a plant can have.

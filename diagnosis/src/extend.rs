@@ -40,6 +40,15 @@ impl Diagnosis<'_> {
                 );
             }
         }
+        for (declared, start) in rig.plant.states.iter().zip(&rig.start) {
+            if *start != declared.start {
+                let (name, unit) = (&declared.name, declared.unit.symbol);
+                let _ = writeln!(
+                    text,
+                    "\"{name}\" = {{ value = {start:?}, unit = \"{unit}\", source = \"starting model\" }}"
+                );
+            }
+        }
         for (declaration, choice) in rig.plant.settings.iter().zip(&choices) {
             let value = match (choice, declaration.kind) {
                 (Value::Boolean(flag), _) => flag.to_string(),

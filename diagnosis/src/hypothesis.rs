@@ -90,7 +90,7 @@ impl World<'_> {
     /// The point that everything starts from.
     pub fn origin(&self) -> Point {
         let sections = self.train.iter().map(|record| record.sections.len()).sum();
-        let start: Vec<f64> = self.rig.plant.states.iter().map(|state| state.start).collect();
+        let start = self.rig.start.clone();
         Point {
             parameters: self.rig.parameters.clone(),
             inputs: vec![Correction::default(); self.rig.plant.inputs.len()],
@@ -241,7 +241,7 @@ impl World<'_> {
     /// The point of the held-out data: the same parameters, states at the start of their own.
     pub fn held_out_point(&self, dynamics: &dyn Dynamics, point: &Point) -> Point {
         let sections = self.test.iter().map(|record| record.sections.len()).sum();
-        let start: Vec<f64> = self.rig.plant.states.iter().map(|state| state.start).collect();
+        let start = self.rig.start.clone();
         let point = Point { starts: vec![start; sections], ..point.clone() };
         self.fit(dynamics, self.test, Vec::new()).settled(point)
     }

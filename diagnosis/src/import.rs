@@ -4,14 +4,12 @@ use std::ops::Range;
 use std::path::Path;
 
 use crate::data::check::{check, noise_floor};
-use crate::data::map::{Map, Wanted};
+use crate::data::map::{Map, Wanted, plain};
 use crate::data::{self, uniform::uniform};
 use crate::findings::DataProblem;
 use crate::recorded::{Measured, Recorded, Source};
 use crate::rig::Rig;
 
-/// Longest section that is simulated in one go, in seconds: it bounds the memory, and how far a simulation may drift.
-const SECTION: f64 = 60.0;
 /// Samples that a record needs.
 const FEWEST: usize = 100;
 
@@ -22,6 +20,19 @@ pub struct Imported {
     pub recorded: Option<Recorded>,
     /// What is wrong with the data.
     pub problems: Vec<DataProblem>,
+}
+
+/// Chooses how a rig is driven by what a record has.
+///
+/// # Errors
+/// If the file cannot be read.
+pub fn choose_drive(rig: &mut Rig, path: &Path, map: &Map) -> Result<(), String> {
+    if rig.kind.drives.is_empty() {
+        return Ok(());
+    }
+    let record = data::read_with(path, map.time.as_ref()).map_err(|error| error.to_string())?;
+    let columns: Vec<String> = record.channels.iter().map(|channel| plain(&channel.name)).collect();
+    rig.drive_by(|name| map.signals.contains_key(name) || columns.contains(&plain(name)))
 }
 
 /// Reads a file and finds the rig's signals in it.
@@ -56,7 +67,8 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
     for declared in &rig.plant.inputs {
         inputs.push(match values(&declared.name) {
             Some(values) => Source::Measured(values),
-            None => rate_of(rig, &declared.name)
+            None => rig
+                .rate_of(&declared.name)
                 .filter(|other| values(&rig.plant.inputs[*other].name).is_some())
                 .map_or(Source::Constant(declared.start), Source::DerivativeOf),
         });
@@ -67,7 +79,7 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
         Some(Measured { output, values, noise_floor })
     });
     let measured: Vec<Measured> = measured.collect();
-    let sections = sections(&uniform.segments, uniform.step);
+    let sections = sections(&uniform.segments, uniform.step, rig.kind.section);
     Ok(Imported {
         recorded: Some(Recorded { name, step: uniform.step, inputs, measured, sections }),
         problems,
@@ -87,26 +99,24 @@ fn oppose(rig: &Rig, record: &mut data::Record, map: &Map) {
 
 /// Every signal of a rig with the names that it may have.
 fn wanted(rig: &Rig) -> Vec<Wanted> {
-    let outputs = rig.plant.outputs.iter().filter(|it| !rig.kind.trivial.contains(&it.name.as_str()));
+    let shows = |name: &String| !rig.kind.trivial.contains(&name.as_str()) && !rig.taken.contains(name);
+    let outputs = rig.plant.outputs.iter().filter(|it| shows(&it.name));
+    let driven = rig.driven();
     rig.plant
         .inputs
         .iter()
         .chain(outputs)
         .map(|declared| {
             let aliases = rig.kind.aliases.iter().filter(|(name, _)| *name == declared.name);
+            let columns = driven.filter(|it| it.input == declared.name).map_or(&[][..], |it| it.columns);
+            let aliases = aliases.map(|(_, alias)| alias).chain(columns);
             Wanted {
                 name: declared.name.clone(),
                 unit: declared.unit.symbol.into(),
-                aliases: aliases.map(|(_, alias)| (*alias).to_owned()).collect(),
+                aliases: aliases.map(|alias| (*alias).to_owned()).collect(),
             }
         })
         .collect()
-}
-
-/// The input that one is the rate of: `road.velocity` is that of `road.position`.
-fn rate_of(rig: &Rig, name: &str) -> Option<usize> {
-    let group = name.strip_suffix("velocity")?;
-    rig.plant.input(&format!("{group}position"))
 }
 
 /// Refuses a record that does not tell what drove the rig, or nothing of what it did.
@@ -134,9 +144,9 @@ fn missing(rig: &Rig, record: &data::Record, name: &str, unused: &[String]) -> R
     Ok(())
 }
 
-/// Ranges of at most [`SECTION`] seconds and about equal length.
-fn sections(segments: &[Range<usize>], step: f64) -> Vec<Range<usize>> {
-    let longest = (SECTION / step).max(FEWEST as f64);
+/// Ranges of at most `seconds` and about equal length.
+fn sections(segments: &[Range<usize>], step: f64, seconds: f64) -> Vec<Range<usize>> {
+    let longest = (seconds / step).max(FEWEST as f64);
     let mut sections = Vec::new();
     for segment in segments.iter().filter(|segment| segment.len() >= FEWEST) {
         let parts = (segment.len() as f64 / longest).ceil() as usize;

@@ -65,13 +65,16 @@ pub fn numbers(plant: &Plant) -> Vec<String> {
     numbers
 }
 
+/// What the names of inputs begin with that act through an actuator, and not through a sensor alone.
+const ACTUATORS: &[&str] = &["actuator", "brake", "command", "motor", "voltage"];
+
 fn of_fault(handle: Handle, plant: &Plant) -> Name {
     let (signal, fault, input) = match handle {
         Handle::Input(index, fault) => (plant.inputs[index].name.clone(), fault, true),
         Handle::Output(index, fault) => (plant.outputs[index].name.clone(), fault, false),
         Handle::Parameter(index) => (plant.parameters[index].name.clone(), Fault::Gain, false),
     };
-    let actuator = input && signal.starts_with("actuator");
+    let actuator = input && ACTUATORS.iter().any(|prefix| signal.starts_with(prefix));
     let id = match (fault, input, actuator) {
         (Fault::Gain, true, true) => "25",
         (Fault::Delay, true, true) => "23",

@@ -82,6 +82,11 @@ impl Plant {
         self.inputs.iter().position(|it| it.name == name)
     }
 
+    /// Index of a state.
+    pub fn state(&self, name: &str) -> Option<usize> {
+        self.states.iter().position(|it| it.name == name)
+    }
+
     /// Index of a setting.
     pub fn setting(&self, name: &str) -> Option<usize> {
         self.settings.iter().position(|it| it.name == name)

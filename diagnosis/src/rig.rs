@@ -1,12 +1,16 @@
 //! The rigs that can be diagnosed: what each is made of, in the diagnosis's terms.
 
+mod actuated;
+mod kinds;
+
 use strut_model::{ParameterSet, Value};
 use strut_physics::PARAMETER_SETS;
-use strut_physics::rigs::{ElementDyno, QuarterCar};
 
 use crate::catalogue::{self, Element};
 use crate::data::table::did_you_mean;
 use crate::plant::Plant;
+
+use kinds::KINDS;
 
 /// A rig to be diagnosed: a plant with the values of a parameter set.
 #[derive(Clone, Debug)]
@@ -21,6 +25,10 @@ pub struct Rig {
     pub parameters: Vec<f64>,
     /// The values of its settings.
     pub choices: Vec<Value>,
+    /// The values of its states at the start.
+    pub start: Vec<f64>,
+    /// Names of outputs that a record has as what drives the plant.
+    pub taken: Vec<String>,
     /// What the diagnosis has to know of the model.
     pub kind: &'static Kind,
 }
@@ -42,6 +50,37 @@ pub struct Kind {
     pub opposed: Option<(&'static str, &'static str)>,
     /// What the force that the model misses is made of: an output's error times a parameter, if any.
     pub missing: &'static [Missing],
+    /// Longest section that is simulated in one go, in seconds: it bounds the memory, and how far a plant that
+    /// integrates its input may drift.
+    pub section: f64,
+    /// Ways in which it can be driven; empty if there is one only.
+    pub drives: &'static [DrivenBy],
+    /// What drives a virtual rig.
+    pub excitation: &'static [Excitation],
+}
+
+/// A way in which a plant can be driven.
+#[derive(Clone, Copy, Debug)]
+pub struct DrivenBy {
+    /// The setting that chooses it.
+    pub setting: &'static str,
+    /// The item of that setting.
+    pub item: &'static str,
+    /// The input that acts then.
+    pub input: &'static str,
+    /// Columns that are this input where none has its name.
+    pub columns: &'static [&'static str],
+}
+
+/// A signal that drives a virtual rig.
+#[derive(Clone, Copy, Debug)]
+pub struct Excitation {
+    /// The input.
+    pub input: &'static str,
+    /// Amplitude of all its sines together, in the input's unit.
+    pub amplitude: f64,
+    /// Lowest and highest frequency in Hz.
+    pub band: (f64, f64),
 }
 
 /// Where an element's force and motion are found among a plant's outputs.
@@ -64,6 +103,8 @@ pub enum ForceOf {
     Output(&'static str),
     /// A stiffness times the deflection and a damping rate times the velocity.
     SpringAndDamper(&'static str, &'static str),
+    /// An output times a parameter, the lever with which it turns something.
+    Moment(&'static str, &'static str),
 }
 
 /// A force that the model misses, as it shows in an output.
@@ -78,87 +119,6 @@ pub struct Missing {
     /// The elements over whose motions it is shown.
     pub over: &'static [Element],
 }
-
-const STRUT_FORCE: ForceOf = ForceOf::SpringAndDamper("strut.stiffness", "strut.damping");
-
-const KINDS: &[Kind] = &[
-    Kind {
-        plant: Plant::of::<QuarterCar>,
-        model: "QuarterCar",
-        base: &[
-            "sprung_mass",
-            "unsprung_mass",
-            "strut.stiffness",
-            "strut.damping",
-            "tire.stiffness",
-            "tire.damping",
-        ],
-        elements: &[
-            ElementSignals {
-                element: Element::Strut,
-                deflection: "suspension.deflection",
-                velocity: Some("suspension.velocity"),
-                force: STRUT_FORCE,
-            },
-            ElementSignals {
-                element: Element::Guide,
-                deflection: "body.position",
-                velocity: Some("body.velocity"),
-                force: STRUT_FORCE,
-            },
-            ElementSignals {
-                element: Element::WheelGuide,
-                deflection: "wheel.position",
-                velocity: Some("wheel.velocity"),
-                force: STRUT_FORCE,
-            },
-            ElementSignals {
-                element: Element::Tire,
-                deflection: "tire.deflection",
-                velocity: None,
-                force: ForceOf::Output("wheel.force"),
-            },
-        ],
-        aliases: &[("road.position", "road"), ("actuator.force", "force")],
-        trivial: &[],
-        opposed: None,
-        missing: &[
-            Missing {
-                quantity: "force missing on the body",
-                output: "body.acceleration",
-                factor: Some(("sprung_mass", -1.0)),
-                over: &[Element::Strut, Element::Guide],
-            },
-            Missing {
-                quantity: "force missing in the tyre",
-                output: "wheel.force",
-                factor: None,
-                over: &[Element::Tire],
-            },
-        ],
-    },
-    Kind {
-        plant: Plant::of::<ElementDyno>,
-        model: "ElementDyno",
-        base: &["strut.stiffness", "strut.damping"],
-        elements: &[ElementSignals {
-            element: Element::Strut,
-            deflection: "deflection",
-            velocity: None,
-            force: ForceOf::Output("force"),
-        }],
-        aliases: &[("motion.position", "-deflection"), ("motion.velocity", "-velocity")],
-        trivial: &["deflection"],
-        // A force that is recorded beside a deflection resists it.
-        opposed: Some(("deflection", "force")),
-        missing: &[Missing {
-            quantity: "force missing in the strut",
-            output: "force",
-            factor: None,
-            over: &[Element::Strut],
-        }],
-    },
-];
 
 impl Rig {
     /// A published rig by its name, or a model with its declared values by the model's: `element-dyno`.
@@ -209,6 +169,7 @@ impl Rig {
         let plant = (kind.plant)();
         let mut parameters: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
         let mut choices = plant.choices.clone();
+        let mut start: Vec<f64> = plant.states.iter().map(|it| it.start).collect();
         for (name, given) in &set.values {
             let number = match given.value {
                 Value::Real(number) => Some(number),
@@ -218,6 +179,9 @@ impl Rig {
             match (plant.parameter(name), plant.setting(name), number) {
                 (Some(index), _, Some(number)) => parameters[index] = number,
                 (_, Some(index), _) => choices[index] = choice(&plant, index, &given.value)?,
+                (None, None, Some(number)) if plant.state(name).is_some() => {
+                    plant.state(name).into_iter().for_each(|index| start[index] = number);
+                }
                 _ if name.starts_with("solver.") => {}
                 _ => {
                     return Err(format!(
@@ -229,7 +193,46 @@ impl Rig {
         }
         let dynamics = plant.prepare(&choices)?;
         dynamics.check(&parameters)?;
-        Ok(Self { name: kebab(&set.fmu), fmu: set.fmu.clone(), plant, parameters, choices, kind })
+        let (name, fmu, taken) = (kebab(&set.fmu), set.fmu.clone(), Vec::new());
+        Ok(Self { name, fmu, plant, parameters, choices, start, taken, kind })
+    }
+
+    /// How it is driven; none if there is one way only.
+    pub fn driven(&self) -> Option<&'static DrivenBy> {
+        self.kind.drives.iter().find(|it| self.is_driven(it))
+    }
+
+    fn is_driven(&self, by: &DrivenBy) -> bool {
+        let Some(index) = self.plant.setting(by.setting) else { return false };
+        choice(&self.plant, index, &Value::Text(by.item.into())).as_ref() == Ok(&self.choices[index])
+    }
+
+    /// Chooses how the plant is driven by what a record has; `has` tells whether there is a signal or a column of a
+    /// name. The rig's own way comes first, and a signal's own name before a column's that may be it.
+    ///
+    /// # Errors
+    /// If the model does not know the choice.
+    pub fn drive_by(&mut self, has: impl Fn(&str) -> bool) -> Result<(), String> {
+        let drives = self.kind.drives;
+        let own = drives.iter().filter(|it| self.is_driven(it) && has(it.input));
+        let by_name = drives.iter().filter(|it| has(it.input));
+        let by_column = drives.iter().filter(|it| it.columns.iter().any(|column| has(column)));
+        let Some(by) = own.chain(by_name).chain(by_column).next() else { return Ok(()) };
+        if let Some(index) = self.plant.setting(by.setting) {
+            self.choices[index] = choice(&self.plant, index, &Value::Text(by.item.into()))?;
+        }
+        self.taken.clear();
+        if !has(by.input) {
+            let column = by.columns.iter().find(|column| has(column));
+            self.taken.extend(column.map(|column| (*column).to_owned()));
+        }
+        Ok(())
+    }
+
+    /// The input that one is the rate of: `road.velocity` is that of `road.position`.
+    pub fn rate_of(&self, name: &str) -> Option<usize> {
+        let group = name.strip_suffix("velocity")?;
+        ["position", "height"].into_iter().find_map(|of| self.plant.input(&format!("{group}{of}")))
     }
 
     /// Indices of the parameters that are fitted first: those of the data sheet, and how much there is of each effect

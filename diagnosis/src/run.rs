@@ -15,12 +15,17 @@ use crate::data::table::did_you_mean;
 use crate::diagnosis::diagnose;
 use crate::file::replace;
 use crate::findings::{DataProblem, Findings};
-use crate::import::{align, import};
+use crate::import::{align, choose_drive, import};
 use crate::naming;
 use crate::recorded::Recorded;
 use crate::report;
 use crate::rig::Rig;
 use crate::virtual_rig::{self, Experiment};
+
+/// Time between two samples of a virtual rig's record in seconds.
+const STEP: f64 = 1e-3;
+/// Length of a virtual rig's record in seconds.
+const LENGTH: f64 = 20.0;
 
 /// Does what the command line says; failures are told on stderr.
 ///
@@ -58,7 +63,7 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
             arguments.out.display()
         ));
     }
-    let rig = rig(arguments)?;
+    let mut rig = rig(arguments)?;
     let known = arguments.known.iter().map(|text| known(&rig, text)).collect::<Result<Vec<_>, _>>()?;
     let numbers = naming::numbers(&rig.plant);
     if let Some(wrong) = arguments.effects.iter().find(|it| !numbers.contains(it)) {
@@ -68,6 +73,9 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
         None => Map::default(),
         Some(path) => Map::parse(&read(path)?).map_err(|error| format!("{}: {error}", path.display()))?,
     };
+    if let Some(first) = arguments.train.first() {
+        choose_drive(&mut rig, first, &map)?;
+    }
     let mut problems: Vec<DataProblem> = Vec::new();
     let mut records = Vec::new();
     for path in arguments.train.iter().chain(&arguments.test) {
@@ -161,7 +169,8 @@ fn simulate(arguments: &SimulateArguments) -> Result<(), String> {
             arguments.noise
         ));
     }
-    let experiment = Experiment { hidden, noise: arguments.noise, seed: arguments.seed };
+    let experiment =
+        Experiment { hidden, noise: arguments.noise, seed: arguments.seed, step: STEP, length: LENGTH };
     // All of them first: a mistake leaves nothing behind.
     let records = [(1, "train.csv"), (2, "test.csv")]
         .map(|(number, name)| virtual_rig::record(&rig, &experiment, number).map(|text| (name, text)));

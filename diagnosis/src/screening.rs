@@ -310,6 +310,7 @@ pub fn typical(
         outputs.iter().map(|record| index.map_or_else(Vec::new, |index| record[index].clone())).collect()
     };
     let magnitude = |signals: &[Vec<f64>]| rms(&signals.concat()).max(1e-12);
+    let value = |name: &str| plant.parameter(name).map_or(0.0, |index| world_rig.parameters[index]);
     let of = |element: &crate::rig::ElementSignals| {
         let positions = signal(element.deflection);
         let velocities = match element.velocity {
@@ -331,9 +332,8 @@ pub fn typical(
                     .collect();
                 if measured.is_empty() { magnitude(&signal(name)) } else { rms(&measured).max(1e-12) }
             }
+            ForceOf::Moment(force, lever) => (value(lever) * magnitude(&signal(force))).max(1e-12),
             ForceOf::SpringAndDamper(stiffness, damping) => {
-                let value =
-                    |name: &str| plant.parameter(name).map_or(0.0, |index| world_rig.parameters[index]);
                 (value(stiffness) * deflection).hypot(value(damping) * velocity)
             }
         };

@@ -3,15 +3,12 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
+use strut_model::Declaration;
+
 use crate::plant::Drive;
 use crate::recorded::derivative;
 use crate::rig::Rig;
 use crate::screening::rms;
-
-/// Time between two samples in seconds.
-const STEP: f64 = 1e-3;
-/// Length of a record in seconds.
-const LENGTH: f64 = 20.0;
 
 /// What is recorded.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +19,10 @@ pub struct Experiment {
     pub noise: f64,
     /// For phases and noise.
     pub seed: u64,
+    /// Time between two samples in seconds.
+    pub step: f64,
+    /// Length of a record in seconds.
+    pub length: f64,
 }
 
 /// A record as CSV; `number` tells its excitation: one for each.
@@ -41,32 +42,34 @@ pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String,
     dynamics.check(&parameters)?;
     let mut random =
         Random(experiment.seed.wrapping_mul(1000).wrapping_add(number).wrapping_mul(0x9E37_79B9) | 1);
-    let count = (LENGTH / STEP) as usize;
+    let step = experiment.step;
+    let count = (experiment.length / step) as usize;
     let mut inputs: Vec<Vec<f64>> = rig
         .plant
         .inputs
         .iter()
-        .map(|declared| match declared.unit.symbol {
-            "N" => multisine(count, 100.0, (0.5, 18.0), &mut random),
-            "V" => multisine(count, 2.0, (0.5, 18.0), &mut random),
-            _ => multisine(count, 8e-3, (0.3, 15.0), &mut random),
+        .map(|declared| match excitation(rig, declared) {
+            Some((amplitude, band)) => {
+                let signal = multisine(count, step, amplitude, band, &mut random);
+                signal.into_iter().map(|value| declared.start + value).collect()
+            }
+            None => vec![declared.start; count],
         })
         .collect();
     for (index, declared) in rig.plant.inputs.iter().enumerate() {
-        if let Some(group) = declared.name.strip_suffix("velocity")
-            && let Some(position) = rig.plant.input(&format!("{group}position"))
-        {
-            inputs[index] = derivative(&inputs[position], STEP);
+        if let Some(position) = rig.rate_of(&declared.name) {
+            inputs[index] = derivative(&inputs[position], step);
         }
     }
-    let start: Vec<f64> = rig.plant.states.iter().map(|state| state.start).collect();
-    let drive = Drive { step: STEP, inputs };
-    let outputs = dynamics.outputs(&parameters, &start, &drive);
+    let drive = Drive { step, inputs };
+    let outputs = dynamics.outputs(&parameters, &rig.start, &drive);
     let declared = rig.plant.inputs.iter().chain(&rig.plant.outputs);
     let signals: Vec<(String, Vec<f64>)> = declared
         .zip(drive.inputs.iter().chain(&outputs))
-        .filter(|(declared, _)| {
-            !declared.name.ends_with("velocity") && !declared.name.ends_with("body.position")
+        .filter(|(declared, signal)| {
+            let hidden = declared.name.ends_with("body.position")
+                || (declared.name.ends_with("velocity") && !drives(rig, &declared.name));
+            !hidden && !rig.kind.trivial.contains(&declared.name.as_str()) && rms(signal) > 0.0
         })
         .map(|(declared, signal)| {
             let deviation = experiment.noise * rms(signal);
@@ -80,7 +83,7 @@ pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String,
     }
     text.push('\n');
     for sample in 0..count {
-        let _ = write!(text, "{:.4}", sample as f64 * STEP);
+        let _ = write!(text, "{:.4}", sample as f64 * step);
         for (_, signal) in &signals {
             let _ = write!(text, ",{:.7e}", signal[sample]);
         }
@@ -89,8 +92,39 @@ pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String,
     Ok(text)
 }
 
+/// Whether a signal is an input of its own, not the rate of another one.
+fn drives(rig: &Rig, name: &str) -> bool {
+    rig.plant.input(name).is_some() && rig.rate_of(name).is_none()
+}
+
+/// Amplitude and frequencies of what drives an input; none if it rests. What a kind does not tell follows from the
+/// unit.
+fn excitation(rig: &Rig, declared: &Declaration) -> Option<(f64, (f64, f64))> {
+    let drives = rig.kind.drives;
+    let idle = drives.iter().any(|it| it.input == declared.name)
+        && rig.driven().is_some_and(|driven| driven.input != declared.name);
+    if idle {
+        return None;
+    }
+    if rig.kind.excitation.is_empty() {
+        return Some(match declared.unit.symbol {
+            "N" => (100.0, (0.5, 18.0)),
+            "V" => (2.0, (0.5, 18.0)),
+            _ => (8e-3, (0.3, 15.0)),
+        });
+    }
+    let excitation = rig.kind.excitation.iter().find(|it| it.input == declared.name)?;
+    Some((excitation.amplitude, excitation.band))
+}
+
 /// Sines at a third of an octave with random phases; large slow, small fast; about `amplitude` in all.
-fn multisine(count: usize, amplitude: f64, (low, high): (f64, f64), random: &mut Random) -> Vec<f64> {
+fn multisine(
+    count: usize,
+    step: f64,
+    amplitude: f64,
+    (low, high): (f64, f64),
+    random: &mut Random,
+) -> Vec<f64> {
     let mut lines = Vec::new();
     let mut frequency = low * (1.0 + 0.2 * random.uniform());
     while frequency < high {
@@ -100,7 +134,7 @@ fn multisine(count: usize, amplitude: f64, (low, high): (f64, f64), random: &mut
     let scale = (lines.iter().map(|(_, a, _)| a * a).sum::<f64>()).sqrt() / amplitude;
     (0..count)
         .map(|k| {
-            let t = k as f64 * STEP;
+            let t = k as f64 * step;
             // From rest: the plant starts in its equilibrium.
             let grown = (t / 0.5).min(1.0);
             let sum: f64 = lines.iter().map(|(f, a, phase)| a * (TAU * f * t + phase).sin()).sum();

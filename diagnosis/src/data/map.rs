@@ -162,7 +162,7 @@ impl Map {
 }
 
 /// A name without what does not tell names apart.
-fn plain(name: &str) -> String {
+pub fn plain(name: &str) -> String {
     name.trim().to_lowercase().replace(['.', ' '], "_")
 }
 

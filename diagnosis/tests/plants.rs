@@ -1,0 +1,182 @@
+//! Every plant on records of a virtual rig of its own: what is hidden is found, what is not there is not claimed.
+
+use std::fs;
+
+use strut_diagnosis::data::map::Map;
+use strut_diagnosis::diagnosis::diagnose;
+use strut_diagnosis::import::{align, choose_drive, import};
+use strut_diagnosis::naming::name;
+use strut_diagnosis::recorded::Recorded;
+use strut_diagnosis::rig::Rig;
+use strut_diagnosis::virtual_rig::{self, Experiment};
+
+/// A plant whose record is made, read and diagnosed.
+struct Case {
+    rig: &'static str,
+    /// Setting of how it is driven.
+    drive: Option<&'static str>,
+    /// Columns that are kept, with the names that they get; none: all, as they are.
+    columns: &'static [(&'static str, &'static str)],
+}
+
+/// What a diagnosis says: numbers and places, and the extended model's parameters.
+struct Said {
+    terms: Vec<String>,
+    values: Vec<(String, f64)>,
+}
+
+impl Said {
+    fn value(&self, name: &str) -> f64 {
+        self.values.iter().find(|(other, _)| other == name).unwrap().1
+    }
+
+    /// Whether a parameter is within a share of what was hidden.
+    fn meets(&self, name: &str, hidden: f64, share: f64) {
+        let found = self.value(name);
+        assert!((found / hidden - 1.0).abs() < share, "{name} is {found}, {hidden} was hidden");
+    }
+}
+
+impl Case {
+    fn of(rig: &'static str) -> Self {
+        Self { rig, drive: None, columns: &[] }
+    }
+
+    fn diagnosed(&self, hidden: &[(&str, f64)]) -> Said {
+        let mut rig = Rig::published(self.rig).unwrap();
+        if let Some(input) = self.drive {
+            rig.drive_by(|name| name == input).unwrap();
+        }
+        let hidden = hidden.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
+        let experiment = Experiment { hidden, noise: 0.005, seed: 3, step: 2.5e-3, length: 8.0 };
+        let folder = tempfile::tempdir().unwrap();
+        let paths = ["train.csv", "test.csv"].map(|file| folder.path().join(file));
+        for (path, number) in paths.iter().zip(1..) {
+            let text = virtual_rig::record(&rig, &experiment, number).unwrap();
+            fs::write(path, self.kept(&text)).unwrap();
+        }
+        let mut rig = Rig::published(self.rig).unwrap();
+        choose_drive(&mut rig, &paths[0], &Map::default()).unwrap();
+        let mut records: Vec<Recorded> = Vec::new();
+        for path in &paths {
+            let imported = import(&rig, path, &Map::default()).unwrap();
+            records.push(imported.recorded.unwrap_or_else(|| panic!("{:?}", imported.problems)));
+        }
+        align(&mut records).unwrap();
+        let test = records.split_off(1);
+        let conditioned =
+            |records: &[Recorded]| records.iter().map(Recorded::conditioned).collect::<Vec<_>>();
+        let (train, judging) = (conditioned(&records), conditioned(&test));
+        let diagnosis = diagnose(&rig, &train, &judging, &test, Vec::new(), &[], &|_| {}).unwrap();
+        let terms = diagnosis.found.accepted.iter().map(|it| name(it.term, &rig.plant).short()).collect();
+        let values = rig.plant.parameters.iter().zip(&diagnosis.found.extended.point.parameters);
+        Said { terms, values: values.map(|(declared, value)| (declared.name.clone(), *value)).collect() }
+    }
+
+    /// A record with the columns that are kept.
+    fn kept(&self, text: &str) -> String {
+        if self.columns.is_empty() {
+            return text.to_owned();
+        }
+        let header: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+        let column =
+            |name: &str| header.iter().position(|title| title.split(" [").next() == Some(name)).unwrap();
+        let kept: Vec<usize> =
+            std::iter::once(0).chain(self.columns.iter().map(|(of, _)| column(of))).collect();
+        let mut lines = text.lines();
+        lines.next();
+        let mut result = String::from("time [s]");
+        for (_, title) in self.columns {
+            result.push_str(&format!(",{title}"));
+        }
+        for line in lines {
+            let cells: Vec<&str> = line.split(',').collect();
+            let cells: Vec<&str> = kept.iter().map(|index| cells[*index]).collect();
+            result.push('\n');
+            result.push_str(&cells.join(","));
+        }
+        result
+    }
+}
+
+const NOTHING: [String; 0] = [];
+
+const SERVO: &str = "konieczny-servo-suspension";
+const PUMP: &str = "ajala-soft-pump-hydraulic-actuator";
+const SAS: &str = "kogut-sas-rig";
+const MOTOR: &str = "excitation-motor";
+
+#[test]
+fn nothing_is_claimed_of_a_sound_servo_suspension() {
+    assert_eq!(Case::of(SERVO).diagnosed(&[]).terms, NOTHING);
+}
+
+#[test]
+fn a_servo_suspensions_leakage_and_oil_are_parameters_that_do_not_fit() {
+    let (leakage, bulk_modulus) =
+        (("actuator.cylinder.leakage", 45e-12), ("actuator.fluid.bulk_modulus", 0.9e9));
+    let said = Case::of(SERVO).diagnosed(&[leakage, bulk_modulus]);
+    assert_eq!(said.terms, NOTHING);
+    said.meets(leakage.0, leakage.1, 0.03);
+    said.meets(bulk_modulus.0, bulk_modulus.1, 0.03);
+}
+
+#[test]
+fn guide_friction_is_found_in_a_servo_suspension() {
+    let said = Case::of(SERVO).diagnosed(&[("guide.coulomb.force", 40.0)]);
+    assert_eq!(said.terms, ["16 guide"]);
+    said.meets("guide.coulomb.force", 40.0, 0.03);
+}
+
+#[test]
+fn nothing_is_claimed_of_a_sound_pump_actuator() {
+    assert_eq!(Case::of(PUMP).diagnosed(&[]).terms, NOTHING);
+}
+
+#[test]
+fn a_pump_actuators_gas_and_pump_are_parameters_that_do_not_fit() {
+    let said = Case::of(PUMP).diagnosed(&[("gas.charge_pressure", 2.2e6), ("pump.displacement", 13.5e-6)]);
+    assert_eq!(said.terms, NOTHING);
+    said.meets("gas.charge_pressure", 2.2e6, 0.03);
+    said.meets("pump.displacement", 13.5e-6, 0.03);
+}
+
+#[test]
+fn nothing_is_claimed_of_a_sound_sas_rig() {
+    assert_eq!(Case::of(SAS).diagnosed(&[]).terms, NOTHING);
+}
+
+#[test]
+fn pivot_friction_is_found_in_a_sas_rig() {
+    let said = Case::of(SAS).diagnosed(&[("pivot.coulomb.torque", 0.4)]);
+    assert_eq!(said.terms, ["01 pivot"]);
+    said.meets("pivot.coulomb.torque", 0.4, 0.03);
+}
+
+#[test]
+fn nothing_is_claimed_of_a_sound_drive() {
+    assert_eq!(Case::of(MOTOR).diagnosed(&[]).terms, NOTHING);
+}
+
+#[test]
+fn friction_is_found_in_a_drive_from_its_set_point() {
+    let said = Case::of(MOTOR).diagnosed(&[("guide.coulomb.force", 40.0)]);
+    assert_eq!(said.terms, ["16 guide"]);
+    said.meets("guide.coulomb.force", 40.0, 0.03);
+}
+
+#[test]
+fn friction_is_found_in_a_drive_from_force_and_position_alone() {
+    let columns =
+        &[("command.position", "reference [m]"), ("force", "force [N]"), ("position", "position [m]")];
+    let said = Case { rig: MOTOR, drive: None, columns }.diagnosed(&[("guide.coulomb.force", 30.0)]);
+    assert_eq!(said.terms, ["16 guide"]);
+    said.meets("guide.coulomb.force", 30.0, 0.05);
+}
+
+#[test]
+fn a_constant_load_is_found_in_a_drive_from_voltage_and_position() {
+    let columns = &[("command.voltage", "u [V]"), ("position", "x [m]")];
+    let case = Case { rig: MOTOR, drive: Some("command.voltage"), columns };
+    assert_eq!(case.diagnosed(&[]).terms, NOTHING);
+}
