@@ -10,6 +10,8 @@ use super::{DIRECTIONS, Drive, Seed, Signals, outputs_of};
 const LONGEST_STEP: f64 = 4e-3;
 /// Largest product of the step and the fastest rate of change; the method is stable up to 2.78.
 const STABLE: f64 = 1.2;
+/// How far what friction and bushes remember is displaced to look for contact, SI: beyond any play.
+const DISPLACED: f64 = 0.1;
 /// Steps between two samples beyond which a model is too stiff for this method.
 const MOST_STEPS: f64 = 60.0;
 
@@ -144,32 +146,41 @@ fn steps<M: Model>(model: &M, parameters: &M::Parameters<f64>, drive: &Drive) ->
     if states == 0 {
         return 1;
     }
-    let mut jacobian = nalgebra::DMatrix::<f64>::zeros(states, states);
     let lifted: M::Parameters<Dual64> = lift(parameters);
     let derived = model.derive(&lifted);
     let memory = Declarations::of::<M::Memory<f64>>();
     let memory = Bundle::from_fn(|i| Dual64::from(memory[i].start));
     let declared = Declarations::of::<M::State<f64>>();
     let input = Bundle::from_fn(|i| Dual64::from(drive.inputs[i].first().copied().unwrap_or(0.0)));
-    for column in 0..states {
-        let state = Bundle::from_fn(|i| Dual64::new(declared[i].start, f64::from(i == column)));
-        let now = Now {
-            time: Dual64::from(0.0),
-            state: &state,
-            input: &input,
-            parameters: &lifted,
-            derived: &derived,
-            memory: &memory,
-            tick: 0,
-        };
-        let (rates, _) = model.equations(now);
-        rates.for_each(|row, rate| jacobian[(row, column)] = rate.eps);
-    }
-    let fastest = if jacobian.iter().all(|entry| entry.is_finite()) {
+    let fastest_at = |at: &[f64]| -> f64 {
+        let mut jacobian = nalgebra::DMatrix::<f64>::zeros(states, states);
+        for column in 0..states {
+            let state = Bundle::from_fn(|i| Dual64::new(at[i], f64::from(i == column)));
+            let now = Now {
+                time: Dual64::from(0.0),
+                state: &state,
+                input: &input,
+                parameters: &lifted,
+                derived: &derived,
+                memory: &memory,
+                tick: 0,
+            };
+            let (rates, _) = model.equations(now);
+            rates.for_each(|row, rate| jacobian[(row, column)] = rate.eps);
+        }
+        if !jacobian.iter().all(|entry| entry.is_finite()) {
+            return f64::INFINITY;
+        }
         jacobian.complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max)
-    } else {
-        f64::INFINITY
     };
+    let rest: Vec<f64> = declared.iter().map(|state| state.start).collect();
+    let mut fastest = fastest_at(&rest);
+    // What has play is loose at rest: it is looked at where it is in contact, too.
+    for (index, _) in declared.iter().enumerate().filter(|(_, state)| state.name.starts_with("hysteresis.")) {
+        let mut displaced = rest.clone();
+        displaced[index] += DISPLACED;
+        fastest = fastest.max(fastest_at(&displaced));
+    }
     (drive.step / LONGEST_STEP).max(drive.step * fastest / STABLE).ceil().clamp(1.0, MOST_STEPS) as usize
 }
 

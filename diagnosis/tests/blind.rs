@@ -1,0 +1,44 @@
+//! The compact blind benchmark: causes that another program has hidden, with noise and small effects that no model
+//! knows, are found through the command line.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use strut_blind::score::{Outcome, Score};
+use strut_blind::{cases, files, generate};
+
+fn diagnosed(name: &str) -> Score {
+    let case = cases::compact().into_iter().find(|case| case.name == name).expect("a case of that name");
+    let below = tempfile::tempdir().unwrap();
+    let folder = files::write(&generate::generate(&case).unwrap(), below.path()).unwrap();
+    let data = folder.join("data");
+    let of = |kind: &str| {
+        let mut paths: Vec<_> = fs::read_dir(&data).unwrap().map(|entry| entry.unwrap().path()).collect();
+        paths.retain(|path| path.file_name().unwrap().to_string_lossy().starts_with(kind));
+        paths.sort();
+        paths
+    };
+    let mut command = Command::new(Path::new(env!("CARGO_BIN_EXE_diagnose")));
+    command.arg("--parameters").arg(data.join("start.toml")).arg("--train").args(of("train"));
+    command.arg("--test").args(of("test")).arg("--out").arg(folder.join("report")).arg("--no-fmu");
+    let output = command.output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    println!("{}", String::from_utf8_lossy(&output.stdout));
+    files::judge(&folder).unwrap()
+}
+
+/// Named, or one of two that are told to be alike.
+fn named(name: &str) {
+    let score = diagnosed(name);
+    assert!(matches!(score.outcome, Outcome::Correct | Outcome::OneOfTwo), "{score:?}");
+}
+
+macro_rules! named {
+    ($($test:ident: $case:literal;)*) => {$(
+        #[test]
+        fn $test() {
+            named($case);
+        }
+    )*};
+}
