@@ -93,3 +93,19 @@ fn the_benchmark_prints_a_row_of_numbers() {
     let nanoseconds: f64 = row[7].parse().unwrap_or_else(|_| panic!("no time: {text}"));
     assert!(nanoseconds > 0.0, "{text}");
 }
+
+/// Both ways have the same information on every parameter, and one of them is by far cheaper; by how much, the
+/// benchmark's own page tells.
+#[test]
+fn an_iteration_of_a_diagnosis_beside_differences_of_simulations() {
+    let fmu = strut::fmus().join("TumQuarterVehicle.fmu");
+    let fmu = fmu.to_str().expect("the folder's name is text");
+    let short = ["--seconds", "2", "--profile", "dev", "--only-iteration"];
+    let text = strut::python("examples/benchmark/diagnosis.py", [&[fmu], &short[..]].concat());
+    let row =
+        text.lines().find(|line| line.contains("bare calls")).unwrap_or_else(|| panic!("no row: {text}"));
+    let cells: Vec<f64> = row.split('|').filter_map(|cell| cell.trim().parse().ok()).collect();
+    let [_, ratio, differs] = cells[..] else { panic!("not three numbers: {text}") };
+    assert!(differs < 1e-3, "{text}");
+    assert!(ratio > 10.0, "{text}");
+}

@@ -148,17 +148,18 @@ def by_scipy(rig, simulate, inputs, measured, parameters):
     return seconds, simulations, np.diag(reduced)
 
 
-def cargo(*arguments):
-    command = ["cargo", "run", "--quiet", "--release", "--package", "strut-diagnosis", *arguments]
+def cargo(profile, *arguments):
+    command = ["cargo", "run", "--quiet", "--profile", profile, "--package", "strut-diagnosis", *arguments]
     result = subprocess.run(command, capture_output=True, text=True, cwd=ROOT)
     if result.returncode:
         raise SystemExit(result.stderr)
     return result.stdout
 
 
-def whole_diagnosis(train, test, out):
+def whole_diagnosis(profile, train, test, out):
     """Time of a diagnosis without building the extended FMU, and its verdict."""
-    cargo("--bin", "diagnose", "--", "--rig", RIG, "--train", train, "--test", test, "--out", out, "--no-fmu")
+    records = ["--train", train, "--test", test]
+    cargo(profile, "--bin", "diagnose", "--", "--rig", RIG, *records, "--out", out, "--no-fmu")
     report = json.loads((out / "report.json").read_text(encoding="utf-8"))
     return report["seconds"], report["summary"]
 
@@ -167,13 +168,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("fmu", type=Path, help="TumQuarterVehicle.fmu")
     parser.add_argument("--seconds", type=float, default=60.0, help="length of the record")
+    parser.add_argument("--profile", default="release", help="Cargo's, of the diagnosis (default: %(default)s)")
     parser.add_argument("--only-iteration", action="store_true", help="without a whole diagnosis")
     options = parser.parse_args()
     rig = Rig(options.fmu)
     with tempfile.TemporaryDirectory() as scratch:
         scratch = Path(scratch)
         inputs, measured = record(rig, scratch / "train.csv", options.seconds, 1, {})
-        ours = json.loads(cargo("--example", "linearise", "--", RIG, scratch / "train.csv"))
+        ours = json.loads(cargo(options.profile, "--example", "linearise", "--", RIG, scratch / "train.csv"))
         assert ours["signals"] == SIGNALS, ours["signals"]
         print(f"{len(SIGNALS)} signals of {ours['samples']} samples; {len(ours['parameters'])} parameters and "
               f"{len(STATES)} states at the start\n")
@@ -187,7 +189,8 @@ def main():
         if not options.only_iteration:
             for name, seed in [("train.csv", 1), ("test.csv", 2)]:
                 record(rig, scratch / name, options.seconds, seed, HIDDEN)
-            seconds, summary = whole_diagnosis(scratch / "train.csv", scratch / "test.csv", scratch / "report")
+            records = [scratch / name for name in ("train.csv", "test.csv")]
+            seconds, summary = whole_diagnosis(options.profile, *records, scratch / "report")
             print(f"\na whole diagnosis takes {seconds:.0f} s: {summary}")
     rig.close()
 
