@@ -17,6 +17,10 @@ struct Case {
     drive: Option<&'static str>,
     /// Columns that are kept, with the names that they get; none: all, as they are.
     columns: &'static [(&'static str, &'static str)],
+    /// Noise over the root mean square of each signal.
+    noise: f64,
+    /// Time between two samples in seconds.
+    step: f64,
 }
 
 /// What a diagnosis says: numbers and places, and the extended model's parameters.
@@ -39,7 +43,7 @@ impl Said {
 
 impl Case {
     fn of(rig: &'static str) -> Self {
-        Self { rig, drive: None, columns: &[] }
+        Self { rig, drive: None, columns: &[], noise: 0.005, step: 2.5e-3 }
     }
 
     fn diagnosed(&self, hidden: &[(&str, f64)]) -> Said {
@@ -48,7 +52,7 @@ impl Case {
             rig.drive_by(|name| name == input).unwrap();
         }
         let hidden = hidden.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
-        let experiment = Experiment { hidden, noise: 0.005, seed: 3, step: 2.5e-3, length: 8.0 };
+        let experiment = Experiment { hidden, noise: self.noise, seed: 3, step: self.step, length: 7.0 };
         let folder = tempfile::tempdir().unwrap();
         let paths = ["train.csv", "test.csv"].map(|file| folder.path().join(file));
         for (path, number) in paths.iter().zip(1..) {
@@ -68,6 +72,35 @@ impl Case {
             |records: &[Recorded]| records.iter().map(Recorded::conditioned).collect::<Vec<_>>();
         let (train, judging) = (conditioned(&records), conditioned(&test));
         let diagnosis = diagnose(&rig, &train, &judging, &test, Vec::new(), &[], &|_| {}).unwrap();
+        if std::env::var("DBG").is_ok() {
+            for it in &diagnosis.found.tried {
+                let n = name(it.term, &rig.plant);
+                eprintln!(
+                    "tried {} {} score {:.1} {:?} {:?}",
+                    n.id,
+                    n.name,
+                    it.score,
+                    it.evidence,
+                    it.evidence.refusal()
+                );
+                if let Ok(f) = &it.fitted {
+                    for c in f.coordinates.iter() {
+                        let (a, b) = strut_diagnosis::naming::handle(c.handle, &rig.plant);
+                        eprint!(" {a}={:.4}{b}", f.point.get(c.handle));
+                    }
+                    eprintln!();
+                }
+            }
+            for s in &diagnosis.found.screened {
+                eprintln!("scr {} {:.1}", name(s.term, &rig.plant).short(), s.gain);
+            }
+            for (h, v, i) in strut_diagnosis::diagnosis::intervals(&diagnosis.found.base) {
+                eprintln!("base {:?} {v} +- {i}", strut_diagnosis::naming::handle(h, &rig.plant));
+            }
+            for (h, v, i) in strut_diagnosis::diagnosis::intervals(&diagnosis.found.extended) {
+                eprintln!("ext {:?} {v} +- {i}", strut_diagnosis::naming::handle(h, &rig.plant));
+            }
+        }
         let terms = diagnosis.found.accepted.iter().map(|it| name(it.term, &rig.plant).short()).collect();
         let values = rig.plant.parameters.iter().zip(&diagnosis.found.extended.point.parameters);
         Said { terms, values: values.map(|(declared, value)| (declared.name.clone(), *value)).collect() }
@@ -143,24 +176,24 @@ fn a_pump_actuators_gas_and_pump_are_parameters_that_do_not_fit() {
 
 #[test]
 fn nothing_is_claimed_of_a_sound_sas_rig() {
-    assert_eq!(Case::of(SAS).diagnosed(&[]).terms, NOTHING);
+    assert_eq!(Case { noise: 0.001, ..Case::of(SAS) }.diagnosed(&[]).terms, NOTHING);
 }
 
 #[test]
 fn pivot_friction_is_found_in_a_sas_rig() {
-    let said = Case::of(SAS).diagnosed(&[("pivot.coulomb.torque", 0.4)]);
+    let said = Case { noise: 0.001, ..Case::of(SAS) }.diagnosed(&[("pivot.coulomb.torque", 0.4)]);
     assert_eq!(said.terms, ["01 pivot"]);
     said.meets("pivot.coulomb.torque", 0.4, 0.03);
 }
 
 #[test]
 fn nothing_is_claimed_of_a_sound_drive() {
-    assert_eq!(Case::of(MOTOR).diagnosed(&[]).terms, NOTHING);
+    assert_eq!(Case { step: 4e-3, ..Case::of(MOTOR) }.diagnosed(&[]).terms, NOTHING);
 }
 
 #[test]
 fn friction_is_found_in_a_drive_from_its_set_point() {
-    let said = Case::of(MOTOR).diagnosed(&[("guide.coulomb.force", 40.0)]);
+    let said = Case { step: 4e-3, ..Case::of(MOTOR) }.diagnosed(&[("guide.coulomb.force", 40.0)]);
     assert_eq!(said.terms, ["16 guide"]);
     said.meets("guide.coulomb.force", 40.0, 0.03);
 }
@@ -169,7 +202,7 @@ fn friction_is_found_in_a_drive_from_its_set_point() {
 fn friction_is_found_in_a_drive_from_force_and_position_alone() {
     let columns =
         &[("command.position", "reference [m]"), ("force", "force [N]"), ("position", "position [m]")];
-    let said = Case { rig: MOTOR, drive: None, columns }.diagnosed(&[("guide.coulomb.force", 30.0)]);
+    let said = Case { columns, step: 4e-3, ..Case::of(MOTOR) }.diagnosed(&[("guide.coulomb.force", 30.0)]);
     assert_eq!(said.terms, ["16 guide"]);
     said.meets("guide.coulomb.force", 30.0, 0.05);
 }
@@ -177,6 +210,6 @@ fn friction_is_found_in_a_drive_from_force_and_position_alone() {
 #[test]
 fn a_constant_load_is_found_in_a_drive_from_voltage_and_position() {
     let columns = &[("command.voltage", "u [V]"), ("position", "x [m]")];
-    let case = Case { rig: MOTOR, drive: Some("command.voltage"), columns };
+    let case = Case { drive: Some("command.voltage"), columns, step: 4e-3, ..Case::of(MOTOR) };
     assert_eq!(case.diagnosed(&[]).terms, NOTHING);
 }
