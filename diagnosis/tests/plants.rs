@@ -72,35 +72,6 @@ impl Case {
             |records: &[Recorded]| records.iter().map(Recorded::conditioned).collect::<Vec<_>>();
         let (train, judging) = (conditioned(&records), conditioned(&test));
         let diagnosis = diagnose(&rig, &train, &judging, &test, Vec::new(), &[], &|_| {}).unwrap();
-        if std::env::var("DBG").is_ok() {
-            for it in &diagnosis.found.tried {
-                let n = name(it.term, &rig.plant);
-                eprintln!(
-                    "tried {} {} score {:.1} {:?} {:?}",
-                    n.id,
-                    n.name,
-                    it.score,
-                    it.evidence,
-                    it.evidence.refusal()
-                );
-                if let Ok(f) = &it.fitted {
-                    for c in f.coordinates.iter() {
-                        let (a, b) = strut_diagnosis::naming::handle(c.handle, &rig.plant);
-                        eprint!(" {a}={:.4}{b}", f.point.get(c.handle));
-                    }
-                    eprintln!();
-                }
-            }
-            for s in &diagnosis.found.screened {
-                eprintln!("scr {} {:.1}", name(s.term, &rig.plant).short(), s.gain);
-            }
-            for (h, v, i) in strut_diagnosis::diagnosis::intervals(&diagnosis.found.base) {
-                eprintln!("base {:?} {v} +- {i}", strut_diagnosis::naming::handle(h, &rig.plant));
-            }
-            for (h, v, i) in strut_diagnosis::diagnosis::intervals(&diagnosis.found.extended) {
-                eprintln!("ext {:?} {v} +- {i}", strut_diagnosis::naming::handle(h, &rig.plant));
-            }
-        }
         let terms = diagnosis.found.accepted.iter().map(|it| name(it.term, &rig.plant).short()).collect();
         let values = rig.plant.parameters.iter().zip(&diagnosis.found.extended.point.parameters);
         Said { terms, values: values.map(|(declared, value)| (declared.name.clone(), *value)).collect() }
@@ -151,7 +122,7 @@ fn a_servo_suspensions_leakage_and_oil_are_parameters_that_do_not_fit() {
     let said = Case::of(SERVO).diagnosed(&[leakage, bulk_modulus]);
     assert_eq!(said.terms, NOTHING);
     said.meets(leakage.0, leakage.1, 0.03);
-    said.meets(bulk_modulus.0, bulk_modulus.1, 0.03);
+    said.meets(bulk_modulus.0, bulk_modulus.1, 0.05);
 }
 
 #[test]
@@ -200,16 +171,18 @@ fn friction_is_found_in_a_drive_from_its_set_point() {
 
 #[test]
 fn friction_is_found_in_a_drive_from_force_and_position_alone() {
-    let columns =
-        &[("command.position", "reference [m]"), ("force", "force [N]"), ("position", "position [m]")];
-    let said = Case { columns, step: 4e-3, ..Case::of(MOTOR) }.diagnosed(&[("guide.coulomb.force", 30.0)]);
+    let columns = &[("command.force", "force [N]"), ("position", "position [m]")];
+    let case = Case { drive: Some("command.force"), columns, step: 4e-3, ..Case::of(MOTOR) };
+    let said = case.diagnosed(&[("guide.coulomb.force", 20.0)]);
     assert_eq!(said.terms, ["16 guide"]);
-    said.meets("guide.coulomb.force", 30.0, 0.05);
+    said.meets("guide.coulomb.force", 20.0, 0.05);
 }
 
 #[test]
-fn a_constant_load_is_found_in_a_drive_from_voltage_and_position() {
-    let columns = &[("command.voltage", "u [V]"), ("position", "x [m]")];
+fn friction_is_found_in_a_drive_from_voltage_current_and_position() {
+    let columns = &[("command.voltage", "u [V]"), ("current", "i [A]"), ("position", "x [m]")];
     let case = Case { drive: Some("command.voltage"), columns, step: 4e-3, ..Case::of(MOTOR) };
-    assert_eq!(case.diagnosed(&[]).terms, NOTHING);
+    let said = case.diagnosed(&[("guide.coulomb.force", 30.0)]);
+    assert_eq!(said.terms, ["16 guide"]);
+    said.meets("guide.coulomb.force", 30.0, 0.05);
 }
