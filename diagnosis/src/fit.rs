@@ -13,6 +13,15 @@ use crate::recorded::Recorded;
 /// Length of the blocks over which scores are summed, in seconds: longer than the residuals' memory.
 const BLOCK: f64 = 0.5;
 
+/// What the names of states begin with whose values at the start are not estimated: they are forgotten within
+/// milliseconds, or act only after long.
+const FORGOTTEN: &[&str] =
+    &["hysteresis.", "current", "overload", "velocity_loop.command", "velocity_loop.output"];
+
+/// How far a state at the start may go in a step on a standard deviation's gain, in its nominal values. What is
+/// forgotten within milliseconds hardly shows: without a bound it would be sent as far as a limiter.
+const FAR: f64 = 3.0;
+
 /// Something that a fit may change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Handle {
@@ -83,8 +92,9 @@ pub struct Fit<'a> {
     pub coordinates: Vec<Coordinate>,
     /// Standard deviation of the residuals of each output.
     pub sigma: Vec<f64>,
-    /// States whose values at the start are estimated; what friction and bushes remember is soon forgotten.
+    /// States whose values at the start are estimated.
     states: Vec<usize>,
+    ridge: Vec<f64>,
     bounds: Vec<(f64, f64)>,
 }
 
@@ -123,10 +133,12 @@ impl<'a> Fit<'a> {
         sigma: Vec<f64>,
     ) -> Self {
         let bounds = coordinates.iter().map(|coordinate| coordinate.bounds).collect();
-        let remembered = |name: &str| name.starts_with("hysteresis.");
-        let states = plant.states.iter().enumerate().filter(|(_, state)| !remembered(&state.name));
-        let states = states.map(|(index, _)| index).collect();
-        Self { plant, dynamics, records, coordinates, sigma, states, bounds }
+        let forgotten = |name: &str| FORGOTTEN.iter().any(|prefix| name.starts_with(prefix));
+        let states = plant.states.iter().enumerate().filter(|(_, state)| !forgotten(&state.name));
+        let states: Vec<usize> = states.map(|(index, _)| index).collect();
+        let nominal = |state: &usize| plant.states[*state].nominal.unwrap_or(1.0);
+        let ridge = states.iter().map(|state| (FAR * nominal(state)).powi(-2)).collect();
+        Self { plant, dynamics, records, coordinates, sigma, states, ridge, bounds }
     }
 
     fn sections(&self) -> Vec<(usize, &'a Recorded, &'a Range<usize>)> {
@@ -328,18 +340,18 @@ impl<'a> Fit<'a> {
                 *score += jacobian.rows(first, rows).tr_mul(&residual.rows(first, rows));
             }
         }
-        eliminate(&h, &scores, n)
+        eliminate(&h, &scores, n, &self.ridge)
     }
 }
 
-/// The normal equations without the states at the start.
-fn eliminate(h: &DMatrix<f64>, scores: &[DVector<f64>], n: usize) -> Section {
+/// The normal equations without the states at the start, each of which is held where it is by its entry in `ridge`.
+fn eliminate(h: &DMatrix<f64>, scores: &[DVector<f64>], n: usize, ridge: &[f64]) -> Section {
     let states = h.ncols() - n;
     let g: DVector<f64> = scores.iter().fold(DVector::zeros(n + states), |sum, score| sum + score);
     let mut c = h.view((n, n), (states, states)).into_owned();
     for state in 0..states {
         // A state that nothing depends on stays where it is.
-        c[(state, state)] += 1e-9 * c[(state, state)] + f64::from(c[(state, state)] == 0.0);
+        c[(state, state)] += 1e-9 * c[(state, state)] + ridge[state];
     }
     let b = h.view((0, n), (n, states)).into_owned();
     let inverse = c.cholesky().map_or_else(|| DMatrix::zeros(states, states), |it| it.inverse());

@@ -68,6 +68,8 @@ pub struct DrivenBy {
     pub item: &'static str,
     /// The input that acts then.
     pub input: &'static str,
+    /// Further base parameters that matter then.
+    pub base: &'static [&'static str],
     /// Columns that are this input where none has its name.
     pub columns: &'static [&'static str],
 }
@@ -238,8 +240,8 @@ impl Rig {
     /// Indices of the parameters that are fitted first: those of the data sheet, and how much there is of each effect
     /// that the rig has already.
     pub fn base(&self) -> Vec<usize> {
-        let mut base: Vec<usize> =
-            self.kind.base.iter().filter_map(|name| self.plant.parameter(name)).collect();
+        let names = self.kind.base.iter().chain(self.driven().map_or(&[][..], |it| it.base));
+        let mut base: Vec<usize> = names.filter_map(|name| self.plant.parameter(name)).collect();
         for cause in catalogue::causes(&self.plant) {
             if let Some(part) = cause.parts.first()
                 && let Some(index) = self.plant.parameter(part.parameter)

@@ -78,7 +78,7 @@ pub(super) const SERVO_SUSPENSION: Kind = Kind {
     section: 10.0,
     drives: &[],
     excitation: &[
-        Excitation { input: "voltage", amplitude: 1.0, band: (0.5, 15.0) },
+        Excitation { input: "voltage", amplitude: 1.0, band: (0.5, 40.0) },
         Excitation { input: "road.position", amplitude: 3e-3, band: (0.5, 15.0) },
     ],
 };
@@ -178,15 +178,7 @@ pub(super) const SAS_RIG: Kind = Kind {
 pub(super) const EXCITATION_MOTOR: Kind = Kind {
     plant: Plant::of::<ExcitationMotor>,
     model: "ExcitationMotor",
-    base: &[
-        "moving_mass",
-        "base_spring.stiffness",
-        "force_constant",
-        "resistance",
-        "position_loop.gain",
-        "velocity_loop.proportional",
-        "velocity_loop.integral",
-    ],
+    base: &["moving_mass", "base_spring.stiffness"],
     elements: &[ElementSignals {
         element: Element::Guide,
         deflection: "position",
@@ -224,18 +216,21 @@ pub(super) const EXCITATION_MOTOR: Kind = Kind {
             setting: "drive",
             item: "Force",
             input: "command.force",
+            base: &[],
             columns: &["force.command", "commanded.force", "control.force", "force", "motor.force"],
         },
         DrivenBy {
             setting: "drive",
             item: "Voltage",
             input: "command.voltage",
+            base: &["force_constant", "resistance"],
             columns: &["voltage.command", "control.voltage", "voltage", "motor.voltage", "u"],
         },
         DrivenBy {
             setting: "drive",
             item: "Position",
             input: "command.position",
+            base: &["position_loop.gain", "velocity_loop.proportional", "velocity_loop.integral"],
             columns: &[
                 "position.command",
                 "commanded.position",
