@@ -259,11 +259,27 @@ impl World<'_> {
         let named = found.accepted.iter().filter(|it| !is_table(it.term)).count();
         let factor = if named > 1 { 1.1 } else { 0.85 };
         let enough = self.left(&found.base, fitted) < factor * self.left(&found.base, &found.extended);
-        if enough && named > 0 && (named > 1 || self.apart(fitted, &found.extended) > 4.0) {
+        if enough
+            && named > 0
+            && (named > 1 || self.apart(fitted, &found.extended) > 4.0)
+            && !self.is_needed(found, fitted, first.term)
+        {
             let accepted = Accepted { term: table.term, evidence: table.evidence, rivals: Vec::new() };
             found.extended = fitted.clone();
             found.accepted = vec![accepted];
         }
+    }
+
+    /// Whether a term that was found is needed beside a table, too: then they are about different things.
+    fn is_needed(&self, found: &Found, table: &Fitted, term: Term) -> bool {
+        let mut terms = table.terms.clone();
+        terms.push(term);
+        let mut start = table.point.clone();
+        for coordinate in self.own_coordinates(term) {
+            start.set(coordinate.handle, found.extended.point.get(coordinate.handle));
+        }
+        let both = self.fitted(&terms, &[start], Stop::ROUGH);
+        both.is_ok_and(|both| self.evidence(&found.base, table, &both).refusal().is_none())
     }
 
     /// One with fewer parameters that is a part of the best and explains nearly as much.
