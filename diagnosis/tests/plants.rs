@@ -116,13 +116,12 @@ fn nothing_is_claimed_of_a_sound_servo_suspension() {
 }
 
 #[test]
-fn a_servo_suspensions_leakage_and_oil_are_parameters_that_do_not_fit() {
-    let (leakage, bulk_modulus) =
-        (("actuator.cylinder.leakage", 45e-12), ("actuator.fluid.bulk_modulus", 0.9e9));
-    let said = Case::of(SERVO).diagnosed(&[leakage, bulk_modulus]);
+fn a_servo_suspensions_leakage_and_valve_gain_are_parameters_that_do_not_fit() {
+    let (leakage, valve_gain) = (("actuator.cylinder.leakage", 45e-12), ("actuator.spool.gain", 0.029e-3));
+    let said = Case::of(SERVO).diagnosed(&[leakage, valve_gain]);
     assert_eq!(said.terms, NOTHING);
     said.meets(leakage.0, leakage.1, 0.03);
-    said.meets(bulk_modulus.0, bulk_modulus.1, 0.05);
+    said.meets(valve_gain.0, valve_gain.1, 0.03);
 }
 
 #[test]
