@@ -152,7 +152,7 @@ def cargo(profile, *arguments):
     command = ["cargo", "run", "--quiet", "--profile", profile, "--package", "strut-diagnosis", *arguments]
     result = subprocess.run(command, capture_output=True, text=True, cwd=ROOT)
     if result.returncode:
-        raise SystemExit(result.stderr)
+        raise SystemExit(f"{' '.join(map(str, command))} failed ({result.returncode})\n{result.stderr}")
     return result.stdout
 
 
