@@ -3,6 +3,7 @@
 mod pictures;
 
 use crate::catalogue::Table;
+use crate::correction::Fault;
 use crate::diagnosis::{Diagnosis, intervals, phi, root_mean_square};
 use crate::findings::{
     BaseParameter, Candidate, Curve, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal, Start,
@@ -34,7 +35,10 @@ impl Diagnosis<'_> {
             Term::Table(table) => Some(self.curve(table)),
             Term::Cause(_) | Term::Fault(_) => None,
         });
-        let effects: Vec<Effect> = named.iter().map(|it| self.effect(it)).collect();
+        let mut effects: Vec<Effect> = named.iter().map(|it| self.effect(it)).collect();
+        effects.extend(self.rooted.iter().map(|(cause, evidence)| {
+            self.effect(&Accepted { term: Term::Cause(cause), evidence: *evidence, rivals: Vec::new() })
+        }));
         let sensors = named.iter().filter(|it| name(it.term, &world.rig.plant).sensor).count();
         let best = signals.iter().map(|signal| signal.phi_after).fold(f64::NEG_INFINITY, f64::max);
         let verdict = if best < INADEQUATE {
@@ -115,7 +119,15 @@ impl Diagnosis<'_> {
         let sections = self.measured.iter().map(|record| record.sections.len()).sum();
         let start: Vec<f64> = self.world.rig.plant.states.iter().map(|state| state.start).collect();
         let fit = self.world.fit(&*dynamics, self.measured, Vec::new());
-        let settled = fit.settled(Point { starts: vec![start; sections], ..point.clone() });
+        let mut point = Point { starts: vec![start; sections], ..point.clone() };
+        // What any master finds with the extended model, which knows nothing of the channels' timing.
+        for output in 0..point.outputs.len() {
+            let timing = Handle::Output(output, Fault::Delay);
+            if !terms.contains(&Term::Fault(timing)) {
+                point.set(timing, 0.0);
+            }
+        }
+        let settled = fit.settled(point);
         let residuals = fit.residuals(&settled);
         Some((settled, residuals))
     }

@@ -1,6 +1,8 @@
 //! From records to findings: base fit, search, and what is told about it.
 
+use crate::catalogue::{self, Cause};
 use crate::correction::Fault;
+use crate::findings::Evidence;
 use crate::fit::{self, Handle, Point, Residuals};
 use crate::hypothesis::{Fitted, World};
 use crate::lsq::Stop;
@@ -20,6 +22,8 @@ pub struct Diagnosis<'a> {
     pub before: Point,
     /// What was found.
     pub found: Found,
+    /// Causes that the starting model has already, in quite another size.
+    pub rooted: Vec<(&'static Cause, Evidence)>,
     /// Signals that had to be turned over before anything fitted.
     pub reversed: Vec<Handle>,
 }
@@ -45,6 +49,7 @@ pub fn diagnose<'a>(
         test,
         typical: Vec::new(),
         known,
+        held: Vec::new(),
         only: only.to_vec(),
         sigma: vec![1.0; rig.plant.outputs.len()],
         floor: Vec::new(),
@@ -84,7 +89,34 @@ pub fn diagnose<'a>(
         typical(rig, train, &all)
     };
     let found = world.search(base, progress)?;
-    Ok(Diagnosis { world, measured, before, found, reversed })
+    let rooted = rooted(&mut world, &found)?;
+    Ok(Diagnosis { world, measured, before, found, rooted, reversed })
+}
+
+/// Causes among the base parameters whose size differs from the starting model's by more than half, with what speaks
+/// for the difference.
+fn rooted(world: &mut World<'_>, found: &Found) -> Result<Vec<(&'static Cause, Evidence)>, String> {
+    let rig = world.rig;
+    let base = rig.base();
+    let mut rooted = Vec::new();
+    for cause in catalogue::causes(&rig.plant) {
+        let amount = cause.parts.first().and_then(|part| rig.plant.parameter(part.parameter));
+        let Some(index) = amount.filter(|index| base.contains(index)) else { continue };
+        let (before, after) = (rig.parameters[index], found.extended.point.parameters[index]);
+        if (after - before).abs() <= 0.5 * before.abs() {
+            continue;
+        }
+        world.held = vec![index];
+        let mut start = found.extended.point.clone();
+        start.parameters[index] = before;
+        let held = world.fitted(&found.extended.terms, &[start], Stop::NOISY);
+        world.held.clear();
+        let evidence = world.evidence(&found.base, &held?, &found.extended);
+        if evidence.refusal().is_none() {
+            rooted.push((cause, evidence));
+        }
+    }
+    Ok(rooted)
 }
 
 /// Whether every signal is met at least roughly.

@@ -51,6 +51,8 @@ pub struct World<'a> {
     pub typical: Vec<(Element, Typical)>,
     /// What was known of parameters before: index, value, standard deviation.
     pub known: Vec<(usize, f64, f64)>,
+    /// Base parameters that are not fitted, to see what they are worth.
+    pub held: Vec<usize>,
     /// Numbers of the causes that are looked at; none: all.
     pub only: Vec<String>,
     /// Standard deviation of each output's residuals.
@@ -138,10 +140,14 @@ impl World<'_> {
             let (declared, value) = (&plant.parameters[index], self.rig.parameters[index]);
             let bounds = (declared.min.unwrap_or(f64::NEG_INFINITY), declared.max.unwrap_or(f64::INFINITY));
             let known = self.known.iter().find(|(of, _, _)| *of == index);
-            // A data sheet is right within a factor of two or so, where the data do not know better.
-            let prior =
-                known.map_or((value, value.abs().max(1e-6)), |(_, mean, deviation)| (*mean, *deviation));
-            coordinates.push(Coordinate { handle: Handle::Parameter(index), bounds, prior: Some(prior) });
+            if self.held.contains(&index) {
+                continue;
+            }
+            // A data sheet is right within a factor of two or so, where the data do not know better; of what it does
+            // not know it says zero.
+            let sheet = (value != 0.0).then_some((value, value.abs()));
+            let prior = known.map(|(_, mean, deviation)| (*mean, *deviation)).or(sheet);
+            coordinates.push(Coordinate { handle: Handle::Parameter(index), bounds, prior });
         }
         for measured in self.train.first().map_or(&[][..], |record| &record.measured) {
             let handle = Handle::Output(measured.output, Fault::Delay);

@@ -11,7 +11,7 @@ use strut_blind::{cases, files, generate};
 fn diagnosed(name: &str) -> Score {
     let case = cases::compact().into_iter().find(|case| case.name == name).expect("a case of that name");
     let below = tempfile::tempdir().unwrap();
-    let folder = files::write(&generate::generate(&case).unwrap(), below.path()).unwrap();
+    let folder = files::write(&generate(&case).unwrap(), below.path()).unwrap();
     let data = folder.join("data");
     let of = |kind: &str| {
         let mut paths: Vec<_> = fs::read_dir(&data).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -41,4 +41,32 @@ macro_rules! named {
             named($case);
         }
     )*};
+}
+
+named! {
+    coulomb_friction: "single-01";
+    an_asymmetric_damper: "single-04";
+    a_damper_knee: "single-05";
+    a_maxwell_branch: "single-07";
+    a_nonlinear_spring: "single-08";
+    a_bump_stop: "single-09";
+    an_actuator_delay: "single-23";
+    friction_and_a_nonlinear_spring: "pair-01-08";
+}
+
+/// Nothing is there, or nothing that matters: no cause is claimed.
+#[test]
+fn nothing_is_claimed_where_nothing_is_hidden() {
+    for name in ["none", "none-cluttered", "mismatch"] {
+        let score = diagnosed(name);
+        assert_eq!(score.outcome, Outcome::Correct, "{score:?}");
+    }
+}
+
+/// A cause that is in no catalogue gets no name, and is found in its place.
+#[test]
+fn a_cause_without_a_name_gets_none() {
+    let score = diagnosed("unnamed-U1");
+    assert!(matches!(score.outcome, Outcome::Correct | Outcome::Unnamed), "{score:?}");
+    assert_eq!((score.location_right, score.variable_right), (Some(true), Some(true)), "{score:?}");
 }

@@ -75,7 +75,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind {
         plant: Plant::of::<ElementDyno>,
         model: "ElementDyno",
-        base: &["strut.stiffness", "strut.damping"],
+        base: &["strut.stiffness", "strut.damping", "strut.preload"],
         elements: &[ElementSignals {
             element: Element::Strut,
             deflection: "deflection",
