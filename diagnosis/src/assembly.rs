@@ -93,7 +93,7 @@ impl Diagnosis<'_> {
             })
             .collect();
         let base = rig.base();
-        for (handle, after, half) in intervals(&self.found.extended) {
+        for (handle, after, half) in intervals(&self.world, &self.found.extended) {
             if let Handle::Parameter(index) = handle
                 && base.contains(&index)
             {
@@ -183,7 +183,7 @@ impl Diagnosis<'_> {
         let plant = &self.world.rig.plant;
         let words = name(accepted.term, plant);
         let own = self.world.own_coordinates(accepted.term);
-        let all = intervals(&self.found.extended);
+        let all = intervals(&self.world, &self.found.extended);
         let parameters = all.iter().filter(|(handle, _, _)| own.iter().any(|it| it.handle == *handle));
         let parameters = parameters.map(|(handle, value, half)| {
             let (name, unit) = naming::handle(*handle, plant);
@@ -209,7 +209,7 @@ impl Diagnosis<'_> {
         let plant = &self.world.rig.plant;
         let fitted: &Fitted = &self.found.extended;
         let range = plant.parameter(table.range).map_or(0.0, |index| fitted.point.parameters[index]);
-        let all = intervals(fitted);
+        let all = intervals(&self.world, fitted);
         let mut curve = Curve {
             location: table.element.name().into(),
             variable: table.variable.into(),

@@ -1,16 +1,22 @@
 //! From records to findings: base fit, search, and what is told about it.
 
+use nalgebra::DVector;
+
 use crate::catalogue::{self, Cause};
 use crate::correction::Fault;
 use crate::findings::Evidence;
 use crate::fit::{self, Handle, Point, Residuals};
 use crate::hypothesis::{Fitted, World};
+use crate::lsq::Problem;
 use crate::lsq::Stop;
 use crate::plant::Drive;
 use crate::recorded::{Measured, Recorded, Source};
 use crate::rig::Rig;
 use crate::screening::{rms, typical};
 use crate::search::Found;
+
+/// Blocks of half a second that make a long stretch.
+const STRETCH: usize = 10;
 
 /// A diagnosis that has come to its end.
 pub struct Diagnosis<'a> {
@@ -188,11 +194,31 @@ pub(crate) fn outputs(world: &World<'_>, fitted: &Fitted) -> Vec<Vec<Vec<f64>>> 
 }
 
 /// Value and half the 95 % interval of each coordinate.
-pub fn intervals(fitted: &Fitted) -> Vec<(Handle, f64, f64)> {
-    let covariance = fit::covariance(&fitted.linear, &fitted.trace.scores);
+///
+/// Errors of a model that is not quite right pull its parameters differently in every excitation: beside the spread of
+/// the training data's own blocks, the pull of long stretches of all data counts, held-out ones included, and the larger
+/// of both makes the interval.
+pub fn intervals(world: &World<'_>, fitted: &Fitted) -> Vec<(Handle, f64, f64)> {
+    let own = fit::covariance(&fitted.linear, &fitted.trace.scores);
+    let mut stretches = stretches(&fitted.trace.scores);
+    let learnt = stretches.len();
+    if let Ok(dynamics) = world.dynamics(&fitted.terms) {
+        let point = world.held_out_point(&*dynamics, &fitted.point);
+        let fit = world.fit(&*dynamics, world.test, fitted.coordinates.clone());
+        let (_, trace) = fit.linearise(&point);
+        stretches.extend(self::stretches(&trace.scores));
+    }
+    let share = learnt as f64 / stretches.len().max(1) as f64;
+    let pull = fit::sandwich(&fitted.linear, &stretches) * share;
     let handles = fitted.coordinates.iter().enumerate();
-    let half = |index: usize| 1.96 * covariance[(index, index)].max(0.0).sqrt();
+    let half = |index: usize| 1.96 * own[(index, index)].max(pull[(index, index)]).max(0.0).sqrt();
     handles.map(|(index, it)| (it.handle, fitted.point.get(it.handle), half(index))).collect()
+}
+
+/// Scores of so many blocks together.
+fn stretches(scores: &[DVector<f64>]) -> Vec<DVector<f64>> {
+    let sum = |blocks: &[DVector<f64>]| blocks.iter().skip(1).fold(blocks[0].clone(), |sum, it| sum + it);
+    scores.chunks(STRETCH).map(sum).collect()
 }
 
 /// How closely signals are met: `1 − rms(e)/rms(z)`, TUM eq. 16; z about its mean.

@@ -462,20 +462,24 @@ impl Problem for Fit<'_> {
     }
 }
 
-/// The covariance of the coordinates at a minimum, whatever the residuals' correlation within a block of time:
-/// `H⁻¹ (Σ s sᵀ) H⁻¹`; infinite for a coordinate that is not determined.
+/// The covariance of the coordinates at a minimum, whatever the residuals' correlation within a block of time; infinite
+/// for a coordinate that is not determined.
 pub fn covariance(linear: &Linear, scores: &[DVector<f64>]) -> DMatrix<f64> {
+    let n = linear.q.len();
+    let mean = scores.iter().fold(DVector::zeros(n), |sum, score| sum + score) / scores.len().max(1) as f64;
+    let deviations: Vec<DVector<f64>> = scores.iter().map(|score| score - &mean).collect();
+    sandwich(linear, &deviations)
+}
+
+/// `H⁻¹ (Σ s sᵀ) H⁻¹`; infinite for a coordinate that is not determined.
+pub fn sandwich(linear: &Linear, scores: &[DVector<f64>]) -> DMatrix<f64> {
     let mut inverse = linear.covariance();
     let n = inverse.ncols();
     let unknown: Vec<usize> = (0..n).filter(|index| inverse[(*index, *index)].is_infinite()).collect();
     for index in &unknown {
         inverse[(*index, *index)] = 0.0;
     }
-    let mean = scores.iter().fold(DVector::zeros(n), |sum, score| sum + score) / scores.len().max(1) as f64;
-    let spread = scores.iter().fold(DMatrix::zeros(n, n), |sum, score| {
-        let deviation = score - &mean;
-        sum + &deviation * deviation.transpose()
-    });
+    let spread = scores.iter().fold(DMatrix::zeros(n, n), |sum, score| sum + score * score.transpose());
     let mut covariance = &inverse * spread * &inverse;
     for index in unknown {
         covariance[(index, index)] = f64::INFINITY;
