@@ -2,7 +2,7 @@
 
 mod pictures;
 
-use crate::catalogue::Table;
+use crate::catalogue::{Element, Table};
 use crate::correction::Fault;
 use crate::diagnosis::{Diagnosis, intervals, phi, root_mean_square};
 use crate::findings::{
@@ -205,6 +205,16 @@ impl Diagnosis<'_> {
         }
     }
 
+    /// What a table is over, by the FMU's name where the FMU has it.
+    fn variable(&self, table: &Table) -> String {
+        let signals = self.world.rig.kind.elements.iter().find(|it| it.element == table.element);
+        let signal = signals.and_then(|it| match table.variable {
+            "velocity" => it.velocity,
+            _ => Some(it.deflection),
+        });
+        signal.unwrap_or(table.variable).to_owned()
+    }
+
     fn curve(&self, table: &Table) -> Curve {
         let plant = &self.world.rig.plant;
         let fitted: &Fitted = &self.found.extended;
@@ -212,7 +222,7 @@ impl Diagnosis<'_> {
         let all = intervals(&self.world, fitted);
         let mut curve = Curve {
             location: table.element.name().into(),
-            variable: table.variable.into(),
+            variable: self.variable(table),
             variable_unit: if table.variable == "velocity" { "m/s" } else { "m" }.into(),
             unit: "N".into(),
             x: Vec::new(),
@@ -230,6 +240,13 @@ impl Diagnosis<'_> {
                 curve.y.push(*value);
                 curve.low.push(value - half);
                 curve.high.push(value + half);
+            }
+        }
+        if table.element == Element::Tire {
+            // The plant's table is over the compression, the FMU's output counts the other way.
+            curve.x.iter_mut().for_each(|x| *x = -*x);
+            for list in [&mut curve.x, &mut curve.y, &mut curve.low, &mut curve.high] {
+                list.reverse();
             }
         }
         curve
