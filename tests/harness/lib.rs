@@ -33,10 +33,10 @@ pub fn fmus() -> &'static Path {
     })
 }
 
-/// The packager, compiled as the tests are.
+/// The packager, as the first page runs it, compiled as the tests are.
 pub fn build_fmu() -> Command {
     let mut command = cargo();
-    command.args(["run", "--quiet", "--package", "build-fmu", "--"]);
+    command.args(["run", "--quiet", "--"]);
     command
 }
 
