@@ -68,3 +68,8 @@ fn the_coupling_error_falls_with_the_step() {
 fn the_semi_active_rig_shows_what_its_source_found() {
     print!("{}", strut::python("tests/masters/connected_semi_active.py", [strut::fmus()]));
 }
+
+#[test]
+fn apart_an_actuator_that_knows_its_load_does_as_in_one() {
+    print!("{}", strut::python("tests/masters/connected_apart.py", [strut::fmus()]));
+}

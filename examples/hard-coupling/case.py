@@ -20,8 +20,12 @@ SIGNALS = {
     "rig.wheel.position": "one.wheel.position",
     "actuator.force": "one.actuator.force",
 }
+# The actuator's estimate of what it moves: m_1 m_2/(m_1 + m_2).
+MASS = 86.0 * 11.5 / (86.0 + 11.5)
+LOADED = "constant inputs, load.mass"
 METHODS = {
     "constant inputs (Jacobi)": lambda: constant,
+    LOADED: lambda: constant,
     "input derivatives": lambda: extrapolated,
     "Gauss–Seidel, actuator first": lambda: GaussSeidel("actuator", "rig"),
     "Gauss–Seidel, rig first": lambda: GaussSeidel("rig", "actuator"),
@@ -65,13 +69,15 @@ def road_velocity(now):
     return road(now)[1], 0.0
 
 
-def pair(folder, method, pressure=None):
+def pair(folder, name, step, pressure=None):
     """Rig and actuator as two FMUs; with a `pressure` at the start, nothing else happens."""
+    method, parameters = METHODS[name](), {}
+    if name == LOADED:
+        parameters = {"actuator.load.mass": MASS, "actuator.load.interval": step}
     stimulus = {"actuator.voltage": voltage, "rig.road.position": road, "rig.road.velocity": road_velocity}
-    if pressure is None:
-        return Coupled(folder, COMPONENTS, CONNECTIONS, stimulus, method)
-    stimulus = dict.fromkeys(stimulus, flat)
-    return Coupled(folder, COMPONENTS, CONNECTIONS, stimulus, method, {"actuator.pressure": pressure})
+    if pressure is not None:
+        stimulus, parameters = dict.fromkeys(stimulus, flat), parameters | {"actuator.pressure": pressure}
+    return Coupled(folder, COMPONENTS, CONNECTIONS, stimulus, method, parameters)
 
 
 def reference(folder, stop=STOP, pressure=None):
@@ -111,7 +117,7 @@ class Run:
 def run(folder, name, step, truth):
     """The pair on the stimulus, against the one."""
     found = []
-    with pair(folder, METHODS[name]()) as system:
+    with pair(folder, name, step) as system:
         begun = time.process_time()
         with contextlib.suppress(RunAway, NotConverged):
             found = errors(system.run(STOP, step, list(SIGNALS)), truth, step)

@@ -46,6 +46,10 @@ class Smooth:
     def derivative(self, _state, _u, _mode):
         return []
 
+    def before(self, state, u):
+        """What outputs at the start are made with: what the first tick will leave."""
+        return self.tick(None, state, u, 0)
+
 
 class Switched(Smooth):
     """A model whose mode is the side of each guard: true where the guard is positive."""
@@ -126,7 +130,7 @@ def held(model, case, start, inputs_at, solver):
     if model.period:
         every = round(model.period / step)
         assert abs(every * step / model.period - 1.0) < 1e-12, "a period is a multiple of the step"
-        yield 0.0, state, vector(0) + model.tick(None, state, vector(0), 0)
+        yield 0.0, state, vector(0) + model.before(state, vector(0))
     else:
         yield 0.0, state, vector(0)
     for k in range(count):

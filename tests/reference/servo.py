@@ -10,6 +10,14 @@
 Where the root of (2.9) ends: with s = P_z - sign(u_1) P_r, sqrt(s) becomes s / sqrt(p_lam) within |s| < p_lam and
 -sqrt(-s) below.
 
+With load.mass m > 0 the actuator works for a master that holds v and f_s in steps of T: at t_k = k T it takes
+
+    a_k = (a_(k-1) + (v_k - v_(k-1)) / T - f_(k-1) / m) / 2,  a_0 = 0;  f_k, the force that it has just shown
+
+and until t_(k+1) it works with v + c, c = T (f_k / m + a_k) / 2, and shows A_a P, the solution (linear in P) of
+
+    P = P_r + T/2 alpha (Q(P_r) - A_a (v_k + 2 c + T/2 (A_a P / m + a_k)) - C_tm P);  v_k + 2 c is v_0 for f_0.
+
 Body and wheel, (2.14) and (2.15), with the tyre's damper integrated as in (2.16): q = z_1' + b_1 (z_1 - w) / m_1, so
 that the road's velocity is needed for the wheel's load only:
 
@@ -79,19 +87,51 @@ class ServoHydraulicActuator(Switched):
 
     def __init__(self, parameters, settings):
         self.actuator = Actuator(parameters, settings["law"])
+        self.mass, interval = parameters.get("load.mass", 0.0), parameters.get("load.interval", 0.0)
+        self.period = interval if self.mass else None
 
     def guards(self, state, _u):
         return self.actuator.guards(*state)
+
+    def half_gain(self, memory):
+        """c; memory is v_k, f_k, a_k."""
+        return 0.5 * self.period * (memory[1] / self.mass + memory[2])
+
+    def shown_force(self, state, velocity, other, mode):
+        act, half = self.actuator, 0.5 * self.period
+        # p = r + s p.
+        r = state[0] + half * act.alpha * (act.flow(*state, mode) - act.area * (velocity + half * other))
+        s = -half * act.alpha * (half * act.area**2 / self.mass + act.leakage)
+        return act.area * r / (1.0 - s)
+
+    def tick(self, memory, state, u, _k):
+        velocity, mode = u[1], self.mode(state, u)
+        if memory is None:
+            return [velocity, self.shown_force(state, velocity, 0.0, mode), 0.0]
+        before, force, other = memory
+        shown = self.shown_force(state, before + 2.0 * self.half_gain(memory), other, mode)
+        return [velocity, shown, 0.5 * (other + (velocity - before) / self.period - force / self.mass)]
 
     def watched(self, mode):
         # The other laws have no kinks but that of the supply's flow, which moves nothing.
         return super().watched(mode) if self.actuator.law == "Nonlinear" else []
 
-    def derivative(self, state, u, mode):
-        return list(self.actuator.rates(*state, *u, mode))
+    def before(self, _state, u):
+        # The force that the first tick takes: with the velocity of the start.
+        return [u[1], 0.0, 0.0]
 
-    def output(self, state, _u, mode):
-        return [self.actuator.area * state[0], *self.actuator.from_supply(*state, mode)]
+    def derivative(self, state, u, mode):
+        voltage, velocity, *memory = u
+        velocity += self.half_gain(memory) if memory else 0.0
+        return list(self.actuator.rates(*state, voltage, velocity, mode))
+
+    def output(self, state, u, mode):
+        memory = u[len(self.inputs):]
+        if not memory:
+            force = self.actuator.area * state[0]
+        else:
+            force = self.shown_force(state, memory[0] + 2.0 * self.half_gain(memory), memory[2], mode)
+        return [force, *self.actuator.from_supply(*state, mode)]
 
 
 class ServoSuspension(Switched):

@@ -63,6 +63,9 @@ const PAIR: Plan = Plan {
     ],
     parameters: &[],
 };
+/// The actuator's estimate of what it moves: m_1 m_2/(m_1 + m_2).
+const MASS: f64 = 86.0 * 11.5 / (86.0 + 11.5);
+const LOADED: &str = "constant inputs, load.mass";
 const ONE: Plan = Plan {
     components: &[("one", "KoniecznyServoSuspension")],
     connections: &[],
@@ -90,10 +93,11 @@ fn road_velocity(time: f64) -> (f64, f64) {
     (road(time).1, 0.0)
 }
 
-fn methods() -> [(&'static str, Method); 9] {
+fn methods() -> [(&'static str, Method); 10] {
     let (rig, actuator) = (0, 1);
     [
         ("constant inputs (Jacobi)", Method::Constant),
+        (LOADED, Method::Constant),
         ("input derivatives", Method::Extrapolated),
         ("Gauss–Seidel, actuator first", Method::GaussSeidel(vec![actuator, rig])),
         ("Gauss–Seidel, rig first", Method::GaussSeidel(vec![rig, actuator])),
@@ -106,8 +110,16 @@ fn methods() -> [(&'static str, Method); 9] {
 }
 
 /// The largest differences of the signals, in percent of the ranges that they have, and calls of `fmi2DoStep` a step.
-fn run(folder: &Path, method: &mut Method, step: f64, truth: &[Vec<f64>]) -> Result<Vec<f64>, Error> {
-    let mut system = Coupled::new(folder, &PAIR)?;
+fn run(
+    folder: &Path,
+    name: &str,
+    method: &mut Method,
+    step: f64,
+    truth: &[Vec<f64>],
+) -> Result<Vec<f64>, Error> {
+    let loaded = [("actuator.load.mass", MASS), ("actuator.load.interval", step)];
+    let parameters = if name == LOADED { &loaded[..] } else { &[] };
+    let mut system = Coupled::new(folder, &Plan { parameters, ..PAIR })?;
     let rows = system.run(method, STOP, step, &SIGNALS)?;
     let every = (step / FINEST).round() as usize;
     let mut numbers: Vec<f64> = (0..SIGNALS.len())
@@ -130,7 +142,7 @@ fn main() -> Result<(), Error> {
     let truth = Coupled::new(&folder, &ONE)?.run(&mut Method::Constant, STOP, FINEST, &OF_ONE)?;
     for (name, mut method) in methods() {
         for step in STEPS {
-            let text = match run(&folder, &mut method, step, &truth) {
+            let text = match run(&folder, name, &mut method, step, &truth) {
                 Ok(numbers) => {
                     numbers.iter().map(|number| format!("{number:.6e}")).collect::<Vec<_>>().join("|")
                 }

@@ -17,7 +17,9 @@ pub use guide::{Guide, WheelGuide};
 pub use hydraulics::{Gas, Piston, Pump};
 pub use hysteresis::{Hysteresis, HysteresisState};
 pub use mode::Mode;
-pub use servo_cylinder::{Flow, Hydraulics, ServoCylinder, ValveLaw};
+pub use servo_cylinder::{
+    Cylinder, Flow, Fluid, Hydraulics, ServoCylinder, ServoValve, Spool, Supply, ValveLaw,
+};
 pub use strut::Strut;
 pub use tire::{Load, Tire};
 pub use valve::{Valve, Valves};

@@ -23,7 +23,7 @@ pub struct ServoCylinder<R> {
     /// Cylinder
     pub cylinder: Cylinder<R>,
     /// Valve
-    pub valve: Valve<R>,
+    pub valve: ServoValve<R>,
     /// Spool of the valve
     pub spool: Spool<R>,
 }
@@ -66,7 +66,7 @@ pub struct Cylinder<R> {
 
 /// The valve's orifices.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct Valve<R> {
+pub struct ServoValve<R> {
     /// Discharge coefficient (C_d)
     #[var(unit = ONE, start = 0.611, min = 1e-3, max = 1.0)]
     pub discharge_coefficient: R,

@@ -64,8 +64,8 @@ proptest! {
     ) {
         prop_assume!(LAWS[index] == ValveLaw::Nonlinear || pressure.abs() <= 12e6);
         let actuator = ServoHydraulicActuator { law: LAWS[index] };
-        let declared = strut_model::Declarations::of::<ServoCylinder<f64>>();
-        let p: ServoCylinder<f64> = strut_model::Bundle::from_fn(|i| declared[i].start);
+        let declared = strut_model::Declarations::of::<Parameters<f64>>();
+        let p: Parameters<f64> = strut_model::Bundle::from_fn(|i| declared[i].start);
         let derived = actuator.derive(&p);
         let (rates, output) = actuator.equations(Now {
             time: 0.0,
@@ -73,12 +73,57 @@ proptest! {
             input: &Input { voltage, suspension: TravelRate { velocity } },
             parameters: &p,
             derived: &derived,
-            memory: &strut_model::Nothing,
+            memory: &strut_model::Bundle::from_fn(|_| 0.0),
             tick: 0,
         });
         let stored = pressure * rates.pressure / derived.coefficient;
         let lost = output.supply.power - output.force * velocity - stored;
         prop_assert!(lost >= 15e-12 * pressure * pressure * (1.0 - 1e-9) - 1e-6, "{lost}");
+    }
+}
+
+/// An actuator that knows its load.
+fn loaded(mass: f64, interval: f64) -> Bench<ServoHydraulicActuator> {
+    Bench::published("KoniecznyServoHydraulicActuator")
+        .choose("law", Value::Integer(ValveLaw::Linear as i32 + 1))
+        .start("load.mass", mass)
+        .start("load.interval", interval)
+        .start("pressure", 1e6)
+        .initialized()
+}
+
+/// Against a mass on the compressed oil: m v' = f, f' = -k v, without leakage f = f_0 cos(w t). What is put out at the
+/// start is its mean over the interval, up to the error of the midpoint rule.
+#[test]
+fn what_a_loaded_actuator_puts_out_is_the_mean_force_to_come() {
+    let (mass, interval) = (10.0, 0.2e-3);
+    let mut bench = loaded(mass, interval);
+    let angle = (bench.get("stiffness") / mass).sqrt() * interval;
+    let mean = 1e6 * 0.765_786e-3 * angle.sin() / angle;
+    // The leakage takes 6 % of the force in this time, half of that on average.
+    let leakage = 0.5 * 15e-12 * bench.get("coefficient") * interval;
+    assert!(
+        (bench.get("force") / (mean * (1.0 - leakage)) - 1.0).abs() < 0.01,
+        "{} {mean}",
+        bench.get("force")
+    );
+}
+
+/// The mass itself, held forces and velocities: it swings and comes to rest, in steps in which it would not without.
+#[test]
+fn with_its_load_known_a_held_exchange_converges() {
+    for (interval, known) in [(1e-3, true), (2e-3, true), (5e-3, true), (1e-3, false)] {
+        let (mass, count) = (10.0, (1.0_f64 / interval) as usize);
+        let mut bench = loaded(if known { mass } else { 0.0 }, interval);
+        let mut velocity = 0.0;
+        let mut last = 0.0;
+        for _ in 0..count {
+            bench.set("suspension.velocity", velocity);
+            velocity += interval * bench.get("force") / mass;
+            bench.step(interval);
+            last = bench.get("force");
+        }
+        assert_eq!(last.abs() < 1.0, known, "{interval}: {last}");
     }
 }
 
