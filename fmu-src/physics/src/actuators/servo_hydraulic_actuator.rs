@@ -191,7 +191,7 @@ impl Model for ServoHydraulicActuator {
             NOTES[8],
             "load.mass is for masters that hold force and velocity through a step of load.interval: oil and masses then \
              swing across the boundary, and with KoniecznyQuarterCar that is unstable from 0.5 ms on. With m = m_1 m_2/(m_1 \
-             + m_2) = 10.1 kg it is stable in steps up to 5 ms, and in steps of 1 ms if m is right within -30 and +20 %. \
+             + m_2) = 10.1 kg it is stable in steps up to 2 ms, and in steps of 1 ms if m is right within -30 and +20 %. \
              The force is then the one that is best held in the interval that begins, half of it ahead of A_a P_r. At 1 ms \
              positions and force come within 1 % of those of KoniecznyServoSuspension, the pressure within 7 %, falling \
              with the square of the step. Leave it at zero for model exchange and for masters that give slopes, iterate or \

@@ -82,6 +82,33 @@ proptest! {
     }
 }
 
+proptest! {
+    #[test]
+    fn without_an_estimate_of_the_load_every_bit_is_the_cylinders(
+        pressure in -15e6..15e6_f64, position in -0.5e-3..0.5e-3_f64, velocity in -1.0..1.0_f64,
+        remembered in -1e3..1e3_f64, tick in 0..3_u64, index in 0..3_usize,
+    ) {
+        let actuator = ServoHydraulicActuator { law: LAWS[index] };
+        let declared = strut_model::Declarations::of::<Parameters<f64>>();
+        let p: Parameters<f64> = strut_model::Bundle::from_fn(|i| declared[i].start);
+        let (cylinder, derived) = (p.cylinder(), actuator.derive(&p));
+        prop_assert_eq!(ServoHydraulicActuator::period(&p), None);
+        let (rates, output) = actuator.equations(Now {
+            time: 0.0,
+            state: &State { pressure, spool: SpoolState { position } },
+            input: &Input { voltage: 0.0, suspension: TravelRate { velocity } },
+            parameters: &p,
+            derived: &derived,
+            memory: &strut_model::Bundle::from_fn(|_| remembered),
+            tick,
+        });
+        let flow = cylinder.flow(LAWS[index], &derived, position, pressure).load;
+        let rate = cylinder.pressure_rate(&derived, flow, velocity, pressure);
+        prop_assert_eq!(rates.pressure.to_bits(), rate.to_bits());
+        prop_assert_eq!(output.force.to_bits(), cylinder.force(pressure).to_bits());
+    }
+}
+
 /// An actuator that knows its load.
 fn loaded(mass: f64, interval: f64) -> Bench<ServoHydraulicActuator> {
     Bench::published("KoniecznyServoHydraulicActuator")
