@@ -2,6 +2,7 @@
 
 import cases
 import cases_ajala
+import cases_drive
 import cases_effects
 import cases_full_car
 import cases_kogut
@@ -15,6 +16,7 @@ from effects import QuarterCarWithEffects
 from excitation import ExcitationMotor
 from force_controllers import ForcePid, ForceTwoDof, ForceTwoDofLpv
 from full_car import FullCar
+from linear_drive import LinearDrive
 from linear_motor import LinearMotor
 from pump import PumpHydraulicActuator, PumpHydraulicActuatorLinear
 from quarter_car import QuarterCar
@@ -35,6 +37,7 @@ MODELS = {model.__name__: model for model in (
     FourWheelRoad,
     FrequencySource,
     FullCar,
+    LinearDrive,
     LinearMotor,
     LqrController,
     ModalSkyhook,
@@ -54,7 +57,7 @@ MODELS = {model.__name__: model for model in (
     VoltageSource,
 )}
 
-CASES = [case for module in (cases, cases_ajala, cases_effects, cases_full_car, cases_kogut, cases_konieczny,
+CASES = [case for module in (cases, cases_ajala, cases_drive, cases_effects, cases_full_car, cases_kogut, cases_konieczny,
                              cases_of_time, cases_sensors, cases_tum) for case in module.CASES]
 
 

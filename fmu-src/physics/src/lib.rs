@@ -38,6 +38,7 @@ pub static CATALOGUE: &[Entry] = &[
     Entry::of::<rigs::ServoSuspension>(),
     Entry::of::<rigs::ServoSuspensionIdentified>(),
     Entry::of::<rigs::ElementDyno>(),
+    Entry::of::<rigs::LinearDrive>(),
     Entry::of::<actuators::LinearMotor>(),
     Entry::of::<actuators::ServoHydraulicActuator>(),
     Entry::of::<actuators::PumpHydraulicActuator>(),

@@ -7,6 +7,7 @@
 //! The catalogue of diagnosis numbers the effects that a difference between measurement and model is looked for in.
 
 mod asymmetry;
+mod cogging;
 mod coulomb;
 mod curve;
 mod fade;
@@ -27,6 +28,7 @@ mod switched_on;
 mod yield_force;
 
 pub use asymmetry::Asymmetry;
+pub use cogging::Cogging;
 pub use coulomb::{Coulomb, RotaryCoulomb};
 pub use curve::{CompressionCurve, ForceCurve, POINTS, VelocityCurve};
 pub use fade::Fade;

@@ -2,6 +2,7 @@
 
 mod element_dyno;
 mod full_car;
+mod linear_drive;
 mod quarter_car;
 mod sas_rig;
 mod servo_suspension;
@@ -9,6 +10,7 @@ mod servo_suspension_identified;
 
 pub use element_dyno::ElementDyno;
 pub use full_car::FullCar;
+pub use linear_drive::LinearDrive;
 pub use quarter_car::QuarterCar;
 pub use sas_rig::{SasRig, SpringLever};
 pub use servo_suspension::ServoSuspension;

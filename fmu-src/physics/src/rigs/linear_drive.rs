@@ -1,0 +1,243 @@
+//! A linear positioning drive: a mass on a guide, behind an amplifier.
+
+use std::path::Path;
+
+use strut_model::{
+    About, Choice, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
+};
+
+use crate::effects::{Cogging, Coulomb, Stribeck, VelocityCurve};
+
+/// A carriage on a guide whose motor gives the force that is asked for. What commands it stays outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearDrive {
+    drive: Drive,
+}
+
+/// What says how large the motor's force is.
+#[derive(Choice, Clone, Copy, Debug, PartialEq)]
+pub enum Drive {
+    /// The force itself
+    Force,
+    /// The command to an amplifier that controls the motor's current
+    Command,
+}
+
+/// What can be chosen.
+#[derive(Settings, Clone, Debug, PartialEq)]
+pub struct Options {
+    /// What says how large the motor's force is
+    #[set(start = Drive::Force)]
+    drive: Drive,
+}
+
+/// What the drive is made of.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct Parameters<R> {
+    /// Moving mass: carriage, rod and what turns with them
+    #[var(unit = KG, start = 20.0, min = 1e-3)]
+    pub moving_mass: R,
+    /// Guide
+    pub guide: DriveGuide<R>,
+    /// Spring to the ground
+    pub spring: GroundSpring<R>,
+    /// Static load, positive against positive positions
+    #[var(unit = N, start = 0.0)]
+    pub constant_load: R,
+    /// Amplifier
+    pub amplifier: Amplifier<R>,
+}
+
+/// What the guide resists with.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct DriveGuide<R> {
+    /// Friction
+    pub coulomb: Coulomb<R>,
+    /// Breakaway
+    pub stribeck: Stribeck<R>,
+    /// Viscous friction, eddy currents included
+    #[var(unit = N_S_PER_M, start = 0.0, min = 0.0)]
+    pub damping: R,
+    /// Cogging
+    pub cogging: Cogging<R>,
+    /// Unnamed force
+    pub curve: VelocityCurve<R>,
+}
+
+impl<R: Real> DriveGuide<R> {
+    /// The force against a motion.
+    #[inline]
+    fn resistance(&self, position: R, velocity: R) -> R {
+        let sliding = self.coulomb.force + self.stribeck.excess(velocity);
+        let friction = Coulomb { force: sliding, ..self.coulomb };
+        let passive = || self.damping * velocity + self.cogging.force(position) + self.curve.force(velocity);
+        friction.added_to(passive, velocity)
+    }
+}
+
+/// A spring between carriage and ground.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct GroundSpring<R> {
+    /// Rate
+    #[var(unit = N_PER_M, start = 0.0, min = 0.0)]
+    pub stiffness: R,
+}
+
+/// An amplifier that controls the motor's current.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct Amplifier<R> {
+    /// Force for one volt of command
+    #[var(unit = N_PER_V, start = 1.0)]
+    pub gain: R,
+}
+
+/// What comes from outside.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct Input<R> {
+    /// Force of the motor (setting Force)
+    #[var(unit = N)]
+    pub force: R,
+    /// Command to the amplifier (setting Command)
+    #[var(unit = V)]
+    pub command: R,
+    /// External force on the carriage
+    pub load: Load<R>,
+}
+
+/// What acts on the carriage besides the motor.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct Load<R> {
+    /// Force, positive towards positive positions
+    #[var(unit = N)]
+    pub force: R,
+}
+
+/// Motion of the carriage.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct State<R> {
+    /// Position
+    #[var(unit = M, nominal = 0.1, output)]
+    pub position: R,
+    /// Velocity
+    #[var(unit = M_PER_S, nominal = 0.1, output)]
+    pub velocity: R,
+}
+
+/// What is measured.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct Output<R> {
+    /// Acceleration
+    #[var(unit = M_PER_S2)]
+    pub acceleration: R,
+    /// Force that the guide resists with
+    #[var(unit = N)]
+    pub resistance: R,
+}
+
+impl Model for LinearDrive {
+    const ABOUT: About = About {
+        name: "LinearDrive",
+        summary: "Linear positioning drive: mass on a guide with friction, breakaway and cogging; force or amplifier's \
+            command in, position out",
+        kind: Kind::Rig,
+        equations: &[
+            Equation {
+                text: "m x'' = F - k x - g(x, x') - F_0 + load.force, F = force or gain command",
+                source: "momentum",
+            },
+            Equation {
+                text: "g = d x' + [F_c + F_b exp(-(x'/v_s)^2)] tanh(x'/v_0) + A sin(2 pi x/p + phi) + s f(x')",
+                source: "TUM eq. 12; catalogue of diagnosis: 02, 15, 16, 27, G",
+            },
+        ],
+        notes: &[
+            "A rig for records of a positioning drive in closed loop: what the loop asked for is measured, so that the \
+             loop itself need not be known. A motor whose voltage is measured, with resistance and inductance, is \
+             ExcitationMotor.",
+            "No source gives numbers of such a drive: the declared mass and gain are to be replaced by those of a data \
+             sheet.",
+        ],
+        experiment: Experiment {
+            stop: 2.0,
+            step: 1e-3,
+            stimuli: &[("force", Stimulus::Sine { amplitude: 40.0, frequency: 1.0 })],
+            plot: &["position", "velocity", "resistance"],
+            ..Experiment::DEFAULT
+        },
+        ..About::DEFAULT
+    };
+
+    bundles! { settings: Options, parameters: Parameters, input: Input, state: State, output: Output }
+
+    fn prepare(options: &Options, _: Option<&Path>) -> Result<Self, String> {
+        Ok(Self { drive: options.drive })
+    }
+
+    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+        let (p, &State { position, velocity }, input) = (now.parameters, now.state, now.input);
+        let force = match self.drive {
+            Drive::Force => input.force,
+            Drive::Command => p.amplifier.gain * input.command,
+        };
+        let resistance = p.guide.resistance(position, velocity);
+        let held = p.spring.stiffness * position + resistance + p.constant_load;
+        let acceleration = (force + input.load.force - held) / p.moving_mass;
+        (State { position: velocity, velocity: acceleration }, Output { acceleration, resistance })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use strut_model::Value;
+
+    use super::*;
+    use crate::testing::Bench;
+
+    type Bare = Bench<LinearDrive>;
+
+    #[test]
+    fn without_friction_a_constant_force_gives_half_a_t_squared() {
+        let mut drive = Bare::new().initialized();
+        drive.set("force", 40.0);
+        drive.step(0.5);
+        assert!((drive.get("position") - 0.5 * 2.0 * 0.25).abs() < 1e-9);
+        assert_eq!(drive.get("acceleration"), 2.0);
+    }
+
+    #[test]
+    fn the_amplifier_makes_newtons_of_volts() {
+        let mut drive = Bare::new()
+            .choose("drive", Value::Integer(Drive::Command as i32 + 1))
+            .start("amplifier.gain", 35.0)
+            .initialized();
+        drive.set("command", 2.0);
+        drive.set("force", 1000.0);
+        assert!((drive.get("acceleration") - 3.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn breakaway_adds_to_the_sliding_friction_and_cogging_repeats_itself() {
+        let mut drive = Bare::new()
+            .start("guide.coulomb.force", 20.0)
+            .start("guide.coulomb.velocity", 1e-5)
+            .start("guide.stribeck.force", 8.0)
+            .start("guide.stribeck.velocity", 0.05)
+            .start("guide.cogging.force", 6.0)
+            .start("position", 0.006)
+            .start("velocity", 1e-3)
+            .initialized();
+        assert!((drive.get("resistance") - (28.0 + 6.0)).abs() < 0.01);
+    }
+
+    #[test]
+    fn in_steady_motion_the_force_is_the_resistance() {
+        let mut drive = Bare::new()
+            .start("guide.damping", 200.0)
+            .start("guide.coulomb.force", 20.0)
+            .start("constant_load", -3.0)
+            .initialized();
+        drive.set("force", 57.0);
+        drive.step(3.0);
+        assert!((drive.get("velocity") - (57.0 - 20.0 + 3.0) / 200.0).abs() < 1e-9);
+    }
+}

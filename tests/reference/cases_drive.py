@@ -1,0 +1,38 @@
+"""Cases of the linear positioning drive, each effect at once."""
+
+from cases import single
+from cases_effects import points
+from linear_drive import LinearDrive
+
+DECLARED = {"moving_mass": 20.0, "amplifier.gain": 1.0}
+GUIDE = {
+    "guide.damping": 60.0,
+    "guide.coulomb.force": 15.0,
+    "guide.coulomb.velocity": 0.008,
+    "guide.stribeck.force": 6.0,
+    "guide.stribeck.velocity": 0.02,
+    "guide.cogging.force": 5.0,
+    "guide.cogging.period": 0.03,
+    "guide.cogging.phase": 0.4,
+}
+SINES = [[90.0, 0.9, 0.3], [40.0, 2.7, 1.2]]
+
+
+def drive(name, inputs, changed, description, settings=None):
+    rest = {"sines": [], "steps": []}
+    inputs = {name: inputs.get(name, rest) for name in LinearDrive.inputs}
+    return single(name, LinearDrive, inputs, stop=3.0, every=15, parameters=DECLARED, changed=changed,
+                  settings=settings, start={"position": 0.01, "velocity": -0.05}, description=description)
+
+
+CASES = [
+    drive("linear-drive-force",
+          {"force": {"sines": SINES, "steps": [[30.0, 1.4005]]}, "load.force": {"sines": [], "steps": [[-12.0, 2.0005]]}},
+          GUIDE | {"spring.stiffness": 400.0, "constant_load": 4.0},
+          "Friction with breakaway, cogging, spring and loads."),
+    drive("linear-drive-command", {"command": {"sines": [[2.5, 0.8, 0.1], [1.0, 3.1, 0.7]], "steps": []}},
+          GUIDE | {"amplifier.gain": 35.0, "guide.curve.scale": 1.2, "guide.curve.velocity_range": 0.4,
+                   **points("guide.curve.over_velocity",
+                            [-9.0, -7.0, -8.0, -4.0, -2.0, 0.0, 3.0, 5.0, 4.0, 8.0, 9.0])},
+          "Behind an amplifier, with an unnamed force.", settings={"drive": "Command"}),
+]
