@@ -4,13 +4,14 @@ mod pictures;
 
 use crate::catalogue::{Element, Table};
 use crate::correction::Fault;
-use crate::diagnosis::{Diagnosis, intervals, phi, root_mean_square};
+use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::findings::{
     BaseParameter, Candidate, Curve, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal, Start,
     Verdict,
 };
 use crate::fit::{Handle, Point, Residuals};
 use crate::hypothesis::{Fitted, POINTS, Term};
+use crate::intervals::Interval;
 use crate::naming::{self, name};
 use crate::recorded::{Recorded, Source};
 use crate::screening::rms;
@@ -93,8 +94,9 @@ impl Diagnosis<'_> {
             })
             .collect();
         let base = rig.base();
-        for (handle, after, half) in intervals(&self.world, &self.found.extended) {
-            if let Handle::Parameter(index) = handle
+        for interval in &self.intervals {
+            let (after, half) = (interval.value, interval.half);
+            if let Handle::Parameter(index) = interval.handle
                 && base.contains(&index)
             {
                 let (before, declared) = (rig.parameters[index], &rig.plant.parameters[index]);
@@ -104,8 +106,8 @@ impl Diagnosis<'_> {
                     unit: declared.unit.symbol.into(),
                     before,
                     after,
-                    low: after - half,
-                    high: after + half,
+                    low: interval.low(),
+                    high: interval.high(),
                     mismatch: change > 1.5 * half && change > MISMATCH * before.abs(),
                 });
             }
@@ -116,10 +118,8 @@ impl Diagnosis<'_> {
     /// The point of the held-out records as they were measured, and the errors there.
     fn measured(&self, terms: &[Term], point: &Point) -> Option<(Point, Residuals)> {
         let dynamics = self.world.dynamics(terms).ok()?;
-        let sections = self.measured.iter().map(|record| record.sections.len()).sum();
-        let start: Vec<f64> = self.world.rig.plant.states.iter().map(|state| state.start).collect();
         let fit = self.world.fit(&*dynamics, self.measured, Vec::new());
-        let mut point = Point { starts: vec![start; sections], ..point.clone() };
+        let mut point = Point { starts: self.world.starts(self.measured), ..point.clone() };
         // What any master finds with the extended model, which knows nothing of the channels' timing.
         for output in 0..point.outputs.len() {
             let timing = Handle::Output(output, Fault::Delay);
@@ -183,11 +183,10 @@ impl Diagnosis<'_> {
         let plant = &self.world.rig.plant;
         let words = name(accepted.term, plant);
         let own = self.world.own_coordinates(accepted.term);
-        let all = intervals(&self.world, &self.found.extended);
-        let parameters = all.iter().filter(|(handle, _, _)| own.iter().any(|it| it.handle == *handle));
-        let parameters = parameters.map(|(handle, value, half)| {
-            let (name, unit) = naming::handle(*handle, plant);
-            EffectParameter { name, value: *value, unit, low: value - half, high: value + half }
+        let parameters = self.intervals.iter().filter(|it| own.iter().any(|own| own.handle == it.handle));
+        let parameters = parameters.map(|it| {
+            let (name, unit) = naming::handle(it.handle, plant);
+            EffectParameter { name, value: it.value, unit, low: it.low(), high: it.high() }
         });
         let rivals: Vec<naming::Name> = accepted.rivals.iter().map(|term| name(*term, plant)).collect();
         Effect {
@@ -219,7 +218,6 @@ impl Diagnosis<'_> {
         let plant = &self.world.rig.plant;
         let fitted: &Fitted = &self.found.extended;
         let range = plant.parameter(table.range).map_or(0.0, |index| fitted.point.parameters[index]);
-        let all = intervals(&self.world, fitted);
         let mut curve = Curve {
             location: table.element.name().into(),
             variable: self.variable(table),
@@ -232,8 +230,8 @@ impl Diagnosis<'_> {
         };
         for number in 1..=POINTS {
             let index = plant.parameter(&format!("{}[{number}]", table.points));
-            let found = all.iter().find(|(handle, _, _)| index.map(Handle::Parameter) == Some(*handle));
-            let Some((_, value, half)) = found else { continue };
+            let found = self.intervals.iter().find(|it| index.map(Handle::Parameter) == Some(it.handle));
+            let Some(Interval { value, half, .. }) = found else { continue };
             // A point whose force is not determined is not covered by the data.
             if *half < self.world.typical(table.element).force {
                 curve.x.push(range * (2.0 * (number - 1) as f64 / (POINTS - 1) as f64 - 1.0));

@@ -1,22 +1,22 @@
 //! From records to findings: base fit, search, and what is told about it.
 
-use nalgebra::DVector;
+use std::ops::Range;
 
 use crate::catalogue::{self, Cause};
 use crate::correction::Fault;
 use crate::findings::Evidence;
-use crate::fit::{self, Handle, Point, Residuals};
+use crate::fit::{Handle, Point, Residuals};
 use crate::hypothesis::{Fitted, World};
-use crate::lsq::Problem;
+use crate::intervals::Interval;
 use crate::lsq::Stop;
 use crate::plant::Drive;
-use crate::recorded::{Measured, Recorded, Source};
+use crate::recorded::{Recorded, Source};
 use crate::rig::Rig;
 use crate::screening::{rms, typical};
 use crate::search::Found;
 
-/// Blocks of half a second that make a long stretch.
-const STRETCH: usize = 10;
+/// Length of a short stretch of data in seconds, over which no model goes far astray.
+const SHOT: f64 = 1.0;
 
 /// A diagnosis that has come to its end.
 pub struct Diagnosis<'a> {
@@ -30,6 +30,8 @@ pub struct Diagnosis<'a> {
     pub found: Found,
     /// Causes that the starting model has already, in quite another size.
     pub rooted: Vec<(&'static Cause, Evidence)>,
+    /// How sure each coordinate of the extended model is.
+    pub intervals: Vec<Interval>,
     /// Signals that had to be turned over before anything fitted.
     pub reversed: Vec<Handle>,
 }
@@ -62,7 +64,7 @@ pub fn diagnose<'a>(
     };
     progress("simulating the starting model");
     let dynamics = world.dynamics(&[])?;
-    world.sigma = measured_sigma(rig, train, |measured| rms(&measured.values));
+    world.sigma = measured_sigma(rig, train);
     world.floor = floors(train);
     let mut start = {
         let bare = world.fit(&*dynamics, train, Vec::new());
@@ -72,6 +74,12 @@ pub fn diagnose<'a>(
     progress("fitting the starting model's parameters");
     let mut reversed = Vec::new();
     let mut base = world.fitted(&[], &[start.clone()], Stop::NOISY)?;
+    if !fits(&world, &base)
+        && let Some(other) = shot(&world, &start)
+        && other.cost < base.cost
+    {
+        base = other;
+    }
     // A sign is doubted only where something does not fit at all.
     let doubted = if fits(&world, &base) { Vec::new() } else { signals(train) };
     for handle in doubted {
@@ -96,7 +104,9 @@ pub fn diagnose<'a>(
     };
     let found = world.search(base, progress)?;
     let rooted = rooted(&mut world, &found)?;
-    Ok(Diagnosis { world, measured, before, found, rooted, reversed })
+    progress("comparing what each excitation says");
+    let intervals = world.intervals(&found.extended)?;
+    Ok(Diagnosis { world, measured, before, found, rooted, intervals, reversed })
 }
 
 /// Causes among the base parameters whose size differs from the starting model's by more than half, with what speaks
@@ -123,6 +133,37 @@ fn rooted(world: &mut World<'_>, found: &Found) -> Result<Vec<(&'static Cause, E
         }
     }
     Ok(rooted)
+}
+
+/// The base fit from where many short stretches lead, each with states of its own at the start: over a long stretch, a
+/// model that is far off loses the data's phase, or drifts away, and the way to the minimum is lost with it (multiple
+/// shooting; H. G. Bock, Recent advances in parameter identification techniques for o.d.e., 1983).
+fn shot(world: &World<'_>, start: &Point) -> Option<Fitted> {
+    let cut = |record: &Recorded| {
+        let length = ((SHOT / record.step) as usize).max(record.block());
+        let pieces = |section: &Range<usize>| {
+            let ends = (section.start..section.end).step_by(length).skip(1).chain([section.end]);
+            let starts = (section.start..section.end).step_by(length);
+            starts.zip(ends.collect::<Vec<_>>()).map(|(start, end)| start..end).collect::<Vec<_>>()
+        };
+        Recorded { sections: record.sections.iter().flat_map(pieces).collect(), ..record.clone() }
+    };
+    let train: Vec<Recorded> = world.train.iter().map(cut).collect();
+    let short = World {
+        train: &train,
+        test: &[],
+        typical: Vec::new(),
+        known: world.known.clone(),
+        held: Vec::new(),
+        only: Vec::new(),
+        sigma: world.sigma.clone(),
+        floor: world.floor.clone(),
+        rig: world.rig,
+    };
+    let starts = short.origin().starts;
+    let near = short.fitted(&[], &[Point { starts, ..start.clone() }], Stop::NOISY).ok()?;
+    let point = Point { starts: start.starts.clone(), ..near.point };
+    world.fitted(&[], &[point], Stop::NOISY).ok()
 }
 
 /// Whether every signal is met at least roughly.
@@ -152,11 +193,12 @@ fn signals(train: &[Recorded]) -> Vec<Handle> {
     inputs.chain(outputs).collect()
 }
 
-fn measured_sigma(rig: &Rig, records: &[Recorded], of: impl Fn(&Measured) -> f64) -> Vec<f64> {
+/// Root mean square of each output's signal.
+fn measured_sigma(rig: &Rig, records: &[Recorded]) -> Vec<f64> {
     let mut sigma = vec![1.0; rig.plant.outputs.len()];
     for record in records {
         for measured in &record.measured {
-            sigma[measured.output] = of(measured).max(f64::MIN_POSITIVE);
+            sigma[measured.output] = rms(&measured.values).max(f64::MIN_POSITIVE);
         }
     }
     sigma
@@ -191,34 +233,6 @@ pub(crate) fn outputs(world: &World<'_>, fitted: &Fitted) -> Vec<Vec<Vec<f64>>> 
             whole
         })
         .collect()
-}
-
-/// Value and half the 95 % interval of each coordinate.
-///
-/// Errors of a model that is not quite right pull its parameters differently in every excitation: beside the spread of
-/// the training data's own blocks, the pull of long stretches of all data counts, held-out ones included, and the larger
-/// of both makes the interval.
-pub fn intervals(world: &World<'_>, fitted: &Fitted) -> Vec<(Handle, f64, f64)> {
-    let own = fit::covariance(&fitted.linear, &fitted.trace.scores);
-    let mut stretches = stretches(&fitted.trace.scores);
-    let learnt = stretches.len();
-    if let Ok(dynamics) = world.dynamics(&fitted.terms) {
-        let point = world.held_out_point(&*dynamics, &fitted.point);
-        let fit = world.fit(&*dynamics, world.test, fitted.coordinates.clone());
-        let (_, trace) = fit.linearise(&point);
-        stretches.extend(self::stretches(&trace.scores));
-    }
-    let share = learnt as f64 / stretches.len().max(1) as f64;
-    let pull = fit::sandwich(&fitted.linear, &stretches) * share;
-    let handles = fitted.coordinates.iter().enumerate();
-    let half = |index: usize| 1.96 * own[(index, index)].max(pull[(index, index)]).max(0.0).sqrt();
-    handles.map(|(index, it)| (it.handle, fitted.point.get(it.handle), half(index))).collect()
-}
-
-/// Scores of so many blocks together.
-fn stretches(scores: &[DVector<f64>]) -> Vec<DVector<f64>> {
-    let sum = |blocks: &[DVector<f64>]| blocks.iter().skip(1).fold(blocks[0].clone(), |sum, it| sum + it);
-    scores.chunks(STRETCH).map(sum).collect()
 }
 
 /// How closely signals are met: `1 − rms(e)/rms(z)`, TUM eq. 16; z about its mean.

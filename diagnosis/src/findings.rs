@@ -141,31 +141,47 @@ pub struct Evidence {
     pub explained: f64,
     /// Largest rise of Φ among the signals, on the training or the held-out data, whichever is less.
     pub phi_gain: f64,
+    /// Share that it takes away of the error's power that was left without it, on the training or the held-out data,
+    /// whichever is less.
+    pub taken: f64,
 }
 
 /// Share of the error's power on held-out data that does not go by chance, however few the blocks are.
 const BY_FAR: f64 = 0.25;
 
+/// Student's t over the training data's blocks that is enough for what takes most of the error away: its gains are as
+/// uneven as the errors were, and t is small for all their size.
+const STEADY: f64 = 2.0;
+
 impl Evidence {
     /// What has to be exceeded, in every gate. The information criterion alone is never the verdict: small unmodelled
     /// effects pass it on every record.
+    ///
+    /// Of `phi_gain` and `taken`, one is enough: what takes most of the error away is no mixture of small effects.
     pub const REQUIRED: Self =
-        Self { delta_bic: 20.0, block_t: 3.5, held_out_t: 3.0, explained: 0.01, phi_gain: 0.015 };
+        Self { delta_bic: 20.0, block_t: 3.5, held_out_t: 3.0, explained: 0.01, phi_gain: 0.015, taken: 0.7 };
+
+    /// Whether it takes most of the error away, however small that is.
+    pub fn takes_the_bulk(&self) -> bool {
+        self.taken > Self::REQUIRED.taken
+    }
 
     /// The first gate that is not passed, in words.
     pub fn refusal(&self) -> Option<String> {
-        let Self { delta_bic, block_t, held_out_t, explained, phi_gain } = *self;
+        let Self { delta_bic, block_t, held_out_t, explained, phi_gain, .. } = *self;
         let passed = |found: f64, required: f64| found > required;
         let by_far = passed(explained, BY_FAR) && held_out_t > 0.0;
         if !passed(delta_bic, Self::REQUIRED.delta_bic) {
             Some(format!("explains too little for its parameters (BIC falls by {delta_bic:.0})"))
-        } else if !passed(block_t, Self::REQUIRED.block_t) {
+        } else if !(passed(block_t, Self::REQUIRED.block_t)
+            || self.takes_the_bulk() && passed(block_t, STEADY))
+        {
             Some(format!("no steady gain over the training data (t = {block_t:.1})"))
         } else if !(passed(held_out_t, Self::REQUIRED.held_out_t) || by_far) {
             Some(format!("no gain on held-out data (t = {held_out_t:.1})"))
         } else if !passed(explained, Self::REQUIRED.explained) {
             Some(format!("too small to matter ({:.1} % of the error)", 100.0 * explained))
-        } else if !passed(phi_gain, Self::REQUIRED.phi_gain) {
+        } else if !(passed(phi_gain, Self::REQUIRED.phi_gain) || self.takes_the_bulk()) {
             Some(format!("too small to matter (Φ rises by {phi_gain:.3})"))
         } else {
             None

@@ -91,14 +91,30 @@ impl World<'_> {
 
     /// The point that everything starts from.
     pub fn origin(&self) -> Point {
-        let sections = self.train.iter().map(|record| record.sections.len()).sum();
-        let start = self.rig.start.clone();
         Point {
             parameters: self.rig.parameters.clone(),
             inputs: vec![Correction::default(); self.rig.plant.inputs.len()],
             outputs: vec![Correction::default(); self.rig.plant.outputs.len()],
-            starts: vec![start; sections],
+            starts: self.starts(self.train),
         }
+    }
+
+    /// A first guess of the states at the start of each section: what was measured of them, otherwise the rig's own.
+    pub fn starts(&self, records: &[Recorded]) -> Vec<Vec<f64>> {
+        let plant = &self.rig.plant;
+        let of = |record: &Recorded, at: usize| {
+            let mut start = self.rig.start.clone();
+            for measured in &record.measured {
+                let (output, value) = (&plant.outputs[measured.output].name, measured.values[at]);
+                if let Some(state) = plant.state(output).filter(|_| value.is_finite()) {
+                    start[state] = value;
+                }
+            }
+            start
+        };
+        let sections =
+            records.iter().flat_map(|it| it.sections.iter().map(move |section| (it, section.start)));
+        sections.map(|(record, at)| of(record, at)).collect()
     }
 
     /// The settings with the terms.
@@ -229,14 +245,13 @@ impl World<'_> {
         let minima = minima.map(|start| lsq::minimise(&fit, fit.settled(start.clone()), stop));
         let best = minima.min_by(|a, b| a.cost.total_cmp(&b.cost));
         let best = best.ok_or("the simulation diverges from every start")?;
-        let (linear, trace) = fit.linearise(&best.point);
         let train = fit.residuals(&best.point);
         let test = self.held_out(&*dynamics, &best.point);
         Ok(Fitted {
             terms: terms.to_vec(),
             coordinates,
-            linear,
-            trace,
+            linear: best.linear,
+            trace: best.trace,
             cost: best.cost,
             point: best.point,
             train,
@@ -246,9 +261,7 @@ impl World<'_> {
 
     /// The point of the held-out data: the same parameters, states at the start of their own.
     pub fn held_out_point(&self, dynamics: &dyn Dynamics, point: &Point) -> Point {
-        let sections = self.test.iter().map(|record| record.sections.len()).sum();
-        let start = self.rig.start.clone();
-        let point = Point { starts: vec![start; sections], ..point.clone() };
+        let point = Point { starts: self.starts(self.test), ..point.clone() };
         self.fit(dynamics, self.test, Vec::new()).settled(point)
     }
 

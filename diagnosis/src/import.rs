@@ -109,7 +109,10 @@ fn wanted(rig: &Rig) -> Vec<Wanted> {
         .map(|declared| {
             let aliases = rig.kind.aliases.iter().filter(|(name, _)| *name == declared.name);
             let columns = driven.filter(|it| it.input == declared.name).map_or(&[][..], |it| it.columns);
-            let aliases = aliases.map(|(_, alias)| alias).chain(columns);
+            // A column that drives the rig is not what it did, too.
+            let aliases =
+                aliases.map(|(_, alias)| alias).filter(|it| !rig.taken.iter().any(|taken| taken == *it));
+            let aliases = aliases.chain(columns);
             Wanted {
                 name: declared.name.clone(),
                 unit: declared.unit.symbol.into(),

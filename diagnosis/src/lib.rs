@@ -19,6 +19,7 @@ pub mod findings;
 pub mod fit;
 pub mod hypothesis;
 pub mod import;
+pub mod intervals;
 pub mod lsq;
 pub mod naming;
 pub mod plant;

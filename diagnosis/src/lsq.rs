@@ -89,6 +89,38 @@ impl Linear {
         covariance
     }
 
+    /// The covariance at a minimum for scores that are correlated within, not among, themselves: those of blocks of time;
+    /// infinite for a coordinate that is not determined.
+    pub fn robust_covariance(&self, scores: &[DVector<f64>]) -> DMatrix<f64> {
+        let n = self.q.len();
+        let mean =
+            scores.iter().fold(DVector::zeros(n), |sum, score| sum + score) / scores.len().max(1) as f64;
+        let deviations: Vec<DVector<f64>> = scores.iter().map(|score| score - &mean).collect();
+        self.sandwich(&deviations)
+    }
+
+    /// `H⁻¹ (Σ s sᵀ) H⁻¹`; infinite for a coordinate that is not determined.
+    pub fn sandwich(&self, scores: &[DVector<f64>]) -> DMatrix<f64> {
+        let mut inverse = self.covariance();
+        let n = inverse.ncols();
+        let unknown: Vec<usize> = (0..n).filter(|index| inverse[(*index, *index)].is_infinite()).collect();
+        for index in &unknown {
+            inverse[(*index, *index)] = 0.0;
+        }
+        let spread = scores.iter().fold(DMatrix::zeros(n, n), |sum, score| sum + score * score.transpose());
+        let mut covariance = &inverse * spread * &inverse;
+        for index in unknown {
+            covariance[(index, index)] = f64::INFINITY;
+        }
+        covariance
+    }
+
+    /// The step to the minimum; zero for coordinates that are not determined.
+    pub fn minimiser(&self) -> DVector<f64> {
+        let inverse = self.covariance().map(|it| if it.is_finite() { it } else { 0.0 });
+        -(inverse * self.r.tr_mul(&self.q))
+    }
+
     /// The step that is least in `‖R d + q‖² + λ‖D d‖²` over the free coordinates; others stay.
     fn step(&self, lambda: f64, scale: &DVector<f64>, free: &[bool]) -> DVector<f64> {
         let n = self.r.ncols();
@@ -158,19 +190,21 @@ impl Stop {
 
 /// A minimum.
 #[derive(Clone, Debug)]
-pub struct Minimum<P> {
+pub struct Minimum<P, T> {
     /// Where.
     pub point: P,
     /// Half the sum of squares.
     pub cost: f64,
     /// The linearisation there.
     pub linear: Linear,
+    /// What linearising left behind.
+    pub trace: T,
     /// Linearisations that it took.
     pub iterations: usize,
 }
 
 /// Goes downhill from a point to a minimum within the bounds.
-pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum<P::Point> {
+pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum<P::Point, P::Trace> {
     let mut point = start;
     let mut cost = problem.cost(&point);
     let (mut linear, mut trace) = problem.linearise(&point);
@@ -210,7 +244,7 @@ pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum
             }
         }
     }
-    Minimum { point, cost, linear, iterations }
+    Minimum { point, cost, linear, trace, iterations }
 }
 
 fn unit_where_zero(norms: &DVector<f64>) -> DVector<f64> {

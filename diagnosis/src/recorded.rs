@@ -42,7 +42,15 @@ pub struct Measured {
     pub noise_floor: f64,
 }
 
+/// Length of the blocks of time over which errors and scores are summed, in seconds: longer than the residuals' memory.
+const BLOCK: f64 = 0.5;
+
 impl Recorded {
+    /// Number of samples in such a block.
+    pub fn block(&self) -> usize {
+        ((BLOCK / self.step).round() as usize).max(4)
+    }
+
     /// Number of samples.
     pub fn len(&self) -> usize {
         self.measured.first().map_or(0, |measured| measured.values.len())

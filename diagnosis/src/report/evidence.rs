@@ -57,13 +57,13 @@ pub fn gates(evidence: &Evidence) -> [Gate; 5] {
             REQUIRED.explained,
             percent,
         ),
-        gate(
-            "Relevance",
-            "largest rise of Φ among the signals, on either data",
-            evidence.phi_gain,
-            REQUIRED.phi_gain,
-            number,
-        ),
+        if evidence.phi_gain <= REQUIRED.phi_gain && evidence.takes_the_bulk() {
+            let what = "share that it takes away of the error that was left";
+            gate("Relevance", what, evidence.taken, REQUIRED.taken, percent)
+        } else {
+            let what = "largest rise of Φ among the signals, on either data";
+            gate("Relevance", what, evidence.phi_gain, REQUIRED.phi_gain, number)
+        },
     ]
 }
 

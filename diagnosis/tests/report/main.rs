@@ -213,6 +213,7 @@ fn every_field_and_verdict_is_described_in_the_readme() {
         ("held_out_t", required.held_out_t),
         ("explained", required.explained),
         ("phi_gain", required.phi_gain),
+        ("taken", required.taken),
     ] {
         assert!(section.contains(&format!("| `{gate}` | 1 | {limit} |")), "the limit of {gate}");
     }
@@ -246,7 +247,7 @@ fn with_numbers(mut findings: Findings, numbers: &[f64]) -> Findings {
         let evidence = &mut effect.evidence;
         (evidence.delta_bic, evidence.block_t, evidence.held_out_t) = (next(), next(), next());
         evidence.explained = next();
-        evidence.phi_gain = next();
+        (evidence.phi_gain, evidence.taken) = (next(), next());
     }
     for parameter in &mut findings.base_parameters {
         (parameter.before, parameter.after, parameter.low, parameter.high) = (next(), next(), next(), next());

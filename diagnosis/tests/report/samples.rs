@@ -58,6 +58,7 @@ fn friction() -> Effect {
             held_out_t: 7.31,
             explained: 0.943,
             phi_gain: 0.21,
+            taken: 0.35,
         },
         ambiguous_with: vec![],
         experiment: None,
@@ -105,6 +106,7 @@ fn candidates() -> Vec<Candidate> {
             held_out_t: 0.4,
             explained: 0.004,
             phi_gain: 0.002,
+            taken: 0.35,
         };
         Candidate {
             id: id.into(),
@@ -204,6 +206,7 @@ pub fn sample(verdict: Verdict) -> Findings {
                 held_out_t: 3.4,
                 explained: 0.062,
                 phi_gain: 0.04,
+                taken: 0.35,
             };
             findings.effects = vec![friction(), cogging];
             findings.summary =

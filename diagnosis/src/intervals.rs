@@ -1,0 +1,141 @@
+//! How sure the coordinates of a fit are.
+//!
+//! Errors of a model that is not quite right pull its parameters differently in every excitation. Beside the spread
+//! within the training data, what each excitation on its own would say of a coordinate is compared, held-out ones
+//! included: the variance between them, after DerSimonian and Laird (Meta-analysis in clinical trials, Controlled Clinical
+//! Trials 7, 1986), widens the intervals.
+
+use std::ops::Range;
+
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+use crate::fit::{Handle, Point};
+use crate::hypothesis::{Fitted, World};
+use crate::lsq::Problem;
+use crate::recorded::Recorded;
+
+/// Excitations that are compared at least: fewer records are cut in pieces.
+const EXCITATIONS: usize = 4;
+/// Quantile of the normal distribution for 95 % within.
+const NORMAL: f64 = 1.96;
+
+/// What is known of a coordinate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// The coordinate.
+    pub handle: Handle,
+    /// Its value.
+    pub value: f64,
+    /// Half the interval that holds the true value with 95 %; infinite if nothing is known.
+    pub half: f64,
+    /// Values that are possible.
+    bounds: (f64, f64),
+}
+
+impl Interval {
+    /// Its lower end, within what is possible.
+    pub fn low(&self) -> f64 {
+        (self.value - self.half).max(self.bounds.0)
+    }
+
+    /// Its upper end, within what is possible.
+    pub fn high(&self) -> f64 {
+        (self.value + self.half).min(self.bounds.1)
+    }
+}
+
+/// What an excitation on its own says of a coordinate.
+#[derive(Clone, Copy, Debug)]
+struct Opinion {
+    /// Change from the fitted value.
+    shift: f64,
+    /// Its variance.
+    variance: f64,
+    /// Whether it was learnt from.
+    learnt: bool,
+}
+
+impl World<'_> {
+    /// The interval of each coordinate of a fit.
+    ///
+    /// # Errors
+    /// If the model refuses its settings.
+    pub fn intervals(&self, fitted: &Fitted) -> Result<Vec<Interval>, String> {
+        let own = fitted.linear.robust_covariance(&fitted.trace.scores);
+        let opinions = self.opinions(fitted)?;
+        let interval = |(index, coordinate): (usize, &crate::fit::Coordinate)| {
+            let all: Vec<Opinion> = opinions.iter().map(|excitation| excitation[index]).collect();
+            let (between, quantile) = between(&all);
+            let variance = NORMAL.powi(2) * own[(index, index)].max(0.0) + quantile.powi(2) * between;
+            let value = fitted.point.get(coordinate.handle);
+            let (handle, bounds) = (coordinate.handle, coordinate.bounds);
+            Interval { handle, value, half: variance.sqrt(), bounds }
+        };
+        Ok(fitted.coordinates.iter().enumerate().map(interval).collect())
+    }
+
+    /// What each excitation says of each coordinate: a Gauss–Newton step from the fit.
+    fn opinions(&self, fitted: &Fitted) -> Result<Vec<Vec<Opinion>>, String> {
+        let dynamics = self.dynamics(&fitted.terms)?;
+        let of = |record: &Recorded, learnt: bool| {
+            let records = std::slice::from_ref(record);
+            let starts = self.starts(records);
+            let fit = self.fit(&*dynamics, records, fitted.coordinates.clone());
+            let point = fit.settled(Point { starts, ..fitted.point.clone() });
+            let (linear, trace) = fit.linearise(&point);
+            let shift = linear.minimiser();
+            let covariance = linear.robust_covariance(&trace.scores);
+            let one = |index: usize| Opinion {
+                shift: shift[index],
+                variance: covariance[(index, index)].max(f64::MIN_POSITIVE),
+                learnt,
+            };
+            (0..fitted.coordinates.len()).map(one).collect()
+        };
+        let pieces = EXCITATIONS.div_ceil(self.train.len() + self.test.len());
+        let all = self.train.iter().map(|it| (it, true)).chain(self.test.iter().map(|it| (it, false)));
+        let cut = all.flat_map(|(record, learnt)| {
+            cut(record, pieces)
+                .into_iter()
+                .map(move |sections| (Recorded { sections, ..record.clone() }, learnt))
+        });
+        Ok(cut.map(|(record, learnt)| of(&record, learnt)).collect())
+    }
+}
+
+/// A record's sections in so many pieces.
+fn cut(record: &Recorded, pieces: usize) -> Vec<Vec<Range<usize>>> {
+    if pieces < 2 {
+        return vec![record.sections.clone()];
+    }
+    let length = record.len().div_ceil(pieces).max(1);
+    let piece = |number: usize| -> Vec<Range<usize>> {
+        let (start, end) = (number * length, (number + 1) * length);
+        let part = |it: &Range<usize>| it.start.max(start)..it.end.min(end);
+        // What is shorter than a block says nothing on its own.
+        record.sections.iter().map(part).filter(|it| it.len() > record.block()).collect()
+    };
+    (0..pieces).map(piece).filter(|sections| !sections.is_empty()).collect()
+}
+
+/// The variance that differences between excitations bring to what was learnt from some of them, and the quantile of
+/// Student's distribution that belongs to it.
+fn between(opinions: &[Opinion]) -> (f64, f64) {
+    let known: Vec<&Opinion> =
+        opinions.iter().filter(|it| it.shift.is_finite() && it.variance.is_finite()).collect();
+    let freedom = known.len() as f64 - 1.0;
+    let sum = |of: &dyn Fn(&Opinion) -> f64| known.iter().map(|it| of(it)).sum::<f64>();
+    let weight = |it: &Opinion| 1.0 / it.variance;
+    let (first, second) = (sum(&weight), sum(&|it| weight(it).powi(2)));
+    let spread = first - second / first;
+    if freedom < 1.0 || spread <= 0.0 {
+        return (0.0, 0.0);
+    }
+    let mean = sum(&|it| weight(it) * it.shift) / first;
+    let excess = sum(&|it| weight(it) * (it.shift - mean).powi(2)) - freedom;
+    let each = (excess / spread).max(0.0);
+    let learnt = |power: i32| sum(&|it| if it.learnt { weight(it).powi(power) } else { 0.0 });
+    let share = learnt(2) / learnt(1).powi(2).max(f64::MIN_POSITIVE);
+    let quantile = StudentsT::new(0.0, 1.0, freedom).map_or(NORMAL, |it| it.inverse_cdf(0.975));
+    (each * share, quantile)
+}

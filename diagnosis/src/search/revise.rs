@@ -1,0 +1,118 @@
+//! Second thoughts about what a search has found: terms taken away, exchanged, or given up for a curve.
+
+use crate::hypothesis::{Fitted, Term, World};
+use crate::lsq::Stop;
+
+use super::{Accepted, Found, is_table, merge};
+
+impl World<'_> {
+    /// The found terms without one of them, fitted.
+    fn without(&self, found: &Found, index: usize) -> Result<Fitted, String> {
+        let mut terms = found.extended.terms.clone();
+        terms.retain(|term| *term != found.accepted[index].term);
+        let mut start = found.extended.point.clone();
+        for coordinate in self.own_coordinates(found.accepted[index].term) {
+            let shared = terms.iter().any(|term| {
+                self.own_coordinates(*term).iter().any(|other| other.handle == coordinate.handle)
+            });
+            if !shared {
+                start.set(coordinate.handle, found.base.point.get(coordinate.handle));
+            }
+        }
+        self.fitted(&terms, &[start], Stop::NOISY)
+    }
+
+    /// Puts rivals in the place of each accepted term: one that does better takes it, one that does as well stays a
+    /// rival. What was a rival while another cause was still missing may be none any more.
+    pub(super) fn swap(&self, found: &mut Found) -> Result<(), String> {
+        for index in 0..found.accepted.len() {
+            let accepted: Vec<Term> = found.accepted.iter().map(|it| it.term).collect();
+            let rivals: Vec<Term> = found.accepted[index]
+                .rivals
+                .iter()
+                .filter(|term| !accepted.contains(term))
+                .copied()
+                .collect();
+            found.accepted[index].rivals.clear();
+            if rivals.is_empty() {
+                continue;
+            }
+            let without = self.without(found, index)?;
+            let screened = self.screened(&without)?;
+            let candidates = screened.iter().filter(|it| rivals.contains(&it.term));
+            for tried in candidates.map(|it| self.tried(&found.base, &without, it)) {
+                let Ok(fitted) = &tried.fitted else { continue };
+                if tried.evidence.refusal().is_some() {
+                    continue;
+                }
+                let behind = self.apart(&found.extended, fitted);
+                let here = &mut found.accepted[index];
+                if behind < -2.5 {
+                    here.rivals.clear();
+                    (here.term, here.evidence) = (tried.term, tried.evidence);
+                    found.extended = fitted.clone();
+                } else if behind < 2.5 {
+                    here.rivals.push(tried.term);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes each accepted term away again, and drops it if nothing is lost.
+    pub(super) fn retest(&self, found: &mut Found) -> Result<(), String> {
+        if found.accepted.len() < 2 {
+            return Ok(());
+        }
+        let mut index = 0;
+        while index < found.accepted.len() && found.accepted.len() > 1 {
+            let without = self.without(found, index)?;
+            let evidence = self.evidence(&found.base, &without, &found.extended);
+            if evidence.refusal().is_some() {
+                found.accepted.remove(index);
+                found.extended = without;
+            } else {
+                found.accepted[index].evidence = evidence;
+                index += 1;
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts a table alone in the place of everything that was found, if it explains clearly more than one cause with a
+    /// name, or as much as several of them: names that only together do what one curve does are not the cause.
+    pub(super) fn unname(&self, found: &mut Found) {
+        let Some(first) = found.accepted.first().filter(|it| !is_table(it.term)) else { return };
+        let named = found.screened.iter().find(|it| it.term == first.term);
+        let curves = self.curves(&found.base, &found.screened, named.map_or(0.0, |it| it.gain));
+        let tried = self.try_all(&found.base, &found.base, &curves);
+        merge(&mut found.tried, tried.clone());
+        let passing = tried.iter().filter(|it| it.evidence.refusal().is_none());
+        let best = passing.filter_map(|it| Some((it, it.fitted.as_ref().ok()?))).next();
+        let Some((table, fitted)) = best else { return };
+        let named = found.accepted.iter().filter(|it| !is_table(it.term)).count();
+        let factor = if named > 1 { 1.1 } else { 0.85 };
+        let enough = self.left(&found.base, fitted) < factor * self.left(&found.base, &found.extended);
+        if enough
+            && named > 0
+            && (named > 1 || self.apart(fitted, &found.extended) > 4.0)
+            && !self.is_needed(found, fitted, first.term)
+        {
+            let accepted = Accepted { term: table.term, evidence: table.evidence, rivals: Vec::new() };
+            found.extended = fitted.clone();
+            found.accepted = vec![accepted];
+        }
+    }
+
+    /// Whether a term that was found is needed beside a table, too: then they are about different things.
+    fn is_needed(&self, found: &Found, table: &Fitted, term: Term) -> bool {
+        let mut terms = table.terms.clone();
+        terms.push(term);
+        let mut start = table.point.clone();
+        for coordinate in self.own_coordinates(term) {
+            start.set(coordinate.handle, found.extended.point.get(coordinate.handle));
+        }
+        let both = self.fitted(&terms, &[start], Stop::ROUGH);
+        both.is_ok_and(|both| self.evidence(&found.base, table, &both).refusal().is_none())
+    }
+}

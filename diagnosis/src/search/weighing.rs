@@ -1,0 +1,102 @@
+//! What speaks for one fit over another.
+
+use crate::comparison::{Errors, student};
+use crate::findings::Evidence;
+use crate::fit::Residuals;
+use crate::hypothesis::{Fitted, World};
+use crate::recorded::Recorded;
+use crate::screening::rms;
+
+impl World<'_> {
+    fn block(&self) -> usize {
+        self.train.first().map_or(1, Recorded::block)
+    }
+
+    fn errors<'b>(&'b self, residuals: &'b Residuals) -> Errors<'b> {
+        Errors { residuals, floor: &self.floor }
+    }
+
+    /// Student's t of the gain over blocks, in units of what the better fit leaves.
+    fn steadiness(&self, null: &Residuals, other: &Residuals) -> f64 {
+        let (null, other) = (self.errors(null), self.errors(other));
+        student(&null.gains(&other, self.block(), &other.mean_squares()))
+    }
+
+    /// What speaks for one fit over another, of which it is an extension; how much it explains is counted in the errors
+    /// of the starting model.
+    pub fn evidence(&self, base: &Fitted, null: &Fitted, fitted: &Fitted) -> Evidence {
+        let more = fitted.coordinates.len().saturating_sub(null.coordinates.len());
+        let counts = self.errors(&null.train).effective_counts();
+        let (before, after) =
+            (self.errors(&null.train).mean_squares(), self.errors(&fitted.train).mean_squares());
+        let gain: f64 =
+            counts.iter().zip(before.iter().zip(&after)).map(|(n, (b, a))| n * (b / a).ln()).sum();
+        let total: f64 = counts.iter().sum();
+        let squares = |it: &Fitted| self.errors(&it.test).mean_squares();
+        let (unit, before, after) = (squares(base), squares(null), squares(fitted));
+        let shares =
+            unit.iter().zip(before.iter().zip(&after)).map(|(unit, (before, after))| (before - after) / unit);
+        Evidence {
+            delta_bic: gain - more as f64 * total.max(1.0).ln(),
+            block_t: self.steadiness(&null.train, &fitted.train),
+            held_out_t: self.steadiness(&null.test, &fitted.test),
+            explained: shares.sum::<f64>() / unit.len().max(1) as f64,
+            phi_gain: self.phi_gain(null, fitted),
+            taken: 1.0 - self.remaining(null, fitted),
+        }
+    }
+
+    /// The largest rise of Φ among the signals: on the training or the held-out data, whichever is less.
+    fn phi_gain(&self, null: &Fitted, fitted: &Fitted) -> f64 {
+        let of = |records: &[Recorded], null: &Residuals, fitted: &Residuals| {
+            let roots = |it: &Residuals| self.errors(it).mean_squares().into_iter().map(f64::sqrt);
+            let rows = roots(null).zip(roots(fitted)).enumerate();
+            let gains = rows.map(|(row, (before, after))| {
+                let values = records.iter().flat_map(|record| record.measured[row].values.iter().copied());
+                (before - after) / rms(&values.collect::<Vec<_>>()).max(f64::MIN_POSITIVE)
+            });
+            gains.fold(0.0, f64::max)
+        };
+        of(self.train, &null.train, &fitted.train).min(of(self.test, &null.test, &fitted.test))
+    }
+
+    /// Rank of a fit among those on top of the same: half its fall of the information criterion, over all data.
+    pub(super) fn score(&self, null: &Fitted, fitted: &Fitted) -> f64 {
+        let part = |null: &Residuals, fitted: &Residuals| -> (f64, f64) {
+            let counts = self.errors(null).effective_counts();
+            let squares =
+                self.errors(null).mean_squares().into_iter().zip(self.errors(fitted).mean_squares());
+            (counts.iter().zip(squares).map(|(n, (b, a))| 0.5 * n * (b / a).ln()).sum(), counts.iter().sum())
+        };
+        let ((train, n), (test, m)) = (part(&null.train, &fitted.train), part(&null.test, &fitted.test));
+        train + test - 0.5 * fitted.coordinates.len() as f64 * (n + m).max(1.0).ln()
+    }
+
+    /// Student's t of how much smaller one fit's errors are than another's, over all data.
+    pub(super) fn apart(&self, better: &Fitted, other: &Fitted) -> f64 {
+        let unit = self.errors(&better.train).mean_squares();
+        let gains = |other: &Residuals, better: &Residuals| {
+            self.errors(other).gains(&self.errors(better), self.block(), &unit)
+        };
+        let mut all = gains(&other.train, &better.train);
+        all.extend(gains(&other.test, &better.test));
+        student(&all)
+    }
+
+    /// Errors left on the training and on the held-out data together, in those of another fit: two where nothing is
+    /// gained.
+    pub(super) fn left(&self, unit: &Fitted, fitted: &Fitted) -> f64 {
+        self.share(&unit.train, &fitted.train) + self.share(&unit.test, &fitted.test)
+    }
+
+    /// Share of another fit's error that is left, on the training or the held-out data, whichever is more.
+    fn remaining(&self, unit: &Fitted, fitted: &Fitted) -> f64 {
+        self.share(&unit.train, &fitted.train).max(self.share(&unit.test, &fitted.test))
+    }
+
+    /// Mean over the signals of a share of the error's power.
+    fn share(&self, unit: &Residuals, residuals: &Residuals) -> f64 {
+        let (unit, squares) = (self.errors(unit).mean_squares(), self.errors(residuals).mean_squares());
+        unit.iter().zip(&squares).map(|(unit, square)| square / unit).sum::<f64>() / unit.len().max(1) as f64
+    }
+}
