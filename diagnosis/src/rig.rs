@@ -1,6 +1,7 @@
 //! The rigs that can be diagnosed: what each is made of, in the diagnosis's terms.
 
 mod actuated;
+mod drives;
 mod kinds;
 
 use strut_model::{ParameterSet, Value};

@@ -2,6 +2,12 @@
 
 use super::{Cause, Element, Scale, part};
 
+/// Pole pitches and spindle pitches in m: so close that over a stroke of some periods no phase is lost between two of them.
+const PERIODS: &[f64] = &[
+    0.004, 0.0046, 0.0053, 0.0061, 0.007, 0.008, 0.0092, 0.0106, 0.0122, 0.014, 0.0161, 0.0185, 0.0213,
+    0.0245, 0.028, 0.032, 0.037, 0.043, 0.049, 0.057,
+];
+
 pub(super) const CAUSES: &[Cause] = &[
     Cause {
         id: "33",
@@ -12,6 +18,45 @@ pub(super) const CAUSES: &[Cause] = &[
         setting: None,
         parts: &[part("constant_load", Scale::FORCE, (-10.0, 10.0), &[0.1])],
         experiment: "hold several positions: what remains of the force at all of them is the load's",
+    },
+    Cause {
+        id: "02",
+        element: Element::Guide,
+        name: "Stribeck friction of the guide",
+        equation: "F = (F_c + (F_s - F_c) exp(-(v/v_s)^2)) tanh(v/v_0)",
+        contains: &["16"],
+        setting: None,
+        parts: &[
+            part("guide.stribeck.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
+            part("guide.stribeck.velocity", Scale::VELOCITY, (5e-3, 1.0), &[0.1]),
+            part("guide.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
+            part("guide.coulomb.velocity", Scale::VELOCITY, (1e-3, 1.0), &[0.02]),
+        ],
+        experiment: "creep through zero velocity below 5 mm/s",
+    },
+    Cause {
+        id: "08",
+        element: Element::Guide,
+        name: "spring to the ground",
+        equation: "F = k x",
+        contains: &[],
+        setting: None,
+        parts: &[part("spring.stiffness", Scale::STIFFNESS, (0.0, 100.0), &[0.1])],
+        experiment: "hold several positions, and compare the forces",
+    },
+    Cause {
+        id: "27",
+        element: Element::Guide,
+        name: "cogging",
+        equation: "F = A sin(2 pi x/p + phi)",
+        contains: &[],
+        setting: None,
+        parts: &[
+            part("guide.cogging.force", Scale::FORCE, (0.0, 5.0), &[0.1]),
+            part("guide.cogging.period", Scale::ONE, (2e-3, 0.2), PERIODS),
+            part("guide.cogging.phase", Scale::ONE, (-10.0, 10.0), &[0.0, 1.57, 3.14, -1.57]),
+        ],
+        experiment: "traverse slowly, and draw the force over the position",
     },
     Cause {
         id: "01",

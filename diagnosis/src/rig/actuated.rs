@@ -1,13 +1,13 @@
 //! What the diagnosis has to know of rigs with an actuator of their own, and of actuators alone.
 
-use strut_physics::actuators::{ExcitationMotor, PumpHydraulicActuator};
+use strut_physics::actuators::PumpHydraulicActuator;
 use strut_physics::rigs::{SasRig, ServoSuspension};
 
 use crate::catalogue::Element;
 use crate::plant::Plant;
 
 use super::kinds::STRUT_FORCE;
-use super::{DrivenBy, ElementSignals, Excitation, ForceOf, Kind, Missing};
+use super::{ElementSignals, Excitation, ForceOf, Kind, Missing};
 
 pub(super) const SERVO_SUSPENSION: Kind = Kind {
     plant: Plant::of::<ServoSuspension>,
@@ -172,81 +172,5 @@ pub(super) const SAS_RIG: Kind = Kind {
     excitation: &[
         Excitation { input: "brake.torque", amplitude: 0.6, band: (0.4, 10.0) },
         Excitation { input: "eccentric.height", amplitude: 2e-3, band: (0.4, 10.0) },
-    ],
-};
-
-pub(super) const EXCITATION_MOTOR: Kind = Kind {
-    plant: Plant::of::<ExcitationMotor>,
-    model: "ExcitationMotor",
-    base: &["moving_mass", "base_spring.stiffness"],
-    elements: &[ElementSignals {
-        element: Element::Guide,
-        deflection: "position",
-        velocity: Some("velocity"),
-        force: ForceOf::Output("force"),
-    }],
-    aliases: &[
-        ("position", "displacement"),
-        ("position", "x"),
-        ("position", "q"),
-        ("position", "measured.position"),
-        ("position", "motor.position"),
-        ("velocity", "speed"),
-        ("velocity", "v"),
-        ("velocity", "measured.velocity"),
-        ("acceleration", "a"),
-        ("current", "i"),
-        ("current", "motor.current"),
-        ("force", "motor.force"),
-        ("load.force", "external.force"),
-    ],
-    trivial: &["following_error", "stroke.reserve", "speed.reserve", "power"],
-    opposed: None,
-    missing: &[Missing {
-        quantity: "force missing on the rod",
-        output: "acceleration",
-        factor: Some(("moving_mass", -1.0)),
-        over: &[Element::Guide],
-    }],
-    // Behind a force or a voltage the position drifts wherever nothing holds it.
-    section: 5.0,
-    // A measured force or voltage says more of the motor than a set point, which a loop of unknown make follows.
-    drives: &[
-        DrivenBy {
-            setting: "drive",
-            item: "Force",
-            input: "command.force",
-            base: &[],
-            columns: &["force.command", "commanded.force", "control.force", "force", "motor.force"],
-        },
-        DrivenBy {
-            setting: "drive",
-            item: "Voltage",
-            input: "command.voltage",
-            base: &["force_constant", "resistance"],
-            columns: &["voltage.command", "control.voltage", "voltage", "motor.voltage", "u"],
-        },
-        DrivenBy {
-            setting: "drive",
-            item: "Position",
-            input: "command.position",
-            base: &["position_loop.gain", "velocity_loop.proportional", "velocity_loop.integral"],
-            columns: &[
-                "position.command",
-                "commanded.position",
-                "reference.position",
-                "position.reference",
-                "desired.position",
-                "set.point",
-                "setpoint",
-                "reference",
-                "command",
-            ],
-        },
-    ],
-    excitation: &[
-        Excitation { input: "command.position", amplitude: 0.012, band: (0.4, 8.0) },
-        Excitation { input: "command.force", amplitude: 60.0, band: (0.4, 12.0) },
-        Excitation { input: "command.voltage", amplitude: 30.0, band: (0.4, 12.0) },
     ],
 };

@@ -5,7 +5,8 @@ use strut_physics::rigs::{ElementDyno, QuarterCar};
 use crate::catalogue::Element;
 use crate::plant::Plant;
 
-use super::actuated::{EXCITATION_MOTOR, PUMP_ACTUATOR, SAS_RIG, SERVO_SUSPENSION};
+use super::actuated::{PUMP_ACTUATOR, SAS_RIG, SERVO_SUSPENSION};
+use super::drives::{EXCITATION_MOTOR, LINEAR_DRIVE};
 use super::{ElementSignals, ForceOf, Kind, Missing};
 
 /// Section of a plant that does not drift, in seconds: it bounds the memory.
@@ -100,4 +101,5 @@ pub(super) const KINDS: &[Kind] = &[
     PUMP_ACTUATOR,
     SAS_RIG,
     EXCITATION_MOTOR,
+    LINEAR_DRIVE,
 ];

@@ -1,0 +1,123 @@
+//! What the diagnosis has to know of positioning drives.
+
+use strut_physics::actuators::ExcitationMotor;
+use strut_physics::rigs::LinearDrive;
+
+use crate::catalogue::Element;
+use crate::plant::Plant;
+
+use super::{DrivenBy, ElementSignals, Excitation, ForceOf, Kind, Missing};
+
+/// Behind a force or a voltage the position drifts wherever nothing holds it: longest section in seconds.
+const DRIFTING: f64 = 1.0;
+
+const MISSING: &[Missing] = &[Missing {
+    quantity: "force missing on the moving mass",
+    output: "acceleration",
+    factor: Some(("moving_mass", -1.0)),
+    over: &[Element::Guide],
+}];
+
+const FORCES: &[&str] = &["force.command", "commanded.force", "control.force", "force", "motor.force"];
+const VOLTAGES: &[&str] = &["voltage.command", "control.voltage", "voltage", "motor.voltage", "u"];
+
+pub(super) const LINEAR_DRIVE: Kind = Kind {
+    plant: Plant::of::<LinearDrive>,
+    model: "LinearDrive",
+    // The amplifier's gain is not told from mass and friction together: it is taken as known.
+    base: &["moving_mass", "guide.damping"],
+    elements: &[ElementSignals {
+        element: Element::Guide,
+        deflection: "position",
+        velocity: Some("velocity"),
+        force: ForceOf::Moment("acceleration", "moving_mass"),
+    }],
+    aliases: &[
+        ("position", "displacement"),
+        ("position", "x"),
+        ("position", "q"),
+        ("position", "measured.position"),
+        ("position", "motor.position"),
+        ("velocity", "speed"),
+        ("velocity", "v"),
+        ("velocity", "measured.velocity"),
+        ("acceleration", "a"),
+        ("load.force", "external.force"),
+    ],
+    trivial: &["resistance"],
+    opposed: None,
+    missing: MISSING,
+    section: DRIFTING,
+    drives: &[
+        DrivenBy { setting: "drive", item: "Force", input: "force", base: &[], columns: FORCES },
+        DrivenBy { setting: "drive", item: "Command", input: "command", base: &[], columns: VOLTAGES },
+    ],
+    excitation: &[
+        Excitation { input: "force", amplitude: 60.0, band: (0.4, 12.0) },
+        Excitation { input: "command", amplitude: 60.0, band: (0.4, 12.0) },
+    ],
+};
+
+pub(super) const EXCITATION_MOTOR: Kind = Kind {
+    plant: Plant::of::<ExcitationMotor>,
+    model: "ExcitationMotor",
+    base: &["moving_mass", "base_spring.stiffness"],
+    elements: &[ElementSignals {
+        element: Element::Guide,
+        deflection: "position",
+        velocity: Some("velocity"),
+        force: ForceOf::Output("force"),
+    }],
+    aliases: &[
+        ("position", "displacement"),
+        ("position", "x"),
+        ("position", "q"),
+        ("position", "measured.position"),
+        ("position", "motor.position"),
+        ("velocity", "speed"),
+        ("velocity", "v"),
+        ("velocity", "measured.velocity"),
+        ("acceleration", "a"),
+        ("current", "i"),
+        ("current", "motor.current"),
+        ("force", "motor.force"),
+        ("load.force", "external.force"),
+    ],
+    trivial: &["following_error", "stroke.reserve", "speed.reserve", "power"],
+    opposed: None,
+    missing: MISSING,
+    section: DRIFTING,
+    // A measured force or voltage says more of the motor than a set point, which a loop of unknown make follows.
+    drives: &[
+        DrivenBy { setting: "drive", item: "Force", input: "command.force", base: &[], columns: FORCES },
+        DrivenBy {
+            setting: "drive",
+            item: "Voltage",
+            input: "command.voltage",
+            base: &["force_constant", "resistance"],
+            columns: VOLTAGES,
+        },
+        DrivenBy {
+            setting: "drive",
+            item: "Position",
+            input: "command.position",
+            base: &["position_loop.gain", "velocity_loop.proportional", "velocity_loop.integral"],
+            columns: &[
+                "position.command",
+                "commanded.position",
+                "reference.position",
+                "position.reference",
+                "desired.position",
+                "set.point",
+                "setpoint",
+                "reference",
+                "command",
+            ],
+        },
+    ],
+    excitation: &[
+        Excitation { input: "command.position", amplitude: 0.012, band: (0.4, 8.0) },
+        Excitation { input: "command.force", amplitude: 60.0, band: (0.4, 12.0) },
+        Excitation { input: "command.voltage", amplitude: 30.0, band: (0.4, 12.0) },
+    ],
+};
