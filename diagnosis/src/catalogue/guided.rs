@@ -54,7 +54,7 @@ pub(super) const CAUSES: &[Cause] = &[
         parts: &[
             part("guide.cogging.force", Scale::FORCE, (0.0, 5.0), &[0.1]),
             part("guide.cogging.period", Scale::ONE, (2e-3, 0.2), PERIODS),
-            part("guide.cogging.phase", Scale::ONE, (-10.0, 10.0), &[0.0, 1.57, 3.14, -1.57]),
+            part("guide.cogging.phase", Scale::ONE, (-10.0, 10.0), &[0.0, 1.6, 3.1, -1.6]),
         ],
         experiment: "traverse slowly, and draw the force over the position",
     },
