@@ -15,6 +15,7 @@ pub mod friction;
 pub mod generate;
 pub mod random;
 pub mod rig;
+pub mod run;
 pub mod score;
 pub mod sensors;
 pub mod strut;

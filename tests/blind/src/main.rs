@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use strut_blind::run::{self, Run};
 use strut_blind::{Case, cases, files, generate, score};
 
 /// Data with hidden causes, and the score of whoever names them.
@@ -34,6 +35,24 @@ enum Command {
         #[arg(long)]
         out: PathBuf,
     },
+    /// Make cases, run a diagnosis on each, score it, and write a page; cases that have a report are not run again
+    Run {
+        /// The program, `diagnose` or one that takes its arguments
+        #[arg(long)]
+        program: PathBuf,
+        /// Only cases whose name contains one of these
+        #[arg(long = "only")]
+        only: Vec<String>,
+        /// The whole benchmark with so many seeds, not the compact list
+        #[arg(long)]
+        full: Option<u64>,
+        /// Where to: each case gets a folder there
+        #[arg(long)]
+        out: PathBuf,
+        /// The page with figures and confusion matrix
+        #[arg(long)]
+        page: PathBuf,
+    },
     /// Compare the reports in cases' folders with the truth
     Score {
         /// The cases' folders, each with a report.json
@@ -43,7 +62,7 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    match run(Arguments::parse().command) {
+    match execute(Arguments::parse().command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             eprintln!("error: {message}");
@@ -52,7 +71,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(command: Command) -> Result<(), String> {
+fn execute(command: Command) -> Result<(), String> {
     let list = |full: Option<u64>| full.map_or_else(cases::compact, cases::full);
     match command {
         Command::List { full } => {
@@ -69,6 +88,33 @@ fn run(command: Command) -> Result<(), String> {
             };
             for case in wanted {
                 println!("{}", files::write(&generate(case)?, &out)?.display());
+            }
+        }
+        Command::Run { program, only, full, out, page } => {
+            let wanted =
+                |case: &&Case| only.is_empty() || only.iter().any(|part| case.name.contains(part.as_str()));
+            let (all, run) = (list(full), Run { program, out });
+            let mut scores = vec![];
+            let mut failed = vec![];
+            for case in all.iter().filter(wanted) {
+                match run.case(case) {
+                    Ok(score) => {
+                        eprintln!("{}: {:?}, called {}", score.case, score.outcome, score.first);
+                        scores.push(score);
+                    }
+                    Err(error) => {
+                        eprintln!("error: {error}");
+                        failed.push(case.name.as_str());
+                    }
+                }
+            }
+            let parts: Vec<String> = only.iter().map(|part| format!(" --only {part}")).collect();
+            let many = full.map_or_else(String::new, |full| format!(" --full {full}"));
+            let command = format!("blind run --program diagnose{many}{}", parts.concat());
+            std::fs::write(&page, run::page(&command, &scores))
+                .map_err(|error| format!("{} cannot be written: {error}", page.display()))?;
+            if !failed.is_empty() {
+                return Err(format!("no report of {}", failed.join(", ")));
             }
         }
         Command::Score { folders } => {
