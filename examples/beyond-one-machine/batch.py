@@ -16,10 +16,16 @@ import cloudpickle
 import dask
 import pyarrow as pa
 import pyarrow.parquet as pq
-from distributed import Client, LocalCluster, as_completed
+from distributed import Client, LocalCluster
+
+# Workers need not have this project's files: what is in them goes along with the work.
+cloudpickle.register_pickle_by_value(sys.modules[__name__])
 
 # Workers that may die of one and the same part before it is suspected itself.
 DEATHS = 2
+
+# Seconds after which a result that does not come, with nobody at work on it, counts as lost.
+PATIENCE = 30
 
 
 @contextmanager
@@ -69,33 +75,32 @@ class Batch:
     def run(self, connected, work, task, schema, done=lambda number: None):
         """Does what is missing: `work(task(index))` is a row without its index and error. Returns the number of rows with an
         error. `done` is called after each part."""
-        # Workers need not have this project's files.
-        cloudpickle.register_pickle_by_value(sys.modules[__name__])
-        if work.__module__ != "__main__":
-            cloudpickle.register_pickle_by_value(sys.modules[work.__module__])
         schema = pa.schema([("index", pa.int64()), *schema, ("error", pa.string())])
         missing = self.missing()
         progress = Progress(self.count, self.count - sum(len(self.indices(number)) for number in missing))
 
         def submit(number, indices):
             tasks = [(index, task(index)) for index in indices]
-            return connected.submit(rows, work, tasks, pure=False, retries=DEATHS)
+            return connected.submit(rows, work, tasks, pure=False)
 
         waiting = {submit(number, self.indices(number)): (number, self.indices(number)) for number in missing}
         parts = {number: [] for number in missing}
-        futures = as_completed(list(waiting), raise_errors=False)
-        for future in futures:
+        for future in self.completed(connected, waiting, submit):
             number, indices = waiting.pop(future)
-            if future.status == "finished":
-                parts[number] += future.result()
-            elif len(indices) > 1:
+            failure = None
+            try:
+                parts[number] += future.result(timeout=PATIENCE)
+            except TimeoutError:
+                # It was lost with its worker before it was fetched.
+                waiting[submit(number, indices)] = (number, indices)
+            except Exception as error:
+                failure = error
+            if failure is not None and len(indices) > 1:
                 # Something in it kills workers: each piece for itself shows which.
                 for index in indices:
-                    single = submit(number, [index])
-                    waiting[single] = (number, [index])
-                    futures.add(single)
-            else:
-                parts[number].append({"index": indices[0], "error": sentence(future.exception())})
+                    waiting[submit(number, [index])] = (number, [index])
+            elif failure is not None:
+                parts[number].append({"index": indices[0], "error": sentence(failure)})
             future.release()
             if len(parts[number]) == len(self.indices(number)):
                 complete = sorted(parts.pop(number), key=lambda row: row["index"])
@@ -106,9 +111,29 @@ class Batch:
         progress.end()
         return sum(error is not None for error in self.table()["error"].to_pylist())
 
+    @staticmethod
+    def completed(connected, waiting, submit):
+        """The futures as they end. Dask may lose one for ever if workers die in quick succession: where nothing has ended for
+        a while and no worker has anything to do, what is waited for is submitted again."""
+        last = time.monotonic()
+        while waiting:
+            ended = next((future for future in waiting if future.done()), None)
+            if ended is not None:
+                yield ended
+                last = time.monotonic()
+            elif time.monotonic() - last < PATIENCE:
+                time.sleep(0.02)
+            else:
+                last = time.monotonic()
+                if connected.scheduler_info()["workers"] and not any(connected.processing().values()):
+                    for future, (number, indices) in list(waiting.items()):
+                        del waiting[future]
+                        future.cancel()
+                        waiting[submit(number, indices)] = (number, indices)
+
 
 def rows(work, tasks):
-    """On a worker: the rows of a part."""
+    """On a worker: the rows of a part. Work that knows more of its failure than the message gives a row with an error itself."""
     result = []
     for index, task in tasks:
         try:

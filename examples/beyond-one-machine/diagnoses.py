@@ -14,7 +14,10 @@ import sys
 from pathlib import Path
 
 import batch
+import cloudpickle
 import pyarrow as pa
+
+cloudpickle.register_pickle_by_value(sys.modules[__name__])
 
 SCHEMA = [
     ("record", pa.string()),
@@ -34,10 +37,13 @@ PATIENCE = 3600
 def diagnose(task):
     """On a worker: one diagnosis."""
     record, command, out = task
-    ended = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=False)
+    try:
+        ended = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=False)
+    except subprocess.TimeoutExpired:
+        return {"record": record, "error": f"no end after {PATIENCE} s"}
     if ended.returncode != 0:
         told = ended.stderr.strip().splitlines() or ["no message"]
-        raise RuntimeError(f"exit code {ended.returncode}: {' '.join(told[-4:])}")
+        return {"record": record, "error": f"exit code {ended.returncode}: {' '.join(told[-4:])}"}
     report = json.loads((Path(out) / "report.json").read_text())
     row = {key: report[key] for key in ("verdict", "summary", "seconds")}
     row |= {"record": record, "causes": [effect["name"] for effect in report["effects"]]}

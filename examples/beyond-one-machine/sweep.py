@@ -18,10 +18,13 @@ import zipfile
 from pathlib import Path
 
 import batch
+import cloudpickle
 import numpy as np
 import pyarrow as pa
 from distributed import WorkerPlugin, get_worker
 from scipy.stats import qmc
+
+cloudpickle.register_pickle_by_value(sys.modules[__name__])
 
 RANGES = {
     "sprung_mass": (250.0, 450.0),

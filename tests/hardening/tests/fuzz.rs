@@ -61,7 +61,8 @@ fn a_library_that_does_not_do_what_it_says_is_caught() {
     let library = load(&package.library()).expect("it loads");
     let api = Api::of(&library).expect("it is complete");
     assert!(!is_caught(api, &package));
-    let broken: [(&str, fn(&mut Api)); 6] = [
+    type Harm = (&'static str, fn(&mut Api));
+    let broken: [Harm; 6] = [
         ("reset", |api| api.reset = does_nothing),
         ("terminate", |api| api.terminate = does_nothing),
         ("cancel", |api| api.cancel_step = does_nothing),
