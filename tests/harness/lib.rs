@@ -22,10 +22,14 @@ pub fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
 }
 
-/// The folder with every FMU and system, built on the first call.
+/// The folder with every FMU and system, built on the first call; or the one that `STRUT_FMUS` names, for
+/// who works on a test and has built what it needs.
 pub fn fmus() -> &'static Path {
     static FMUS: OnceLock<PathBuf> = OnceLock::new();
     FMUS.get_or_init(|| {
+        if let Some(folder) = std::env::var_os("STRUT_FMUS") {
+            return folder.into();
+        }
         let out = target().join("tested-fmus");
         let _lock = lock("fmus.lock");
         run(build_fmu().arg("--out").arg(&out));

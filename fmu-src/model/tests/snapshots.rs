@@ -2,7 +2,7 @@
 
 mod models;
 
-use models::{Counter, Oscillator, read, started};
+use models::{Counter, Oscillator, read, set, started};
 use proptest::prelude::*;
 use strut_model::{Access, Simulation, Snapshot, Value};
 
@@ -66,4 +66,40 @@ proptest! {
             }
         }
     }
+}
+
+/// A tolerance that was changed holds for the next step, whether or not an output is read before it.
+#[test]
+fn reading_before_a_step_does_not_change_the_step() {
+    let run = |reads: bool| {
+        let mut simulation = started::<Oscillator>();
+        simulation.step(0.0, 0.1).unwrap();
+        set(&mut simulation, "solver.tolerance", 1e-3, Access::Tunable).unwrap();
+        let snapshot = simulation.save();
+        if reads {
+            read(&mut simulation, "energy");
+            assert!(simulation.save().to_bytes() == snapshot.to_bytes(), "reading has changed the state");
+        }
+        simulation.step(0.1, 2.0).unwrap();
+        let mut other = started::<Oscillator>();
+        other.restore(&snapshot).unwrap();
+        if reads {
+            read(&mut other, "energy");
+            assert!(other.save().to_bytes() == snapshot.to_bytes(), "reading has changed the restored state");
+        }
+        other.step(0.1, 2.0).unwrap();
+        assert!(other.save().to_bytes() == simulation.save().to_bytes(), "the restored step is another one");
+        simulation.states().to_vec()
+    };
+    assert_eq!(run(false), run(true));
+}
+
+#[test]
+fn what_no_save_gives_is_refused() {
+    let mut simulation = started::<Oscillator>();
+    let mut bytes = simulation.save().to_bytes();
+    // The fourth word, after their count, says whether initialisation is under way.
+    bytes[8 + 3 * 8] = 2;
+    let snapshot = Snapshot::from_bytes(&bytes).unwrap();
+    assert!(simulation.restore(&snapshot).is_err());
 }

@@ -84,7 +84,8 @@ impl<A: Array> InputPath<A> {
     pub fn from_words(words: &mut impl Iterator<Item = u64>) -> Option<Self> {
         let value = super::snapshot::array(words)?;
         let derivatives = [super::snapshot::array(words)?, super::snapshot::array(words)?];
-        Some(Self { value, derivatives, origin: f64::from_bits(words.next()?), moving: words.next()? != 0 })
+        let origin = f64::from_bits(words.next()?);
+        Some(Self { value, derivatives, origin, moving: super::snapshot::flag(words)? })
     }
 }
 

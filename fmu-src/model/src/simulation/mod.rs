@@ -181,7 +181,6 @@ impl<M: Model> Simulation<M> {
         }
         if self.unprepared || self.underived {
             self.refresh()?;
-            self.integrator.set_settings(accuracy::<M>(&self.solver)).map_err(refused)?;
         }
         match self.period {
             None => self.flow_to(end)?,
@@ -321,8 +320,11 @@ impl<M: Model> Simulation<M> {
             if !self.initializing {
                 self.model.check(&self.parameters, &self.derived).map_err(Error::Refused)?;
             }
+            // Here and not before a step: reading an output in between has to leave the step as it is.
+            self.integrator.set_settings(accuracy::<M>(&self.solver)).map_err(refused)?;
             self.underived = false;
-            self.changed();
+            // Whoever changed something has told the integrator; a restored one knows its own rates.
+            self.stale = true;
         }
         Ok(())
     }

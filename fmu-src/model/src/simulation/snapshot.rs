@@ -47,7 +47,7 @@ impl<M: Model> Simulation<M> {
         let mut words = snapshot.words.iter().copied();
         let words = &mut words;
         let (time, start) = (f64::from_bits(words.next()?), f64::from_bits(words.next()?));
-        let (ticks, initializing) = (words.next()?, words.next()? != 0);
+        let (ticks, initializing) = (words.next()?, flag(words)?);
         let state = array(words)?;
         let memory = bundle(words)?;
         let parameters = bundle(words)?;
@@ -133,7 +133,11 @@ fn read_like(value: &Value, bytes: &mut &[u8]) -> Option<Value> {
     Some(match value {
         Value::Real(_) => Value::Real(f64::from_le_bytes(take(bytes)?)),
         Value::Integer(_) => Value::Integer(i32::from_le_bytes(take(bytes)?)),
-        Value::Boolean(_) => Value::Boolean(take::<1>(bytes)? != [0]),
+        Value::Boolean(_) => match take(bytes)? {
+            [0] => Value::Boolean(false),
+            [1] => Value::Boolean(true),
+            _ => return None,
+        },
         Value::Text(_) => {
             let len = usize::try_from(u64::from_le_bytes(take(bytes)?)).ok()?;
             let (text, rest) = bytes.split_at_checked(len)?;
@@ -156,6 +160,15 @@ pub(super) fn array<A: Array>(words: &mut impl Iterator<Item = u64>) -> Option<A
         *number = f64::from_bits(words.next()?);
     }
     Some(array)
+}
+
+/// The next word of a snapshot as what it can only be.
+pub(super) fn flag(words: &mut impl Iterator<Item = u64>) -> Option<bool> {
+    match words.next()? {
+        0 => Some(false),
+        1 => Some(true),
+        _ => None,
+    }
 }
 
 fn bundle<B: Bundle<f64>>(words: &mut impl Iterator<Item = u64>) -> Option<B> {

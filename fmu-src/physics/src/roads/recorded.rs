@@ -40,13 +40,18 @@ impl Recorded {
                 ));
             }
         };
-        let text = std::fs::read_to_string(&path).map_err(|error| {
+        let cannot = |reason: &dyn std::fmt::Display| {
             format!(
-                "the profile {} cannot be read: {error}; put it into the FMU's resources or name \
+                "the profile {} cannot be read: {reason}; put it into the FMU's resources or name \
                 another `file`",
                 path.display()
             )
-        })?;
+        };
+        // A device or a pipe may never end.
+        if !std::fs::metadata(&path).map_err(|error| cannot(&error))?.is_file() {
+            return Err(cannot(&"it is no file"));
+        }
+        let text = std::fs::read_to_string(&path).map_err(|error| cannot(&error))?;
         Self::parse(&text).map_err(|error| format!("{}: {error}", path.display()))
     }
 
@@ -236,6 +241,11 @@ mod tests {
         std::fs::write(folder.path().join("bad.csv"), format!("{HEAD}0;0\n")).unwrap();
         let error = Recorded::read("bad.csv", Some(folder.path())).unwrap_err();
         assert!(error.contains("bad.csv: line 2"), "{error}");
+        #[cfg(unix)]
+        for endless in ["/dev/zero", "/"] {
+            let error = Recorded::read(endless, Some(folder.path())).unwrap_err();
+            assert!(error.contains("cannot be read: it is no file"), "{error}");
+        }
         assert!(Recorded::read("bad.csv", None).unwrap_err().contains("no resource folder"));
     }
 }

@@ -1,0 +1,263 @@
+//! A call with its arguments, as a value: generated, printed, left out, made again.
+
+use std::ffi::CString;
+
+use crate::package::Kind;
+
+/// Places for instances.
+pub const INSTANCES: usize = 3;
+/// Places for saved states.
+pub const STATES: usize = 6;
+/// Places for serialised states.
+pub const BLOBS: usize = 4;
+
+/// A call to the instance in one of the places.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Call {
+    /// The place.
+    pub instance: usize,
+    /// What is called.
+    pub action: Action,
+    /// Whether the whole state is compared before and after, and a step made a second time elsewhere.
+    pub checked: bool,
+}
+
+/// Which pointer of a call is null instead.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Null {
+    /// None.
+    None,
+    /// The first, often the value references.
+    First,
+    /// The last, often the values.
+    Last,
+}
+
+/// What is wrong with an instantiation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "the names say it")]
+pub enum Fault {
+    None,
+    NoName,
+    EmptyName,
+    WrongGuid,
+    NoGuid,
+    UnknownType,
+    ForeignResources,
+    NoCallbacks,
+}
+
+/// What happens to bytes on their way.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Damage {
+    /// Nothing.
+    None,
+    /// A bit pattern over the byte at a fraction of the length.
+    Flip(f64, u8),
+    /// Only a fraction is left.
+    Cut(f64),
+    /// Bytes follow.
+    Longer(usize),
+    /// Eight bytes at a fraction of the length are replaced, and the checksum made right again: what no
+    /// transmission does, but somebody might.
+    Forge(f64, u64),
+    /// Other bytes.
+    Random(u64, usize),
+}
+
+/// A function with its arguments.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs, reason = "the standard explains them")]
+pub enum Action {
+    Instantiate {
+        cosimulation: bool,
+        logging: bool,
+        fault: Fault,
+    },
+    FreeInstance,
+    SetDebugLogging {
+        on: bool,
+        categories: Vec<Option<CString>>,
+        null: Null,
+    },
+    SetupExperiment {
+        tolerance: Option<f64>,
+        start: f64,
+        stop: Option<f64>,
+    },
+    EnterInitializationMode,
+    ExitInitializationMode,
+    Terminate,
+    Reset,
+    Get {
+        kind: Kind,
+        references: Vec<u32>,
+        null: Null,
+    },
+    SetReal {
+        values: Vec<(u32, f64)>,
+        null: Null,
+    },
+    SetInteger {
+        values: Vec<(u32, i32)>,
+        null: Null,
+    },
+    SetBoolean {
+        values: Vec<(u32, i32)>,
+        null: Null,
+    },
+    SetString {
+        values: Vec<(u32, Option<CString>)>,
+        null: Null,
+    },
+    GetDirectionalDerivative {
+        unknowns: Vec<u32>,
+        knowns: Vec<(u32, f64)>,
+        null: Null,
+    },
+    GetFmuState {
+        state: usize,
+        null: Null,
+    },
+    SetFmuState {
+        state: usize,
+    },
+    FreeFmuState {
+        state: usize,
+        null: Null,
+    },
+    SerializedFmuStateSize {
+        state: usize,
+        null: Null,
+    },
+    /// The state, where its bytes go, and by how much the size is wrong.
+    SerializeFmuState {
+        state: usize,
+        blob: usize,
+        excess: isize,
+        null: Null,
+    },
+    DeSerializeFmuState {
+        blob: usize,
+        damage: Damage,
+        state: usize,
+        null: Null,
+    },
+    EnterEventMode,
+    NewDiscreteStates {
+        null: Null,
+    },
+    EnterContinuousTimeMode,
+    CompletedIntegratorStep {
+        null: Null,
+    },
+    SetTime {
+        time: f64,
+    },
+    /// The states, one after the other as often as needed, and by how much their number is wrong.
+    SetContinuousStates {
+        values: Vec<f64>,
+        excess: isize,
+        null: Null,
+    },
+    GetDerivatives {
+        excess: isize,
+        null: Null,
+    },
+    GetContinuousStates {
+        excess: isize,
+        null: Null,
+    },
+    GetNominals {
+        excess: isize,
+        null: Null,
+    },
+    GetEventIndicators {
+        count: usize,
+    },
+    SetRealInputDerivatives {
+        values: Vec<(u32, i32, f64)>,
+        null: Null,
+    },
+    GetRealOutputDerivatives {
+        orders: Vec<(u32, i32)>,
+        null: Null,
+    },
+    /// A step that starts this much after the present time.
+    DoStep {
+        offset: f64,
+        size: f64,
+    },
+    CancelStep,
+    GetStatus {
+        kind: i32,
+        null: Null,
+    },
+    GetRealStatus {
+        kind: i32,
+        null: Null,
+    },
+    GetIntegerStatus {
+        kind: i32,
+        null: Null,
+    },
+    GetBooleanStatus {
+        kind: i32,
+        null: Null,
+    },
+    GetStringStatus {
+        kind: i32,
+        null: Null,
+    },
+}
+
+impl Action {
+    /// The function's C name.
+    pub fn function(&self) -> &'static str {
+        use Action as A;
+        match self {
+            A::Instantiate { .. } => "fmi2Instantiate",
+            A::FreeInstance => "fmi2FreeInstance",
+            A::SetDebugLogging { .. } => "fmi2SetDebugLogging",
+            A::SetupExperiment { .. } => "fmi2SetupExperiment",
+            A::EnterInitializationMode => "fmi2EnterInitializationMode",
+            A::ExitInitializationMode => "fmi2ExitInitializationMode",
+            A::Terminate => "fmi2Terminate",
+            A::Reset => "fmi2Reset",
+            A::Get { kind: Kind::Real, .. } => "fmi2GetReal",
+            A::Get { kind: Kind::Integer, .. } => "fmi2GetInteger",
+            A::Get { kind: Kind::Boolean, .. } => "fmi2GetBoolean",
+            A::Get { kind: Kind::Text, .. } => "fmi2GetString",
+            A::SetReal { .. } => "fmi2SetReal",
+            A::SetInteger { .. } => "fmi2SetInteger",
+            A::SetBoolean { .. } => "fmi2SetBoolean",
+            A::SetString { .. } => "fmi2SetString",
+            A::GetDirectionalDerivative { .. } => "fmi2GetDirectionalDerivative",
+            A::GetFmuState { .. } => "fmi2GetFMUstate",
+            A::SetFmuState { .. } => "fmi2SetFMUstate",
+            A::FreeFmuState { .. } => "fmi2FreeFMUstate",
+            A::SerializedFmuStateSize { .. } => "fmi2SerializedFMUstateSize",
+            A::SerializeFmuState { .. } => "fmi2SerializeFMUstate",
+            A::DeSerializeFmuState { .. } => "fmi2DeSerializeFMUstate",
+            A::EnterEventMode => "fmi2EnterEventMode",
+            A::NewDiscreteStates { .. } => "fmi2NewDiscreteStates",
+            A::EnterContinuousTimeMode => "fmi2EnterContinuousTimeMode",
+            A::CompletedIntegratorStep { .. } => "fmi2CompletedIntegratorStep",
+            A::SetTime { .. } => "fmi2SetTime",
+            A::SetContinuousStates { .. } => "fmi2SetContinuousStates",
+            A::GetDerivatives { .. } => "fmi2GetDerivatives",
+            A::GetContinuousStates { .. } => "fmi2GetContinuousStates",
+            A::GetNominals { .. } => "fmi2GetNominalsOfContinuousStates",
+            A::GetEventIndicators { .. } => "fmi2GetEventIndicators",
+            A::SetRealInputDerivatives { .. } => "fmi2SetRealInputDerivatives",
+            A::GetRealOutputDerivatives { .. } => "fmi2GetRealOutputDerivatives",
+            A::DoStep { .. } => "fmi2DoStep",
+            A::CancelStep => "fmi2CancelStep",
+            A::GetStatus { .. } => "fmi2GetStatus",
+            A::GetRealStatus { .. } => "fmi2GetRealStatus",
+            A::GetIntegerStatus { .. } => "fmi2GetIntegerStatus",
+            A::GetBooleanStatus { .. } => "fmi2GetBooleanStatus",
+            A::GetStringStatus { .. } => "fmi2GetStringStatus",
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! The state machines of FMI 2.0.4: which calls each state allows (tables in sections 3.2.3 and 4.2.4).
+//!
+//! Written down state by state, from the standard, as the other reading of what `strut_fmi2::state_table`
+//! has function by function: a slip of either shows.
+
+/// What an instance is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// `fmi2ModelExchange`
+    ModelExchange,
+    /// `fmi2CoSimulation`
+    CoSimulation,
+}
+
+/// A state of the state machines, without those that an instance passes while a function runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "these are the standard's names")]
+pub enum State {
+    Instantiated,
+    InitializationMode,
+    EventMode,
+    ContinuousTimeMode,
+    StepComplete,
+    StepFailed,
+    Terminated,
+}
+
+/// Whether a call may be made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It may.
+    Legal,
+    /// It may not.
+    Illegal,
+    /// Readers of the standard differ.
+    Either,
+}
+
+const ALWAYS: &[&str] = &[
+    "fmi2SetDebugLogging",
+    "fmi2FreeInstance",
+    "fmi2Reset",
+    "fmi2GetFMUstate",
+    "fmi2SetFMUstate",
+    "fmi2FreeFMUstate",
+    "fmi2SerializedFMUstateSize",
+    "fmi2SerializeFMUstate",
+    "fmi2DeSerializeFMUstate",
+];
+const GET: &[&str] =
+    &["fmi2GetReal", "fmi2GetInteger", "fmi2GetBoolean", "fmi2GetString", "fmi2GetDirectionalDerivative"];
+const SET: &[&str] = &["fmi2SetReal", "fmi2SetInteger", "fmi2SetBoolean", "fmi2SetString"];
+const GET_CONTINUOUS: &[&str] = &["fmi2GetContinuousStates", "fmi2GetDerivatives", "fmi2GetEventIndicators"];
+const NOMINALS: &[&str] = &["fmi2GetNominalsOfContinuousStates"];
+const ASK: &[&str] = &[
+    "fmi2GetRealOutputDerivatives",
+    "fmi2GetStatus",
+    "fmi2GetRealStatus",
+    "fmi2GetIntegerStatus",
+    "fmi2GetBooleanStatus",
+    "fmi2GetStringStatus",
+];
+const INPUT_DERIVATIVES: &[&str] = &["fmi2SetRealInputDerivatives"];
+
+/// Whether a function may be called.
+pub fn verdict(purpose: Purpose, state: State, function: &str) -> Verdict {
+    // The table lists it for Initialization Mode, Reference-FMUs refuses it there.
+    let doubtful = [(Purpose::ModelExchange, State::InitializationMode, "fmi2GetDerivatives")];
+    if doubtful.contains(&(purpose, state, function)) {
+        Verdict::Either
+    } else if allowed(purpose, state).iter().any(|group| group.contains(&function)) {
+        Verdict::Legal
+    } else {
+        Verdict::Illegal
+    }
+}
+
+/// The functions that a state allows, in groups.
+fn allowed(purpose: Purpose, state: State) -> &'static [&'static [&'static str]] {
+    use {Purpose as P, State as S};
+    match (purpose, state) {
+        (P::ModelExchange, S::Instantiated) => {
+            &[ALWAYS, SET, NOMINALS, &["fmi2SetupExperiment", "fmi2EnterInitializationMode"]]
+        }
+        (P::CoSimulation, S::Instantiated) => {
+            &[ALWAYS, SET, INPUT_DERIVATIVES, &["fmi2SetupExperiment", "fmi2EnterInitializationMode"]]
+        }
+        (P::ModelExchange, S::InitializationMode) => {
+            &[ALWAYS, GET, SET, GET_CONTINUOUS, &["fmi2ExitInitializationMode"]]
+        }
+        (P::CoSimulation, S::InitializationMode) => {
+            &[ALWAYS, GET, SET, INPUT_DERIVATIVES, &["fmi2ExitInitializationMode"]]
+        }
+        (P::ModelExchange, S::EventMode) => &[
+            ALWAYS,
+            GET,
+            SET,
+            GET_CONTINUOUS,
+            NOMINALS,
+            &[
+                "fmi2NewDiscreteStates",
+                "fmi2EnterContinuousTimeMode",
+                "fmi2EnterEventMode",
+                "fmi2SetTime",
+                "fmi2Terminate",
+            ],
+        ],
+        (P::ModelExchange, S::ContinuousTimeMode) => &[
+            ALWAYS,
+            GET,
+            &["fmi2SetReal"],
+            GET_CONTINUOUS,
+            NOMINALS,
+            &[
+                "fmi2CompletedIntegratorStep",
+                "fmi2EnterEventMode",
+                "fmi2SetTime",
+                "fmi2SetContinuousStates",
+                "fmi2Terminate",
+            ],
+        ],
+        (P::ModelExchange, S::Terminated) => &[ALWAYS, GET, GET_CONTINUOUS, NOMINALS],
+        (P::CoSimulation, S::StepComplete) => {
+            &[ALWAYS, GET, SET, ASK, INPUT_DERIVATIVES, &["fmi2DoStep", "fmi2Terminate"]]
+        }
+        (P::CoSimulation, S::StepFailed) => &[ALWAYS, GET, ASK, &["fmi2Terminate"]],
+        (P::CoSimulation, S::Terminated) => &[ALWAYS, GET, ASK],
+        (P::ModelExchange, S::StepComplete | S::StepFailed)
+        | (P::CoSimulation, S::EventMode | S::ContinuousTimeMode) => &[],
+    }
+}
+
+/// The state that a function leads to if it returns `fmi2OK`, if it leads anywhere.
+pub fn successor(purpose: Purpose, function: &str) -> Option<State> {
+    Some(match (function, purpose) {
+        ("fmi2EnterInitializationMode", _) => State::InitializationMode,
+        ("fmi2ExitInitializationMode", Purpose::ModelExchange) | ("fmi2EnterEventMode", _) => {
+            State::EventMode
+        }
+        ("fmi2ExitInitializationMode", Purpose::CoSimulation) | ("fmi2DoStep", _) => State::StepComplete,
+        ("fmi2EnterContinuousTimeMode", _) => State::ContinuousTimeMode,
+        ("fmi2Terminate", _) => State::Terminated,
+        ("fmi2Reset", _) => State::Instantiated,
+        _ => return None,
+    })
+}

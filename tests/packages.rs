@@ -1,0 +1,64 @@
+//! What ships: the same bytes wherever it is built, made of no more than is listed.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// A copy of the project in another folder, built into another one, gives the same bytes.
+#[test]
+fn a_package_does_not_depend_on_where_it_was_built() {
+    const NAME: &str = "QuarterCar";
+    let ours = fs::read(strut::fmus().join(NAME).with_extension("fmu")).expect("it is built");
+    let elsewhere = strut::target().join("built-elsewhere");
+    // What was built there before would not be built again.
+    if elsewhere.exists() {
+        fs::remove_dir_all(&elsewhere).expect("the target folder is ours");
+    }
+    let (copy, out) = (elsewhere.join("a copy"), elsewhere.join("fmus"));
+    let listed = strut::run(Command::new("git").args(["ls-files", "-z"]).current_dir(strut::root()));
+    for file in String::from_utf8_lossy(&listed.stdout).split_terminator('\0') {
+        let (from, to) = (strut::root().join(file), copy.join(file));
+        if from.is_file() {
+            fs::create_dir_all(to.parent().expect("a file is in a folder")).expect("it can be made");
+            fs::copy(&from, &to).expect("it can be copied");
+        }
+    }
+    strut::run(strut::build_fmu().arg("--list"));
+    let mut packager = Command::new(strut::target().join("debug").join("build-fmu"));
+    packager.arg("--out").arg(&out).arg(NAME).current_dir(&copy);
+    packager.env("CARGO_MANIFEST_DIR", &copy).env("CARGO_TARGET_DIR", elsewhere.join("target"));
+    packager.env("CARGO", env!("CARGO"));
+    strut::run(&mut packager);
+    let theirs = fs::read(out.join(NAME).with_extension("fmu")).expect("it is built");
+    assert!(ours == theirs, "{NAME}.fmu is other bytes when it is built in {}", copy.display());
+    fs::remove_dir_all(&elsewhere).expect("the target folder is ours");
+}
+
+/// Crates that are compiled into any of the FMUs' libraries, as cargo sees them.
+fn shipped() -> BTreeSet<String> {
+    let shims = fs::read_dir(strut::root().join("fmu-src/fmus")).expect("they are there");
+    let mut tree = strut::cargo();
+    tree.args(["tree", "--edges", "normal,no-proc-macro", "--prefix", "none", "--format", "{p}"]);
+    for shim in shims.map(|entry| entry.expect("it can be read").file_name()) {
+        tree.arg("--package").arg(format!("fmu-{}", shim.to_string_lossy()));
+    }
+    let listed = strut::run(&mut tree);
+    let text = String::from_utf8_lossy(&listed.stdout);
+    let names = text.lines().filter_map(|line| line.split(' ').next());
+    names
+        .filter(|name| !name.is_empty() && !name.starts_with("fmu-") && !name.starts_with("strut-"))
+        .map(str::to_owned)
+        .collect()
+}
+
+/// Whoever ships an FMU answers for what is in it: the list in the documents is complete, and short.
+#[test]
+fn the_crates_in_an_fmu_are_those_that_are_listed() {
+    let page =
+        fs::read_to_string(Path::new(strut::root()).join("tests/hardening/README.md")).expect("a page");
+    let start = page.find("## What ships inside an FMU").expect("the page has this section");
+    let rows = page[start..].lines().filter_map(|line| line.strip_prefix("| `"));
+    let listed: BTreeSet<String> = rows.filter_map(|row| row.split('`').next()).map(str::to_owned).collect();
+    assert_eq!(shipped(), listed, "tests/hardening/README.md lists what ships");
+}
