@@ -1,0 +1,25 @@
+//! Completion for shells.
+
+use clap::CommandFactory;
+use clap::builder::PossibleValuesParser;
+use clap_complete::Shell;
+
+use crate::cli::CommandLine;
+use crate::plan::Plan;
+
+/// The script for a shell, with the names of the FMUs and systems that there are.
+pub fn script(shell: Shell, plan: &Plan) -> String {
+    let fmus = plan.fmus.iter().map(|fmu| fmu.name.clone());
+    let names: Vec<String> = fmus.chain(plan.systems.iter().map(|system| system.name.clone())).collect();
+    // Only the script's parser knows the names: the program's own takes those of files given beside them too.
+    let parser = || PossibleValuesParser::new(names.clone());
+    let mut command = CommandLine::command()
+        .mut_arg("names", |argument| argument.value_parser(parser()))
+        .mut_subcommand("list", |list| list.mut_arg("names", |argument| argument.value_parser(parser())))
+        .mut_subcommand("describe", |describe| {
+            describe.mut_arg("name", |argument| argument.value_parser(parser()))
+        });
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut command, "build-fmu", &mut script);
+    String::from_utf8_lossy(&script).into_owned()
+}
