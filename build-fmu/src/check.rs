@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use serde_json::{Value, json};
-use strut_check::{Finding, Level, Options, Report};
+use strut_check::{Finding, Fmpy, Level, Options, Report};
 
 use crate::cli::CheckArguments;
 use crate::failure::Failure;
@@ -19,7 +19,11 @@ pub fn check(arguments: &CheckArguments) -> ExitCode {
         Err(_) => vec!["build-fmu".into(), "probe".into()],
     };
     let options = Options {
-        fmpy: arguments.fmpy.clone(),
+        fmpy: match &arguments.fmpy {
+            Some(python) => Fmpy::In(python.clone()),
+            None if arguments.no_fmpy => Fmpy::Without,
+            None => Fmpy::Found,
+        },
         run: !arguments.no_run,
         timeout: Duration::try_from_secs_f64(arguments.timeout).unwrap_or(Duration::from_secs(30)),
         program,

@@ -54,7 +54,8 @@ Examples:
   build-fmu completions zsh > ~/.zfunc/_build-fmu
   build-fmu completions fish > ~/.config/fish/completions/build-fmu.fish
 
-The names of FMUs and systems are those of today; make the script again when there are new ones.
+Names of FMUs and systems are completed in bash, zsh and fish; they are those of today: make the script again when there
+are new ones.
 It completes `build-fmu`, which `cargo install --path build-fmu` puts into the path.";
 
 /// Packs models as FMUs (FMI 2.0) and systems as SSPs (SSP 1.0)
@@ -151,6 +152,10 @@ pub struct CheckArguments {
     /// Python with the package fmpy, for its validation and the schema [default: python3 in the path]
     #[arg(long, value_name = "PYTHON", value_hint = clap::ValueHint::ExecutablePath)]
     pub fmpy: Option<PathBuf>,
+
+    /// Do without FMPy
+    #[arg(long, conflicts_with = "fmpy")]
+    pub no_fmpy: bool,
 
     /// Do not load the library, so that nothing of the FMU is run
     #[arg(long)]

@@ -21,14 +21,29 @@ struct Answer {
     problems: Vec<String>,
 }
 
+/// Where FMPy is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Fmpy {
+    /// In the Python of this path; it is an error if it is not.
+    In(PathBuf),
+    /// In the Python that is found in the path, if there is any.
+    Found,
+    /// It is not wanted.
+    Without,
+}
+
 /// Validates a file; says so if there is no FMPy. Returns whether it was done.
 ///
 /// # Errors
 /// If the Python that the user has named has none.
-pub fn validate(file: &Path, python: Option<&Path>, report: &mut Report) -> Result<bool, String> {
-    let candidates = match python {
-        Some(python) => vec![python.to_owned()],
-        None => vec![PathBuf::from("python3"), PathBuf::from("python")],
+pub fn validate(file: &Path, fmpy: &Fmpy, report: &mut Report) -> Result<bool, String> {
+    let candidates = match fmpy {
+        Fmpy::In(python) => vec![python.clone()],
+        Fmpy::Found => vec![PathBuf::from("python3"), PathBuf::from("python")],
+        Fmpy::Without => {
+            report.skipped.push("FMPy's validation and the schema: not wanted".into());
+            return Ok(false);
+        }
     };
     let mut why = "there is no python3 in the path".to_owned();
     for candidate in candidates {
@@ -42,7 +57,7 @@ pub fn validate(file: &Path, python: Option<&Path>, report: &mut Report) -> Resu
                 report.done.push(format!("validation of FMPy {}, with the schema", answer.version));
                 return Ok(true);
             }
-            Err(error) if python.is_some() => return Err(error),
+            Err(error) if matches!(fmpy, Fmpy::In(_)) => return Err(error),
             // Without python3 there may be a python; what the first one says is more telling.
             Err(error) if candidate.ends_with("python3") => why = error,
             Err(_) => {}

@@ -20,6 +20,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 pub use finding::{Finding, Level, Report};
+pub use fmpy::Fmpy;
 pub use probe::probe;
 
 use description::{Description, Kind};
@@ -28,8 +29,8 @@ use finding::count;
 /// How to check.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Python with FMPy; none for the one in the path.
-    pub fmpy: Option<PathBuf>,
+    /// Where FMPy is.
+    pub fmpy: Fmpy,
     /// Whether the library is run.
     pub run: bool,
     /// How long each run may take.
@@ -56,7 +57,7 @@ pub fn check(file: &Path, options: &Options) -> Result<Report, String> {
     if description.version != "2.0" {
         let version = &description.version;
         report.skipped.push(format!("the rules for FMI 2.0 and running it: this is FMI {version}"));
-        return if fmpy::validate(file, options.fmpy.as_deref(), &mut report)? {
+        return if fmpy::validate(file, &options.fmpy, &mut report)? {
             Ok(report)
         } else {
             Err(format!(
@@ -90,7 +91,7 @@ pub fn check(file: &Path, options: &Options) -> Result<Report, String> {
     } else {
         report.skipped.push("running it: not wanted".into());
     }
-    fmpy::validate(file, options.fmpy.as_deref(), &mut report)?;
+    fmpy::validate(file, &options.fmpy, &mut report)?;
     // The worst first; within a level in the order of the archive.
     report.findings.sort_by_key(|finding| finding.level);
     Ok(report)

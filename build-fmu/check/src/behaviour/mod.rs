@@ -9,7 +9,7 @@ use subject::{HALF, STEPS, Subject, number, plain, read, reals};
 use crate::description::{Description, Kind};
 use crate::finding::{Finding, Report, count, names};
 use crate::libraries;
-use crate::probe::{ABSENT, Act, Ending, Outcome, Probe, Run};
+use crate::probe::{ABSENT, Act, Ending, Outcome, Probe, RESTLESS, Run};
 
 /// Folders that an FMU is unpacked to.
 pub struct Unpacked<'a> {
@@ -538,6 +538,7 @@ fn status_name(status: i32) -> &'static str {
         3 => "fmi2Error",
         4 => "fmi2Fatal",
         5 => "fmi2Pending",
+        RESTLESS => "without ever coming to rest: it asks for another event iteration a hundred times",
         _ => "a status that FMI does not know",
     }
 }

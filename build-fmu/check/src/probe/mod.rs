@@ -106,6 +106,9 @@ impl Outcome {
     }
 }
 
+/// A status of our own: events lead to events, without an end.
+pub const RESTLESS: i32 = -2;
+
 const ORDERS: &str = "orders.json";
 const ANSWERS: &str = "answers.json";
 const CALLING: &str = "calling";
@@ -279,7 +282,7 @@ fn discrete_states(library: &Library, instance: Instance) -> i32 {
             return status;
         }
     }
-    3
+    RESTLESS
 }
 
 fn euler(
