@@ -11,6 +11,7 @@ mod finding;
 mod fmpy;
 pub mod functions;
 mod libraries;
+mod names;
 mod package;
 mod probe;
 mod structure;
