@@ -83,6 +83,29 @@ fn the_reproduction_page_can_be_made_again() {
     assert_eq!(page(&out), page(&strut::root().join("examples/reproduction")), "make the page again");
 }
 
+/// The page shows every system that there is, and the numbers of its pictures come out again.
+#[test]
+fn the_gallery_shows_what_the_systems_do() {
+    let arguments = ["--check".as_ref(), "1".as_ref(), "--fmus".as_ref(), strut::fmus().as_os_str()];
+    print!("{}", strut::python("examples/gallery/gallery.py", arguments));
+}
+
+#[test]
+fn the_notebook_runs_from_top_to_bottom() {
+    let notebook = strut::root().join("examples/notebook/strut.ipynb");
+    let out = strut::target().join("tested-pictures/strut.ipynb");
+    let fmus = format!("STRUT_FMUS={}", strut::fmus().display());
+    // As the tests are compiled.
+    let diagnose = "STRUT_DIAGNOSE=cargo run --quiet --package strut-diagnosis --bin diagnose --";
+    let arguments = [notebook.as_os_str(), out.as_os_str(), fmus.as_ref(), diagnose.as_ref()];
+    let text = strut::python("tests/masters/notebook.py", arguments);
+    for part in
+        ["actuator.force", "rig.body.position", "NAMED: The model lacks Coulomb friction in the strut."]
+    {
+        assert!(text.contains(part), "{part:?} is missing in\n{text}");
+    }
+}
+
 #[test]
 fn the_benchmark_prints_a_row_of_numbers() {
     let fmu = strut::fmus().join("TumQuarterVehicle.fmu");

@@ -73,7 +73,7 @@ def draw(picture, result):
 def page():
     yield HEAD
     for picture in PICTURES:
-        yield f"## {picture.system}\n\n{picture.sentence}\n\n![{picture.sentence}](pictures/{picture.system}.png)\n"
+        yield f"## {picture.system}\n\n{picture.sentence}\n\n![{picture.system}](pictures/{picture.system}.png)\n"
 
 
 def make(fmus, out):
