@@ -329,14 +329,14 @@ fn what_is_legal_but_narrow_is_noted() {
     let mut noted = parts("FIXED");
     noted.xml = noted.xml.replace(" unit=\"m\"", "").replace("description=\"Output\" ", "");
     noted.write(&path);
-    let (code, answers) = check(&[path.clone()], &["--no-fmpy"]);
+    let (code, answers) = check(std::slice::from_ref(&path), &["--no-fmpy"]);
     let findings = answers[0]["report"]["findings"].as_array().unwrap();
     let rules: Vec<&str> = findings.iter().map(|finding| finding["rule"].as_str().unwrap()).collect();
     for rule in ["run.fixed", "variables.unit.missing", "variables.description", "binary.platform"] {
         assert!(rules.contains(&rule), "{rule}: {rules:?}");
     }
     assert_eq!((code, answers[0]["problems"].as_u64()), (0, Some(0)), "{findings:#?}");
-    let (strict, _) = check(&[path], &["--no-fmpy", "--strict"]);
+    let (strict, _) = check(std::slice::from_ref(&path), &["--no-fmpy", "--strict"]);
     assert_eq!(strict, 1);
 }
 
@@ -347,17 +347,18 @@ fn fmpy_is_heard_and_missed() {
     // Known to the schema alone.
     described("<ModelVariables>", "<ModelVariables colour=\"red\">").write(&path);
     let python = strut::interpreter();
-    let (code, answers) = check(&[path.clone()], &["--no-run", "--fmpy", python.to_str().unwrap()]);
+    let (code, answers) =
+        check(std::slice::from_ref(&path), &["--no-run", "--fmpy", python.to_str().unwrap()]);
     assert_eq!(code, 1);
     let found = problems(&answers[0]);
     assert!(found.len() == 1 && found[0].contains("FMPy") && found[0].contains("colour"), "{found:?}");
-    let (code, answers) = check(&[path.clone()], &["--no-run", "--fmpy", "no-such-python"]);
+    let (code, answers) = check(std::slice::from_ref(&path), &["--no-run", "--fmpy", "no-such-python"]);
     assert_eq!(code, 2);
     assert!(
         answers[0]["unreadable"].as_str().unwrap().contains("`no-such-python` cannot be run"),
         "{answers}"
     );
-    let (code, answers) = check(&[path], &["--no-run", "--no-fmpy"]);
+    let (code, answers) = check(std::slice::from_ref(&path), &["--no-run", "--no-fmpy"]);
     assert_eq!(code, 0);
     assert!(answers[0]["report"]["skipped"].to_string().contains("not wanted"), "{answers}");
 }
