@@ -9,6 +9,7 @@ const fn bold(color: AnsiColor) -> Style {
 /// What is wrong.
 pub const ERROR: Style = bold(AnsiColor::Red);
 /// What may go wrong.
+#[cfg(feature = "tools")]
 pub const WARNING: Style = bold(AnsiColor::Yellow);
 /// What to do.
 pub const HELP: Style = bold(AnsiColor::Cyan);

@@ -50,7 +50,11 @@ pub fn validate(file: &Path, fmpy: &Fmpy, report: &mut Report) -> Result<bool, S
         match ask(&candidate, file) {
             Ok(answer) => {
                 for problem in &answer.problems {
-                    let text = problem.trim().trim_end_matches('.');
+                    // What follows an empty line is its parser's view of the matter.
+                    let text: Vec<&str> =
+                        problem.trim().lines().take_while(|line| !line.trim().is_empty()).collect();
+                    let text = text.join(" ");
+                    let text = text.trim_end_matches('.');
                     let message = format!("FMPy {} finds: {text}", answer.version);
                     report.findings.push(Finding::error("fmpy", message));
                 }

@@ -95,6 +95,15 @@ pub fn check(file: &Path, options: &Options) -> Result<Report, String> {
     fmpy::validate(file, &options.fmpy, &mut report)?;
     // The worst first; within a level in the order of the archive.
     report.findings.sort_by_key(|finding| finding.level);
+    // What both interfaces do wrong is said once.
+    let mut said: Vec<Finding> = Vec::new();
+    report.findings.retain(|finding| {
+        let new = !said.contains(finding);
+        if new {
+            said.push(finding.clone());
+        }
+        new
+    });
     Ok(report)
 }
 
@@ -108,8 +117,11 @@ fn about(description: &Description) -> Vec<String> {
         })
         .collect();
     let of = |causality: &str| description.variables.iter().filter(|it| it.causality == causality).count();
-    vec![
-        format!("FMI {} {}", description.version, kinds.join(" and ")).trim_end().to_owned(),
-        format!("{}, {}", count(of("input"), "input"), count(of("output"), "output")),
-    ]
+    let mut about =
+        vec![format!("FMI {} {}", description.version, kinds.join(" and ")).trim_end().to_owned()];
+    // Other versions declare their variables in other ways.
+    if description.version == "2.0" {
+        about.push(format!("{}, {}", count(of("input"), "input"), count(of("output"), "output")));
+    }
+    about
 }
