@@ -64,7 +64,15 @@ fn a_model_of_ones_own_becomes_an_fmu_by_one_command() {
     assert!(source.lines().count() <= 40, "README says that 40 lines are enough");
     let out = strut::target().join("tested-own-model");
     let manifest = strut::root().join("examples/own-model/Cargo.toml");
-    strut::run(strut::build_fmu().arg("--manifest-path").arg(manifest).arg("--out").arg(&out));
+    strut::run(strut::build_fmu().arg("--manifest-path").arg(&manifest).arg("--out").arg(&out));
+    let told = |command: &[&str]| {
+        let output = strut::run(strut::build_fmu().args(command).arg("--manifest-path").arg(&manifest));
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    assert!(told(&["list"]).contains("AirSpring"));
+    assert!(
+        told(&["describe", "AirSpring"]).contains("Rate at which the throttle lets the pressure even out")
+    );
     for check in ["validate", "starts", "rewind", "directional", "model_exchange"] {
         let output = strut::python("tests/masters/fmpy_checks.py", [check.as_ref(), out.as_os_str()]);
         assert_eq!(output.trim(), format!("{check}: AirSpring"));

@@ -45,7 +45,11 @@ pub fn check(arguments: &CheckArguments) -> ExitCode {
             Err(error) => {
                 code = 2;
                 list.push(json!({"file": name, "unreadable": error}));
-                let failure = Failure::new(format!("`{name}` cannot be checked: {error}"));
+                let mut failure = Failure::new(format!("`{name}` cannot be checked: {error}"));
+                if !file.exists() {
+                    failure =
+                        failure.help("give the path of an .fmu file; `build-fmu NAME` makes one in `fmus/`");
+                }
                 anstream::eprintln!("{failure:#}");
             }
         }

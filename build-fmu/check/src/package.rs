@@ -21,8 +21,8 @@ impl Package {
     /// # Errors
     /// If there is no such file or it is no zip archive.
     pub fn open(path: &Path) -> Result<Self, String> {
-        let file = File::open(path).map_err(|error| format!("cannot open `{}`: {error}", path.display()))?;
-        let no_zip = |error| format!("`{}` is no zip archive, as an FMU is: {error}", path.display());
+        let file = File::open(path).map_err(|error| format!("cannot open it: {error}"))?;
+        let no_zip = |error| format!("it is no zip archive, as an FMU is: {error}");
         let mut archive = ZipArchive::new(file).map_err(no_zip)?;
         let (mut names, mut methods) = (Vec::new(), Vec::new());
         for index in 0..archive.len() {

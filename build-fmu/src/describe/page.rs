@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use textwrap::Options;
+use textwrap::{Options, WordSplitter};
 use unicode_width::UnicodeWidthStr;
 
 use crate::style::{ASIDE, HEADING, NAME};
@@ -38,7 +38,7 @@ impl Page {
     /// A paragraph; further lines are indented as the first one's mark is wide.
     pub fn paragraph(&mut self, mark: &str, text: &str) {
         let indent = " ".repeat(mark.width());
-        let options = Options::new(self.width).initial_indent(mark).subsequent_indent(&indent);
+        let options = whole_words(self.width).initial_indent(mark).subsequent_indent(&indent);
         self.text.push_str(&textwrap::fill(text, options));
         self.text.push('\n');
     }
@@ -46,7 +46,7 @@ impl Page {
     /// A line beside the matter, in a dimmed colour.
     pub fn aside(&mut self, mark: &str, text: &str) {
         let indent = " ".repeat(mark.width());
-        let options = Options::new(self.width).initial_indent(mark).subsequent_indent(&indent);
+        let options = whole_words(self.width).initial_indent(mark).subsequent_indent(&indent);
         for line in textwrap::wrap(text, options) {
             let _ = writeln!(self.text, "{ASIDE}{line}{ASIDE:#}");
         }
@@ -75,7 +75,7 @@ impl Page {
                     false => write!(line, "{cell}{space}  "),
                 };
             }
-            let wrapped = textwrap::wrap(&row[last], room);
+            let wrapped = textwrap::wrap(&row[last], whole_words(room));
             line.push_str(wrapped.first().map_or("", |first| first));
             if place == 0 {
                 let _ = writeln!(self.text, "{ASIDE}{}{ASIDE:#}", line.trim_end());
@@ -92,4 +92,9 @@ impl Page {
     pub fn finish(self) -> String {
         self.text
     }
+}
+
+/// Names and identifiers with hyphens stay in one piece, to be copied.
+fn whole_words(width: usize) -> Options<'static> {
+    Options::new(width).word_splitter(WordSplitter::NoHyphenation)
 }
