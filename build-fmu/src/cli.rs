@@ -54,8 +54,8 @@ Examples:
   build-fmu completions zsh > ~/.zfunc/_build-fmu
   build-fmu completions fish > ~/.config/fish/completions/build-fmu.fish
 
-Names of FMUs and systems are completed in bash, zsh and fish; they are those of today: make the script again when there
-are new ones.
+Names of FMUs and systems are completed in bash and zsh; they are those of today: make the script again when there are new
+ones.
 It completes `build-fmu`, which `cargo install --path build-fmu` puts into the path.";
 
 /// Packs models as FMUs (FMI 2.0) and systems as SSPs (SSP 1.0)

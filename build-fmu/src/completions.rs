@@ -7,7 +7,7 @@ use clap_complete::Shell;
 use crate::cli::CommandLine;
 use crate::plan::Plan;
 
-/// The script for a shell, with the names of the FMUs and systems that there are.
+/// The script for a shell; those for bash and zsh have the names of the FMUs and systems that there are.
 pub fn script(shell: Shell, plan: &Plan) -> String {
     let fmus = plan.fmus.iter().map(|fmu| fmu.name.clone());
     let names: Vec<String> = fmus.chain(plan.systems.iter().map(|system| system.name.clone())).collect();
