@@ -21,5 +21,7 @@ pub fn script(shell: Shell, plan: &Plan) -> String {
         });
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut command, "build-fmu", &mut script);
-    String::from_utf8_lossy(&script).into_owned()
+    let script = String::from_utf8_lossy(&script).into_owned();
+    // clap_complete 4.6 writes the hyphen of our name in two ways, so that no subcommand is found in bash.
+    if shell == Shell::Bash { script.replace("build__subcmd__fmu", "build__fmu") } else { script }
 }

@@ -127,6 +127,31 @@ fn shells_complete_commands_and_names() {
     }
 }
 
+/// What bash offers for the last of some words.
+#[cfg(unix)]
+fn offered(words: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, script, _) = answer(&["completions", "bash"]);
+    let path = file(&folder, "completions", &script);
+    let asks = format!(
+        "source '{path}'; COMP_WORDS=({words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); \
+         $(complete -p build-fmu | sed 's/.*-F \\([^ ]*\\).*/\\1/') build-fmu \"${{COMP_WORDS[-1]}}\" \
+         \"${{COMP_WORDS[-2]}}\"; echo \"${{COMPREPLY[*]}}\""
+    );
+    let output = Command::new("bash").args(["-c", &asks]).output().unwrap();
+    String::from_utf8(output.stdout).unwrap().trim().to_owned()
+}
+
+#[cfg(unix)]
+#[test]
+fn bash_completes() {
+    assert_eq!(offered("build-fmu desc"), "describe");
+    assert_eq!(offered("build-fmu describe TumQ"), "TumQuarterVehicle");
+    assert_eq!(offered("build-fmu list quanser"), "quanser-lqr");
+    assert_eq!(offered("build-fmu QuanserQ"), "QuanserQuarterCar");
+    assert_eq!(offered("build-fmu check --str"), "--strict");
+}
+
 #[test]
 fn an_unknown_name_brings_similar_ones() {
     fails(
