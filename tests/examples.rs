@@ -69,7 +69,15 @@ fn a_model_of_ones_own_becomes_an_fmu_by_one_command() {
     assert!(source.lines().count() <= 40, "README says that 40 lines are enough");
     let out = strut::target().join("tested-own-model");
     let manifest = strut::root().join("examples/own-model/Cargo.toml");
-    strut::run(strut::build_fmu().arg("--manifest-path").arg(manifest).arg("--out").arg(&out));
+    strut::run(strut::build_fmu().arg("--manifest-path").arg(&manifest).arg("--out").arg(&out));
+    let told = |command: &[&str]| {
+        let output = strut::run(strut::build_fmu().args(command).arg("--manifest-path").arg(&manifest));
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    assert!(told(&["list"]).contains("AirSpring"));
+    assert!(
+        told(&["describe", "AirSpring"]).contains("Rate at which the throttle lets the pressure even out")
+    );
     for check in ["validate", "starts", "rewind", "directional", "model_exchange"] {
         let output = strut::python("tests/masters/fmpy_checks.py", [check.as_ref(), out.as_os_str()]);
         assert_eq!(output.trim(), format!("{check}: AirSpring"));
@@ -116,6 +124,29 @@ fn coupled_hard_the_methods_do_what_the_page_says() {
                 _ => assert_eq!(ours_cell, theirs_cell, "{ours}\n{theirs}"),
             }
         }
+    }
+}
+
+/// The page shows every system that there is, and the numbers of its pictures come out again.
+#[test]
+fn the_gallery_shows_what_the_systems_do() {
+    let arguments = ["--check".as_ref(), "1".as_ref(), "--fmus".as_ref(), strut::fmus().as_os_str()];
+    print!("{}", strut::python("examples/gallery/gallery.py", arguments));
+}
+
+#[test]
+fn the_notebook_runs_from_top_to_bottom() {
+    let notebook = strut::root().join("examples/notebook/strut.ipynb");
+    let out = strut::target().join("tested-pictures/strut.ipynb");
+    let fmus = format!("STRUT_FMUS={}", strut::fmus().display());
+    // As the tests are compiled.
+    let diagnose = "STRUT_DIAGNOSE=cargo run --quiet --package strut-diagnosis --bin diagnose --";
+    let arguments = [notebook.as_os_str(), out.as_os_str(), fmus.as_ref(), diagnose.as_ref()];
+    let text = strut::python("tests/masters/notebook.py", arguments);
+    for part in
+        ["actuator.force", "rig.body.position", "NAMED: The model lacks Coulomb friction in the strut."]
+    {
+        assert!(text.contains(part), "{part:?} is missing in\n{text}");
     }
 }
 

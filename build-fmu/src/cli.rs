@@ -2,13 +2,15 @@
 
 use std::path::PathBuf;
 
-use clap::Parser;
+use clap::{Args, Parser, Subcommand};
 
 const EXAMPLES: &str = "\
 Examples:
   build-fmu                                     every FMU and system into fmus/
   build-fmu QuarterCar quanser-lqr              only these
-  build-fmu --list                              what there is
+  build-fmu list                                what there is
+  build-fmu describe TumQuarterVehicle          its variables, equations and sources
+  build-fmu check fmus/QuarterCar.fmu           whether an FMU, anyone's, is fit for other tools
   build-fmu --parameters my-rig.toml            a model with your own parameter set
   build-fmu --system my-system.toml             your own composition, as an SSP
   build-fmu --manifest-path my-model/Cargo.toml your own model
@@ -19,9 +21,177 @@ Examples:
 
 In the workspace, write `cargo run --release --` for `build-fmu`.";
 
+const LIST_EXAMPLES: &str = "\
+Examples:
+  build-fmu list                                every FMU and system
+  build-fmu list --json | jq -r '.[].name'      their names, for scripts
+  build-fmu list --manifest-path my-model/Cargo.toml
+                                                what your own crate makes";
+
+const DESCRIBE_EXAMPLES: &str = "\
+Examples:
+  build-fmu describe TumQuarterVehicle          a published rig
+  build-fmu describe quanser-lqr                a system: components, connections, parameters
+  build-fmu describe QuarterCar --json          the same for programs
+  build-fmu describe AirSpring --manifest-path examples/own-model/Cargo.toml
+                                                a model of your own";
+
+#[cfg(feature = "tools")]
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  build-fmu check fmus/TumQuarterVehicle.fmu    one
+  build-fmu check *.fmu --strict                several; notes on portability count too
+  build-fmu check unknown.fmu --no-run          without running code of others
+  build-fmu check X.fmu --fmpy ~/venv/bin/python
+                                                with the validation of that Python's fmpy
+
+Exit codes: 0 nothing found, 1 problems found, 2 a file that cannot be read.";
+
+#[cfg(feature = "tools")]
+const COMPLETIONS_EXAMPLES: &str = "\
+Examples:
+  build-fmu completions bash > ~/.local/share/bash-completion/completions/build-fmu
+  build-fmu completions zsh > ~/.zfunc/_build-fmu
+  build-fmu completions fish > ~/.config/fish/completions/build-fmu.fish
+
+Names of FMUs and systems are completed in bash and zsh; they are those of today: make the script again when there are new
+ones.
+It completes `build-fmu`, which `cargo install --path build-fmu` puts into the path.";
+
 /// Packs models as FMUs (FMI 2.0) and systems as SSPs (SSP 1.0)
 #[derive(Parser, Debug)]
 #[command(name = "build-fmu", bin_name = "build-fmu", version, after_help = EXAMPLES)]
+#[command(args_conflicts_with_subcommands = true)]
+pub struct CommandLine {
+    /// Something else than building.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// What to build.
+    #[command(flatten)]
+    pub build: Arguments,
+}
+
+/// The names of what there is to do besides building: what a misspelt one may have been meant for.
+pub const COMMANDS: &[&str] = &[
+    "list",
+    "describe",
+    #[cfg(feature = "tools")]
+    "check",
+    #[cfg(feature = "tools")]
+    "completions",
+];
+
+/// What there is to do besides building.
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// Lists the FMUs and systems that can be built
+    #[command(after_help = LIST_EXAMPLES)]
+    List(ListArguments),
+    /// Shows an FMU's variables, equations and sources, or a system's components and connections
+    #[command(after_help = DESCRIBE_EXAMPLES)]
+    Describe(DescribeArguments),
+    /// Checks an FMU, anyone's: description, libraries, behaviour; says what is wrong and what to do
+    #[cfg(feature = "tools")]
+    #[command(after_help = CHECK_EXAMPLES)]
+    Check(CheckArguments),
+    /// Prints a script that completes commands, options and names in a shell
+    #[cfg(feature = "tools")]
+    #[command(after_help = COMPLETIONS_EXAMPLES)]
+    Completions {
+        /// The shell
+        #[arg(value_enum)]
+        shell: clap_complete::Shell,
+    },
+    /// Runs a library, for `check`: a crash ends this program and not that one
+    #[cfg(feature = "tools")]
+    #[command(hide = true)]
+    Probe {
+        /// Where the orders are and the answers go.
+        folder: PathBuf,
+    },
+}
+
+/// Which of them to list, and how.
+#[derive(Args, Debug)]
+pub struct ListArguments {
+    /// FMUs and systems to list [default: all]
+    #[arg(value_name = "NAME")]
+    pub names: Vec<String>,
+
+    #[command(flatten)]
+    pub models: ModelArguments,
+
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What to describe, and how.
+#[derive(Args, Debug)]
+pub struct DescribeArguments {
+    /// The FMU or system
+    #[arg(value_name = "NAME")]
+    pub name: String,
+
+    #[command(flatten)]
+    pub models: ModelArguments,
+
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What to check, and how.
+#[cfg(feature = "tools")]
+#[derive(Args, Debug)]
+pub struct CheckArguments {
+    /// FMUs to check
+    #[arg(value_name = "FMU", required = true, value_hint = clap::ValueHint::FilePath)]
+    pub files: Vec<PathBuf>,
+
+    /// Python with the package fmpy, for its validation and the schema [default: python3 in the path]
+    #[arg(long, value_name = "PYTHON", value_hint = clap::ValueHint::ExecutablePath)]
+    pub fmpy: Option<PathBuf>,
+
+    /// Do without FMPy
+    #[arg(long, conflicts_with = "fmpy")]
+    pub no_fmpy: bool,
+
+    /// Do not load the library, so that nothing of the FMU is run
+    #[arg(long)]
+    pub no_run: bool,
+
+    /// Let notes count as problems too: what is legal, but narrows where the FMU works
+    #[arg(long)]
+    pub strict: bool,
+
+    /// Seconds that each run may take
+    #[arg(long, value_name = "SECONDS", default_value_t = 30.0)]
+    pub timeout: f64,
+
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Models, sets and systems besides those that come along.
+#[derive(Args, Clone, Debug, Default)]
+pub struct ModelArguments {
+    /// Parameter set (TOML) of your own
+    #[arg(long, value_name = "FILE")]
+    pub parameters: Vec<PathBuf>,
+
+    /// System (TOML) of your own
+    #[arg(long = "system", value_name = "FILE")]
+    pub systems: Vec<PathBuf>,
+
+    /// Cargo.toml of a crate with a model of your own
+    #[arg(long, value_name = "PATH")]
+    pub manifest_path: Option<PathBuf>,
+}
+
+/// What to build, for which platforms, and where to.
+#[derive(Args, Debug, Default)]
 pub struct Arguments {
     /// FMUs and systems to build [default: all]
     #[arg(value_name = "NAME")]
@@ -46,8 +216,12 @@ pub struct Arguments {
     /// Cargo.toml of a crate with a model of your own
     #[arg(long, value_name = "PATH")]
     pub manifest_path: Option<PathBuf>,
+}
 
-    /// List what can be built, and build nothing
-    #[arg(long)]
-    pub list: bool,
+impl ModelArguments {
+    /// The arguments of a build of these names; a list of no names is that of all.
+    pub fn of(&self, names: &[String]) -> Arguments {
+        let Self { parameters, systems, manifest_path } = self.clone();
+        Arguments { names: names.into(), parameters, systems, manifest_path, ..Arguments::default() }
+    }
 }

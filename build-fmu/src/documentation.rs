@@ -61,7 +61,8 @@ pub fn html(page: &Page) -> String {
     .into_string()
 }
 
-fn count(number: usize, of: &str) -> String {
+/// `no inputs`, `1 input`, `2 inputs`.
+pub fn count(number: usize, of: &str) -> String {
     match number {
         0 => format!("no {of}s"),
         1 => format!("1 {of}"),
@@ -123,7 +124,8 @@ fn experiment(page: &Page) -> Markup {
     }
 }
 
-fn words(stimulus: Stimulus, unit: &str) -> String {
+/// What an input does, as the rest of a sentence.
+pub fn words(stimulus: Stimulus, unit: &str) -> String {
     let n = tables::number;
     match stimulus {
         Stimulus::Step { at, height } => format!("steps to {} {unit} at {} s", n(height), n(at)),

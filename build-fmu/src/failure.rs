@@ -2,7 +2,9 @@
 
 use std::fmt::{self, Display, Formatter};
 
-/// A failure with hints; printed as `error: ...` and `help: ...`.
+use crate::style;
+
+/// A failure with hints; printed as `error: ...` and `help: ...`, with `{:#}` in a terminal's colours.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
     message: String,
@@ -28,8 +30,9 @@ impl Failure {
 
 impl Display for Failure {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "error: {}", self.message)?;
-        self.help.iter().try_for_each(|help| write!(f, "\nhelp: {help}"))
+        let (error, help) = if f.alternate() { (style::ERROR, style::HELP) } else { Default::default() };
+        write!(f, "{error}error:{error:#} {}", self.message)?;
+        self.help.iter().try_for_each(|line| write!(f, "\n{help}help:{help:#} {line}"))
     }
 }
 
@@ -72,7 +75,7 @@ mod tests {
 
     #[test]
     fn help_follows_the_error() {
-        let failure = Failure::new("there is no FMU `a`").help("run `build-fmu --list`");
-        assert_eq!(failure.to_string(), "error: there is no FMU `a`\nhelp: run `build-fmu --list`");
+        let failure = Failure::new("there is no FMU `a`").help("run `build-fmu list`");
+        assert_eq!(failure.to_string(), "error: there is no FMU `a`\nhelp: run `build-fmu list`");
     }
 }

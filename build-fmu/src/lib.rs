@@ -34,16 +34,23 @@
 
 mod archive;
 mod cargo;
+#[cfg(feature = "tools")]
+mod check;
 mod cli;
+#[cfg(feature = "tools")]
+mod completions;
+mod describe;
 mod documentation;
 mod failure;
 mod fmu;
 mod foreign;
 mod icon;
+mod list;
 mod plan;
 mod platform;
 mod plot;
 mod run;
+mod style;
 mod system;
 mod table;
 
@@ -112,7 +119,6 @@ pub fn pack(project: &Project, parameters: &Path, out: &Path) -> Result<(), Stri
         parameters: vec![parameters.into()],
         systems: Vec::new(),
         manifest_path: Some(workspace),
-        list: false,
     };
     run::build(project, &arguments).map(|_| ()).map_err(|failure| failure.to_string())
 }
@@ -121,11 +127,10 @@ pub fn pack(project: &Project, parameters: &Path, out: &Path) -> Result<(), Stri
 ///
 /// The exit code is 0, 1 after a failure, and 2 if the command line was not understood.
 pub fn main(project: &Project) -> ExitCode {
-    let arguments = cli::Arguments::parse();
-    match run::run(project, &arguments) {
+    match run::run(project, &cli::CommandLine::parse()) {
         Ok(code) => code,
         Err(failure) => {
-            eprintln!("{failure}");
+            anstream::eprintln!("{failure:#}");
             ExitCode::FAILURE
         }
     }

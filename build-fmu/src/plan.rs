@@ -5,7 +5,7 @@ use std::path::Path;
 use strut_model::ParameterSet;
 
 use crate::Project;
-use crate::cli::Arguments;
+use crate::cli::{Arguments, COMMANDS};
 use crate::failure::{Failure, Result, similar};
 use crate::fmu::{Fmu, Set};
 use crate::system::System;
@@ -64,13 +64,7 @@ impl Plan {
         for name in &arguments.names {
             if !fmus.iter().any(|fmu| fmu.name == *name) && !systems.iter().any(|system| system.name == *name)
             {
-                let names = fmus
-                    .iter()
-                    .map(|fmu| fmu.name.as_str())
-                    .chain(systems.iter().map(|system| system.name.as_str()));
-                let failure = Failure::new(format!("there is no FMU or system `{name}`"));
-                let failure = similar(name, names).into_iter().fold(failure, Failure::help);
-                return Err(failure.help("run with --list to see what there is"));
+                return Err(unknown(name, &fmus, &systems));
             }
         }
         let named = |name: &String| everything || arguments.names.contains(name);
@@ -82,6 +76,11 @@ impl Plan {
             named(&system.name) || index > given_systems
         });
         Ok(Self { fmus, wanted, systems })
+    }
+
+    /// What to say of a name that there is nothing of.
+    pub fn unknown(&self, name: &str) -> Failure {
+        unknown(name, &self.fmus, &self.systems)
     }
 
     /// Positions of the FMUs that a system is made of.
@@ -102,6 +101,16 @@ impl Plan {
         };
         system.components.iter().map(position).collect()
     }
+}
+
+/// What to say of a name that there is nothing of.
+fn unknown(name: &str, fmus: &[Fmu], systems: &[System]) -> Failure {
+    let names = fmus.iter().map(|fmu| fmu.name.as_str());
+    let names = names.chain(systems.iter().map(|system| system.name.as_str()));
+    let failure = Failure::new(format!("there is no FMU or system `{name}`"));
+    let failure =
+        similar(name, names.chain(COMMANDS.iter().copied())).into_iter().fold(failure, Failure::help);
+    failure.help("`build-fmu list` tells what there is")
 }
 
 fn read(path: &Path) -> Result<String> {

@@ -5,37 +5,66 @@ use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use cargo_metadata::Metadata;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use unicode_width::UnicodeWidthStr;
 
 use crate::archive::Folder;
 use crate::cargo::{self, Libraries};
-use crate::cli::Arguments;
+use crate::cli::{Arguments, Command, CommandLine};
 use crate::failure::{Failure, Result};
 use crate::fmu::{Fmu, Packed};
 use crate::plan::Plan;
 use crate::platform::Platform;
-use crate::{Project, Source, foreign, table};
+use crate::{Project, Source, describe, foreign, list, table};
+#[cfg(feature = "tools")]
+use crate::{check, completions};
 
 /// Does what the arguments say.
 ///
 /// # Errors
 /// Whatever goes wrong first.
-pub fn run(project: &Project, arguments: &Arguments) -> Result<ExitCode> {
-    if let (Some(manifest), Source::Workspace { .. }) = (&arguments.manifest_path, project.source)
+pub fn run(project: &Project, line: &CommandLine) -> Result<ExitCode> {
+    let manifest = match &line.command {
+        None => &line.build.manifest_path,
+        Some(Command::List(list)) => &list.models.manifest_path,
+        Some(Command::Describe(describe)) => &describe.models.manifest_path,
+        #[cfg(feature = "tools")]
+        Some(Command::Check(arguments)) => return Ok(check::check(arguments)),
+        #[cfg(feature = "tools")]
+        Some(Command::Probe { folder }) => return Ok(strut_check::probe(folder)),
+        #[cfg(feature = "tools")]
+        Some(Command::Completions { .. }) => &None,
+    };
+    if let (Some(manifest), Source::Workspace { .. }) = (manifest, project.source)
         && let Some(package) = foreign::package(manifest)?
     {
         return package.run();
     }
-    print(&build(project, arguments)?);
+    let text = match &line.command {
+        None => build(project, &line.build)?,
+        Some(Command::List(arguments)) => {
+            let (_, plan) = plan(project, &arguments.models.of(&arguments.names))?;
+            list::text(&plan, arguments.json)?
+        }
+        Some(Command::Describe(arguments)) => {
+            // All of them: what is described names the sets and systems that it is in.
+            let (_, plan) = plan(project, &arguments.models.of(&[]))?;
+            describe::text(&plan, &arguments.name, arguments.json)?
+        }
+        #[cfg(feature = "tools")]
+        Some(Command::Completions { shell }) => {
+            let (_, plan) = plan(project, &Arguments::default())?;
+            completions::script(*shell, &plan)
+        }
+        #[cfg(feature = "tools")]
+        Some(Command::Check(_) | Command::Probe { .. }) => unreachable!("done above, without a project"),
+    };
+    print(&text);
     Ok(ExitCode::SUCCESS)
 }
 
-/// Builds what the arguments ask for from the project's own models; returns what is to be told.
-///
-/// # Errors
-/// Whatever goes wrong first.
-pub fn build(project: &Project, arguments: &Arguments) -> Result<String> {
+/// What cargo knows of the project, and what the arguments ask for.
+fn plan(project: &Project, arguments: &Arguments) -> Result<(Metadata, Plan)> {
     let manifest = match project.source {
         Source::Package { manifest, .. } => Some(PathBuf::from(manifest)),
         Source::Workspace { .. } => arguments.manifest_path.clone().or_else(cargo::workspace_manifest),
@@ -46,9 +75,15 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<String> {
         Source::Package { .. } => metadata.workspace_root.as_std_path().into(),
     };
     let plan = Plan::new(project, arguments, &files)?;
-    if arguments.list {
-        return listing(&plan);
-    }
+    Ok((metadata, plan))
+}
+
+/// Builds what the arguments ask for from the project's own models; returns what is to be told.
+///
+/// # Errors
+/// Whatever goes wrong first.
+pub fn build(project: &Project, arguments: &Arguments) -> Result<String> {
+    let (metadata, plan) = plan(project, arguments)?;
     let platforms = platforms(&arguments.targets)?;
     // Mistakes in systems come to light before minutes of compiling.
     let mut needed = plan.wanted.clone();
@@ -168,40 +203,7 @@ fn described(fmu: &Fmu, interface: &strut_model::Interface) -> Vec<String> {
     vec![fmu.name.clone(), fmu.entry.about.kind.name().into(), format!("{inputs} → {outputs}"), set]
 }
 
-/// What there is: with its title, since that is what one chooses by.
-fn listing(plan: &Plan) -> Result<String> {
-    let mut rows = Vec::new();
-    for fmu in plan.wanted.iter().map(|index| &plan.fmus[*index]) {
-        let mut row = described(fmu, &fmu.interface()?);
-        row[3] = fmu.title().to_owned();
-        rows.push(row);
-    }
-    for system in &plan.systems {
-        rows.push(vec![
-            system.name.clone(),
-            "system".into(),
-            format!("{} FMUs", system.components.len()),
-            system.title.clone(),
-        ]);
-    }
-    // What the names leave of a line of 120 columns.
-    let name = rows.iter().map(|row| row[0].width()).max().unwrap_or(0);
-    rows.iter_mut().for_each(|row| row[3] = shortened(&row[3], 93 - name));
-    Ok(table::aligned(&["NAME", "KIND", "IN → OUT", "WHAT IT IS"], &[], &rows))
-}
-
-/// A title that leaves the table readable; the documentation has all of it.
-fn shortened(title: &str, most: usize) -> String {
-    if title.chars().count() <= most {
-        return title.to_owned();
-    }
-    // The dots and their space need two.
-    let kept: String = title.chars().take(most - 2).collect();
-    let words = kept.rsplit_once(' ').map_or(kept.as_str(), |(words, _)| words);
-    format!("{} …", words.trim_end_matches([',', ';', ':']))
-}
-
 /// Who closes the pipe, as `head` does, has seen enough.
 fn print(text: &str) {
-    let _ = std::io::stdout().write_all(text.as_bytes());
+    let _ = anstream::stdout().write_all(text.as_bytes());
 }

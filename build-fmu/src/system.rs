@@ -42,34 +42,45 @@ pub struct System {
     pub source: String,
     /// FMU of each component, in the order of calculation.
     pub components: IndexMap<String, String>,
-    connections: Vec<String>,
+    /// `component.variable -> component.variable`.
+    pub connections: Vec<String>,
+    /// What to look at.
     #[serde(default)]
-    outputs: Vec<String>,
-    experiment: Experiment,
+    pub outputs: Vec<String>,
+    /// How to run it.
+    pub experiment: Experiment,
     #[serde(default)]
     parameters: IndexMap<String, Toml>,
 }
 
+/// How a system is run.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Experiment {
-    stop: f64,
-    step: f64,
+pub struct Experiment {
+    /// End in seconds; it starts at zero.
+    pub stop: f64,
+    /// Communication step in seconds.
+    pub step: f64,
 }
 
 /// A variable of a component.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Port {
-    component: String,
-    variable: String,
+pub struct Port {
+    /// The component's name.
+    pub component: String,
+    /// The variable's.
+    pub variable: String,
 }
 
 /// A start value for a component.
 #[derive(Clone, Debug, PartialEq)]
-struct Setting {
-    port: Port,
-    value: Value,
-    unit: Option<String>,
+pub struct Setting {
+    /// The variable.
+    pub port: Port,
+    /// Its value.
+    pub value: Value,
+    /// In this unit; none for settings.
+    pub unit: Option<String>,
 }
 
 impl System {
@@ -118,7 +129,10 @@ impl System {
     }
 
     /// The parameters, with nested tables flattened to dotted names.
-    fn settings(&self) -> Result<Vec<Setting>> {
+    ///
+    /// # Errors
+    /// The first that is not understood.
+    pub fn settings(&self) -> Result<Vec<Setting>> {
         let mut settings = Vec::new();
         for (name, value) in &self.parameters {
             self.collect(name, value, &mut settings)?;

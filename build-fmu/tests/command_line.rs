@@ -51,19 +51,113 @@ fn help_has_examples_and_unknown_options_are_usage_errors() {
 
 #[test]
 fn the_list_names_fmus_and_systems_within_120_columns() {
-    let (code, stdout, stderr) = answer(&["--list"]);
+    let (code, stdout, stderr) = answer(&["list"]);
     assert_eq!((code, stderr.as_str()), (0, ""));
     for name in ["QuarterCar ", "TumQuarterVehicle ", "quanser-lqr "] {
         assert!(stdout.lines().any(|line| line.starts_with(name)), "{stdout}");
     }
     assert!(stdout.lines().all(|line| line.chars().count() <= 120), "{stdout}");
-    let (_, one, _) = answer(&["--list", "quanser-lqr"]);
+    let (_, one, _) = answer(&["list", "quanser-lqr"]);
     assert_eq!(one.lines().count(), 2);
 }
 
 #[test]
+fn the_list_is_there_for_programs_too() {
+    let (code, stdout, _) = answer(&["list", "--json", "TumRoad", "quanser-lqr"]);
+    assert_eq!(code, 0);
+    let list: serde_json::Value = serde_json::from_str(&stdout).unwrap();
+    assert_eq!(list[0]["model"], "Road");
+    assert_eq!((&list[0]["inputs"], &list[0]["outputs"]), (&0.into(), &2.into()));
+    assert_eq!(list[1]["components"]["rig"], "QuanserQuarterCar");
+    assert_eq!(list.as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn an_fmu_is_described_with_all_that_is_declared() {
+    let (code, stdout, stderr) = answer(&["describe", "TumQuarterVehicle"]);
+    assert_eq!((code, stderr.as_str()), (0, ""));
+    for part in [
+        "TumQuarterVehicle  rig",
+        "The nonlinear model of the TUM rig",
+        "TUM eq. 12, 14; asymmetry derived from Table 9",
+        "strut.coulomb.force",
+        "Table 10: friction spring/damper",
+        "N·s/m",
+        "QuanserQuarterCar",
+        "tum-active",
+    ] {
+        assert!(stdout.contains(part), "{part:?} is missing in\n{stdout}");
+    }
+    // Not in a terminal: no colours, and a width that every reader has. Names are not broken.
+    assert!(!stdout.contains('\u{1b}'));
+    assert!(stdout.lines().all(|line| line.chars().count() <= 100), "{stdout}");
+    let (_, json, _) = answer(&["describe", "TumQuarterVehicle", "--json"]);
+    let facts: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(facts["parameter_set"]["values"]["sprung_mass"]["value"], 94.38);
+    let variables = facts["variables"].as_array().unwrap();
+    let mass = variables.iter().find(|variable| variable["name"] == "sprung_mass").unwrap();
+    assert_eq!((&mass["start"], &mass["unit"]), (&94.38.into(), &"kg".into()));
+    let rate = variables.iter().find(|variable| variable["name"] == "der(body.position)").unwrap();
+    assert_eq!(rate["derivative_of"], "body.position");
+}
+
+#[test]
+fn a_system_is_described_with_its_connections() {
+    let (code, stdout, _) = answer(&["describe", "quanser-lqr"]);
+    assert_eq!(code, 0);
+    for part in ["QuanserLqrController", "→ rig.actuator.force", "controller.switch_on_time      5  s"] {
+        assert!(stdout.contains(part), "{part:?} is missing in\n{stdout}");
+    }
+    let (_, json, _) = answer(&["describe", "quanser-lqr", "--json"]);
+    let facts: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(facts["parameters"]["controller.switch_on_time"]["value"], 5.0);
+}
+
+#[test]
+fn shells_complete_commands_and_names() {
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let (code, script, stderr) = answer(&["completions", shell]);
+        assert_eq!((code, stderr.as_str()), (0, ""));
+        // The other scripts know no values of arguments.
+        let knows = ["bash", "zsh"].contains(&shell);
+        let names: &[&str] = if knows { &["TumQuarterVehicle", "quanser-lqr"] } else { &[] };
+        for word in ["describe", "check", "manifest-path"].iter().chain(names) {
+            assert!(script.contains(word), "{word} is missing for {shell}");
+        }
+    }
+}
+
+/// What bash offers for the last of some words.
+#[cfg(unix)]
+fn offered(words: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, script, _) = answer(&["completions", "bash"]);
+    let path = file(&folder, "completions", &script);
+    let asks = format!(
+        "source '{path}'; COMP_WORDS=({words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); \
+         $(complete -p build-fmu | sed 's/.*-F \\([^ ]*\\).*/\\1/') build-fmu \"${{COMP_WORDS[-1]}}\" \
+         \"${{COMP_WORDS[-2]}}\"; echo \"${{COMPREPLY[*]}}\""
+    );
+    let output = Command::new("bash").args(["-c", &asks]).output().unwrap();
+    String::from_utf8(output.stdout).unwrap().trim().to_owned()
+}
+
+#[cfg(unix)]
+#[test]
+fn bash_completes() {
+    assert_eq!(offered("build-fmu desc"), "describe");
+    assert_eq!(offered("build-fmu describe TumQ"), "TumQuarterVehicle");
+    assert_eq!(offered("build-fmu list quanser"), "quanser-lqr");
+    assert_eq!(offered("build-fmu QuanserQ"), "QuanserQuarterCar");
+    assert_eq!(offered("build-fmu check --str"), "--strict");
+}
+
+#[test]
 fn an_unknown_name_brings_similar_ones() {
-    fails(&["QuaterCar"], &["no FMU or system `QuaterCar`", "help: did you mean `QuarterCar`", "--list"]);
+    fails(
+        &["QuaterCar"],
+        &["no FMU or system `QuaterCar`", "help: did you mean `QuarterCar`", "build-fmu list"],
+    );
 }
 
 #[test]
@@ -103,7 +197,7 @@ fn broken_parameter_sets_are_named() {
         (format!("{head}model = \"Road\"\n[values]\nheigt = {{ value = 1.0 }}"), "no parameter `heigt`"),
     ] {
         let path = file(&folder, "mine.toml", &text);
-        fails(&["--parameters", &path, "--list"], &[expected]);
+        fails(&["list", "--parameters", &path], &[expected]);
     }
     fails(&["--parameters", "nowhere.toml"], &["cannot read `nowhere.toml`"]);
 }

@@ -1,8 +1,6 @@
 //! From declarations to elements.
 
-use strut_model::{
-    Causality, Enumeration, Initial, Interface, LOG_CATEGORIES, Variability, Variable, VariableKind, unit,
-};
+use strut_model::{Enumeration, Initial, Interface, LOG_CATEGORIES, Variable, VariableKind, unit};
 
 use crate::{
     Header,
@@ -114,30 +112,13 @@ fn types(variables: &[Variable]) -> List<SimpleType> {
 }
 
 fn variable(variable: &Variable) -> ScalarVariable {
-    let causality = match variable.causality {
-        Causality::Parameter => "parameter",
-        Causality::CalculatedParameter => "calculatedParameter",
-        Causality::Input => "input",
-        Causality::Output => "output",
-        Causality::Local => "local",
-    };
-    let variability = match variable.variability {
-        Variability::Fixed => "fixed",
-        Variability::Tunable => "tunable",
-        Variability::Discrete => "discrete",
-        Variability::Continuous => "continuous",
-    };
-    let initial = variable.initial.map(|initial| match initial {
-        Initial::Exact => "exact",
-        Initial::Calculated => "calculated",
-    });
     ScalarVariable {
         name: variable.name.clone(),
         reference: variable.reference,
         description: variable.doc.clone(),
-        causality,
-        variability,
-        initial,
+        causality: variable.causality.name(),
+        variability: variable.variability.name(),
+        initial: variable.initial.map(Initial::name),
         kind: kind(&variable.kind),
     }
 }

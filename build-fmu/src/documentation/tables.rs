@@ -112,7 +112,7 @@ fn list(title: &str, variables: &[&Variable]) -> Markup {
 }
 
 /// Most parameters are tunable: those that are not are told.
-fn is_fixed(variable: &Variable) -> bool {
+pub fn is_fixed(variable: &Variable) -> bool {
     variable.causality == Causality::Parameter && variable.variability == Variability::Fixed
 }
 
@@ -125,14 +125,16 @@ fn items(variable: &Variable) -> Markup {
     }
 }
 
-fn unit(variable: &Variable) -> String {
+/// The unit as one reads it; empty for settings.
+pub fn unit(variable: &Variable) -> String {
     match variable.kind {
         VariableKind::Real { unit, .. } => printed(unit.symbol),
         _ => String::new(),
     }
 }
 
-fn start(variable: &Variable) -> Option<String> {
+/// The start value as one reads it.
+pub fn start(variable: &Variable) -> Option<String> {
     match &variable.kind {
         VariableKind::Real { start, .. } => start.map(number),
         VariableKind::Integer { start } => Some(start.to_string()),
@@ -145,7 +147,8 @@ fn start(variable: &Variable) -> Option<String> {
     }
 }
 
-fn range(variable: &Variable) -> String {
+/// The bounds as one reads them; empty if there are none.
+pub fn range(variable: &Variable) -> String {
     match variable.kind {
         VariableKind::Real { min: Some(min), max: Some(max), .. } => {
             format!("{} … {}", number(min), number(max))
@@ -156,7 +159,8 @@ fn range(variable: &Variable) -> String {
     }
 }
 
-fn value(value: &Value) -> String {
+/// A value as one reads it.
+pub fn value(value: &Value) -> String {
     match value {
         Value::Real(value) => number(*value),
         Value::Integer(value) => value.to_string(),

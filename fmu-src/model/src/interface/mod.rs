@@ -64,6 +64,19 @@ pub enum Causality {
     Local,
 }
 
+impl Causality {
+    /// As the model description writes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Parameter => "parameter",
+            Self::CalculatedParameter => "calculatedParameter",
+            Self::Input => "input",
+            Self::Output => "output",
+            Self::Local => "local",
+        }
+    }
+}
+
 /// When a variable's value may change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variability {
@@ -77,6 +90,18 @@ pub enum Variability {
     Continuous,
 }
 
+impl Variability {
+    /// As the model description writes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fixed => "fixed",
+            Self::Tunable => "tunable",
+            Self::Discrete => "discrete",
+            Self::Continuous => "continuous",
+        }
+    }
+}
+
 /// How an initial value comes about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Initial {
@@ -84,6 +109,16 @@ pub enum Initial {
     Exact,
     /// It is calculated.
     Calculated,
+}
+
+impl Initial {
+    /// As the model description writes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Calculated => "calculated",
+        }
+    }
 }
 
 /// Type of a variable.

@@ -1,0 +1,147 @@
+//! Rules for whole runs: each has to come to the same as a plain one.
+
+use super::Bench;
+use super::subject::{HALF, STEPS, plain, read};
+use crate::finding::{Finding, Report};
+use crate::probe::{Act, Run};
+
+impl Bench<'_> {
+    /// In a folder whose name has spaces and umlauts.
+    pub(super) fn resources(&self, reference: &Run, report: &mut Report) -> Result<(), String> {
+        let acts = self.whole(self.unpacked.odd, false);
+        let run = self.probe.run(self.subject.orders(self.unpacked.odd, acts))?;
+        let what = "a run in a folder whose name has spaces, percent signs and umlauts";
+        let help = "fmuResourceLocation is an address: `%20` in it is a space in the path";
+        if let Some(error) = &run.answers.unloadable {
+            let message = format!("the library does not load from such a folder: {error}");
+            report.findings.push(Finding::error("run.resources", message).at(&self.subject.library));
+        } else if !self.ran("run.resources", what, &run, report) {
+            report.findings.last_mut().into_iter().for_each(|finding| finding.help.push(help.into()));
+        } else if read(&run) != read(reference) {
+            let message = format!("{what} has other results");
+            report.findings.push(Finding::error("run.resources", message).help(help));
+        }
+        Ok(())
+    }
+
+    pub(super) fn reset(&self, reference: &Run, report: &mut Report) -> Result<(), String> {
+        let mut acts = self.subject.fresh(self.unpacked.plain);
+        acts.extend(self.subject.initialize());
+        acts.extend(self.subject.steps(0..HALF, -3.0));
+        let before = self.subject.width() * HALF;
+        acts.push(plain("fmi2Reset"));
+        acts.extend(self.subject.initialize());
+        acts.extend(self.subject.reads());
+        acts.extend(self.subject.steps(0..STEPS, 1.0));
+        let run = self.obey(acts)?;
+        if !self.ran("run.reset", "a run after fmi2Reset", &run, report) {
+            return Ok(());
+        }
+        self.same(
+            "run.reset",
+            "after fmi2Reset",
+            &read(&run)[before..],
+            &read(reference),
+            report,
+            &["a reset instance must be as a new one: states, inputs, parameters, time, memory of events"],
+        );
+        Ok(())
+    }
+
+    pub(super) fn states(&self, reference: &Run, report: &mut Report) -> Result<(), String> {
+        let subject = &self.subject;
+        if !subject.interface.can("canGetAndSetFMUstate") {
+            report
+                .skipped
+                .push(format!("{}: saving and restoring states, which is not declared", self.what()));
+            return Ok(());
+        }
+        let serializes = subject.interface.can("canSerializeFMUstate");
+        let mut acts = subject.fresh(self.unpacked.plain);
+        acts.extend(subject.initialize());
+        acts.extend(subject.steps(0..HALF, 1.0));
+        acts.push((Act::Save(0), true));
+        acts.extend(subject.steps(HALF..STEPS, -3.0));
+        acts.push((Act::Restore(0), true));
+        acts.extend(subject.steps(HALF..STEPS, 1.0));
+        if serializes {
+            acts.push((Act::Serialize(0, 1), true));
+            acts.push((Act::FreeState(0), true));
+            acts.push((Act::Restore(1), true));
+            acts.extend(subject.steps(HALF..STEPS, 1.0));
+            acts.push((Act::FreeState(1), true));
+        }
+        let run = self.obey(acts)?;
+        if !self.ran("run.state", "a run with a saved state", &run, report) {
+            return Ok(());
+        }
+        let width = subject.width();
+        // The reference has read its initial values too.
+        let rows = read(reference);
+        let wanted = &rows[width * (HALF + 1)..];
+        let found = read(&run);
+        let half = wanted.len();
+        let after = &found[width * STEPS..];
+        let help =
+            ["a restored state must be complete: states, inputs, time, memory of events and of the solver"];
+        self.same("run.state", "after fmi2SetFMUstate", &after[..half], wanted, report, &help);
+        if serializes {
+            let what = "after a state went through bytes";
+            self.same("run.state", what, &after[half..2 * half], wanted, report, &help);
+        }
+        Ok(())
+    }
+
+    pub(super) fn instances(&self, reference: &Run, report: &mut Report) -> Result<(), String> {
+        let subject = &self.subject;
+        if subject.interface.can("canBeInstantiatedOnlyOncePerProcess") {
+            report.findings.push(
+                Finding::note("run.instances", "there can be only one instance in a process")
+                    .line(subject.interface.line)
+                    .help("a system with two of them cannot be run in one process; keep nothing in global variables"),
+            );
+            return Ok(());
+        }
+        let mut acts = Vec::new();
+        for _ in 0..2 {
+            acts.extend(subject.fresh(self.unpacked.plain));
+            acts.extend(subject.initialize());
+        }
+        acts.push((Act::Use(0), true));
+        acts.extend(subject.reads());
+        for index in 0..STEPS {
+            // The other one gets other inputs, between those of the first and its step; it is not read.
+            acts.push((Act::Use(0), true));
+            acts.extend(subject.excite(index, 1.0));
+            acts.push((Act::Use(1), true));
+            acts.extend(subject.excite(index, -3.0));
+            acts.push(subject.advance(subject.time(index)));
+            acts.push((Act::Use(0), true));
+            acts.push(subject.advance(subject.time(index)));
+            acts.extend(subject.reads());
+        }
+        let run = self.obey(acts)?;
+        if self.ran("run.instances", "a run of two instances side by side", &run, report) {
+            let what = "beside a second instance";
+            let help = ["the instances share something: global or static variables"];
+            self.same("run.instances", what, &read(&run), &read(reference), report, &help);
+        }
+        Ok(())
+    }
+
+    /// Masters add up their clocks: the last digits of the communication points differ.
+    pub(super) fn clock(&self, report: &mut Report) -> Result<(), String> {
+        let subject = &self.subject;
+        let mut acts = subject.fresh(self.unpacked.plain);
+        acts.extend(subject.initialize());
+        let mut time = subject.time(0);
+        for index in 0..STEPS {
+            acts.extend(subject.excite(index, 1.0));
+            acts.push(subject.advance(time));
+            time += subject.step;
+        }
+        let run = self.obey(acts)?;
+        self.ran("run.clock", "a run whose communication points are added up", &run, report);
+        Ok(())
+    }
+}

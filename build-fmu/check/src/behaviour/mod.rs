@@ -1,0 +1,203 @@
+//! Rules for what a library does. Each has a process of its own.
+
+mod answers;
+mod lives;
+mod subject;
+
+use std::path::Path;
+
+use subject::{STEPS, Subject, plain, read};
+
+use crate::description::{Description, Kind};
+use crate::finding::{Finding, Report};
+use crate::libraries;
+use crate::probe::{ABSENT, Act, Ending, Outcome, Probe, RESTLESS, Run};
+
+/// Folders that an FMU is unpacked to.
+pub struct Unpacked<'a> {
+    /// With a plain name.
+    pub plain: &'a Path,
+    /// With spaces and other characters that users' folders have.
+    pub odd: &'a Path,
+}
+
+/// Runs each interface for which there is a library.
+///
+/// # Errors
+/// If processes cannot be started.
+pub fn run(
+    description: &Description,
+    unpacked: &Unpacked,
+    probe: &Probe,
+    report: &mut Report,
+) -> Result<(), String> {
+    let mut first = true;
+    for kind in [Kind::CoSimulation, Kind::ModelExchange] {
+        let Some(interface) = description.interface(kind) else { continue };
+        let Some(host) = libraries::HOST else {
+            report.skipped.push("running it: FMI has no name for this machine's platform".into());
+            return Ok(());
+        };
+        let library = libraries::path(host, &interface.identifier);
+        if !unpacked.plain.join(&library).is_file() {
+            report.skipped.push(format!("running it: there is no `{library}` for this machine"));
+            return Ok(());
+        }
+        let subject = Subject::new(description, interface, library);
+        let bench = Bench { subject, unpacked, probe };
+        bench.check(first, report)?;
+        first = false;
+    }
+    Ok(())
+}
+
+struct Bench<'a> {
+    subject: Subject<'a>,
+    unpacked: &'a Unpacked<'a>,
+    probe: &'a Probe,
+}
+
+type Acts = Vec<(Act, bool)>;
+
+impl Bench<'_> {
+    fn check(&self, everything: bool, report: &mut Report) -> Result<(), String> {
+        let subject = &self.subject;
+        let what = self.what();
+        let run = self.start_values(report)?;
+        if let Some(error) = &run.answers.unloadable {
+            report.findings.push(
+                Finding::error("run.load", format!("the library cannot be loaded here: {error}"))
+                    .at(&subject.library)
+                    .help("link statically what is missing, or bring it along beside the library"),
+            );
+            return Ok(());
+        }
+        let reference = self.obey(self.whole(self.unpacked.plain, true))?;
+        report.findings.extend(self.words(&reference));
+        if !self.ran("run.simulate", &format!("a run of {what}"), &reference, report) {
+            report.skipped.push(format!("further runs of {what}, since the first does not succeed"));
+            return Ok(());
+        }
+        report.findings.extend(self.numbers(&reference));
+        report.done.push(format!("{what}: {STEPS} steps of {} s", subject.step));
+        if everything {
+            self.guid(report)?;
+            self.unknown_reference(report)?;
+        }
+        let again = self.obey(self.whole(self.unpacked.plain, false))?;
+        if read(&again) != read(&reference) {
+            let message = format!("two runs of {what} with the same inputs differ");
+            let help = "something is not initialised, or depends on the clock or on addresses";
+            report.findings.push(Finding::warning("run.repeat", message).help(help));
+            report
+                .skipped
+                .push("comparing runs after a reset or a saved state, since equal runs differ".into());
+            return Ok(());
+        }
+        self.resources(&reference, report)?;
+        self.reset(&reference, report)?;
+        self.states(&reference, report)?;
+        self.instances(&reference, report)?;
+        self.derivatives(report)?;
+        if subject.interface.kind == Kind::CoSimulation {
+            self.clock(report)?;
+            self.parameters(report)?;
+        }
+        Ok(())
+    }
+
+    fn what(&self) -> &'static str {
+        match self.subject.interface.kind {
+            Kind::CoSimulation => "co-simulation",
+            Kind::ModelExchange => "model exchange",
+        }
+    }
+
+    fn obey(&self, acts: Acts) -> Result<Run, String> {
+        self.probe.run(self.subject.orders(self.unpacked.plain, acts))
+    }
+
+    /// A whole life.
+    fn whole(&self, folder: &Path, logging: bool) -> Acts {
+        let guid = self.subject.description.guid.as_deref().unwrap_or_default();
+        let mut acts = vec![self.subject.instantiate(folder, guid, logging)];
+        acts.extend(self.subject.initialize());
+        acts.extend(self.subject.reads());
+        acts.extend(self.subject.steps(0..STEPS, 1.0));
+        acts.extend([plain("fmi2Terminate"), (Act::Free, true)]);
+        acts
+    }
+
+    /// Whether a run went through; what went wrong is reported.
+    fn ran(&self, rule: &'static str, what: &str, run: &Run, report: &mut Report) -> bool {
+        let message = match (&run.ending, run.failure()) {
+            (Ending::Crashed { function, how }, _) => {
+                format!("the library crashes in {function} during {what}: {how}")
+            }
+            (Ending::Hung { function }, _) => {
+                let seconds = self.probe.timeout.as_secs_f64();
+                format!(
+                    "the library does not return from {function} during {what}; it was ended after {seconds} s"
+                )
+            }
+            (Ending::Answered, Some((act, ABSENT))) => {
+                format!("{} is missing in the library", act.function())
+            }
+            (Ending::Answered, Some((act, status))) => {
+                let time = match act {
+                    Act::Step(time, _) | Act::Euler { time, .. } => format!(" at {time} s"),
+                    _ => String::new(),
+                };
+                let returns = match act {
+                    Act::Instantiate { .. } => "returns null".into(),
+                    _ => format!("returns {}", status_name(status)),
+                };
+                format!("{}{time} {returns} during {what}", act.function())
+            }
+            (Ending::Answered, None) => return true,
+        };
+        let mut finding = Finding::error(rule, message).at(&self.subject.library);
+        if let Some(logged) = run.answers.log.messages.first() {
+            finding = finding.help(format!("it says: {}", logged.trim()));
+        }
+        report.findings.push(finding);
+        false
+    }
+
+    fn same(
+        &self,
+        rule: &'static str,
+        when: &str,
+        found: &[&Outcome],
+        wanted: &[&Outcome],
+        report: &mut Report,
+        help: &[&str],
+    ) {
+        let width = self.subject.width().max(1);
+        match found.iter().zip(wanted).position(|(found, wanted)| found != wanted) {
+            None if found.len() == wanted.len() => {
+                report.done.push(format!("{}: the same results {when}, bit for bit", self.what()));
+            }
+            place => {
+                let step = place.unwrap_or(found.len().min(wanted.len())) / width;
+                let message =
+                    format!("{when}, the outputs are others than in a plain run, first in row {step}");
+                let finding = Finding::error(rule, message).at(&self.subject.library);
+                report.findings.push(help.iter().fold(finding, |finding, help| finding.help(*help)));
+            }
+        }
+    }
+}
+
+fn status_name(status: i32) -> &'static str {
+    match status {
+        0 => "fmi2OK",
+        1 => "fmi2Warning",
+        2 => "fmi2Discard",
+        3 => "fmi2Error",
+        4 => "fmi2Fatal",
+        5 => "fmi2Pending",
+        RESTLESS => "without ever coming to rest: it asks for another event iteration a hundred times",
+        _ => "a status that FMI does not know",
+    }
+}

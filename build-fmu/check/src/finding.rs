@@ -1,0 +1,131 @@
+//! What is found, and how much of it.
+
+use std::fmt::{self, Display, Formatter};
+
+use serde::Serialize;
+
+/// How bad a finding is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Level {
+    /// Against the standard, or it does not work.
+    Error,
+    /// Works here, but tools are known to stumble over it.
+    Warning,
+    /// Legal, but narrows where the FMU can be used or what can be known of it.
+    Note,
+}
+
+impl Display for Level {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Error => "error",
+            Self::Warning => "warning",
+            Self::Note => "note",
+        })
+    }
+}
+
+/// One thing that is found.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Finding {
+    /// How bad it is.
+    pub level: Level,
+    /// Name of the rule: `structure.outputs`.
+    pub rule: &'static str,
+    /// What is wrong: a sentence without a full stop.
+    pub message: String,
+    /// File in the archive, and the line if it is a text.
+    pub place: Option<String>,
+    /// What to do.
+    pub help: Vec<String>,
+}
+
+impl Finding {
+    /// An error.
+    pub fn error(rule: &'static str, message: impl Into<String>) -> Self {
+        Self { level: Level::Error, rule, message: message.into(), place: None, help: Vec::new() }
+    }
+
+    /// A warning.
+    pub fn warning(rule: &'static str, message: impl Into<String>) -> Self {
+        Self { level: Level::Warning, ..Self::error(rule, message) }
+    }
+
+    /// A note.
+    pub fn note(rule: &'static str, message: impl Into<String>) -> Self {
+        Self { level: Level::Note, ..Self::error(rule, message) }
+    }
+
+    /// With the line of the model description.
+    #[must_use]
+    pub fn line(self, line: u32) -> Self {
+        self.at(format!("modelDescription.xml:{line}"))
+    }
+
+    /// With the file in the archive.
+    #[must_use]
+    pub fn at(mut self, place: impl Into<String>) -> Self {
+        self.place = Some(place.into());
+        self
+    }
+
+    /// With what to do.
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help.push(help.into());
+        self
+    }
+}
+
+/// All that is known of an FMU after the check.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Report {
+    /// What it is: version, interfaces, variables, platforms.
+    pub about: Vec<String>,
+    /// What was found.
+    pub findings: Vec<Finding>,
+    /// What was done and found to be in order, or how often.
+    pub done: Vec<String>,
+    /// What was not done, and why.
+    pub skipped: Vec<String>,
+}
+
+impl Report {
+    /// The number of findings of a level.
+    pub fn count(&self, level: Level) -> usize {
+        self.findings.iter().filter(|finding| finding.level == level).count()
+    }
+}
+
+/// The first names of many, as a list: `a`, `b`, `c` and 12 more.
+pub fn names<S: AsRef<str>>(all: &[S]) -> String {
+    const SHOWN: usize = 5;
+    // One more than is shown may be named instead of counted.
+    let shown = if all.len() > SHOWN + 1 { SHOWN } else { all.len() };
+    let quoted: Vec<String> = all[..shown].iter().map(|name| format!("`{}`", name.as_ref())).collect();
+    match (quoted.split_last(), all.len() - shown) {
+        (None, _) => String::new(),
+        (Some((last, [])), 0) => last.clone(),
+        (Some((last, rest)), 0) => format!("{} and {last}", rest.join(", ")),
+        (_, more) => format!("{} and {more} more", quoted.join(", ")),
+    }
+}
+
+/// `1 output`, `2 outputs`.
+pub fn count(number: usize, of: &str) -> String {
+    if number == 1 { format!("1 {of}") } else { format!("{number} {of}s") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_listed_or_counted() {
+        assert_eq!(names(&["a"]), "`a`");
+        assert_eq!(names(&["a", "b", "c"]), "`a`, `b` and `c`");
+        assert_eq!(names(&["a", "b", "c", "d", "e", "f"]), "`a`, `b`, `c`, `d`, `e` and `f`");
+        assert_eq!(names(&["a", "b", "c", "d", "e", "f", "g"]), "`a`, `b`, `c`, `d`, `e` and 2 more");
+    }
+}
