@@ -40,12 +40,14 @@ mod failure;
 mod fmu;
 mod foreign;
 mod icon;
+mod needs;
 mod plan;
 mod platform;
 mod plot;
 mod run;
 mod system;
 mod table;
+mod toolchain;
 
 #[cfg(feature = "strut")]
 use std::path::Path;
@@ -109,6 +111,7 @@ pub fn pack(project: &Project, parameters: &Path, out: &Path) -> Result<(), Stri
         names: Vec::new(),
         out: out.into(),
         targets: Vec::new(),
+        cross: None,
         parameters: vec![parameters.into()],
         systems: Vec::new(),
         manifest_path: Some(workspace),
