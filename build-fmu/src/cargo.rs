@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 use cargo_metadata::{CrateType, Message, Metadata, MetadataCommand};
 
 use crate::failure::{Failure, Result, similar};
-use crate::platform::Platform;
+use crate::toolchain::Toolchain;
 
 /// How a library that ships is compiled, in whatever workspace it stands: as the release profile of
 /// Strut's own workspace has it.
@@ -53,11 +53,11 @@ pub fn workspace_manifest() -> Option<PathBuf> {
 /// The libraries of packages, by package name.
 pub type Libraries = BTreeMap<String, PathBuf>;
 
-/// Builds the shared libraries of packages for a platform (none: for this machine), in one go.
+/// Builds the shared libraries of packages by a toolchain, in one go.
 ///
 /// # Errors
-/// If a package is missing, the target is not installed, or the build fails.
-pub fn build(metadata: &Metadata, packages: &[String], platform: Option<&Platform>) -> Result<Libraries> {
+/// If a package is missing or the build fails.
+pub fn build(metadata: &Metadata, packages: &[String], toolchain: &Toolchain) -> Result<Libraries> {
     for package in packages {
         if !metadata.packages.iter().any(|other| other.name.as_str() == package) {
             let names = metadata.packages.iter().map(|package| package.name.as_str());
@@ -73,17 +73,13 @@ pub fn build(metadata: &Metadata, packages: &[String], platform: Option<&Platfor
         }
     }
     let mut command = Command::new(program());
-    let zig = platform.is_some_and(|platform| platform.glibc);
-    command.arg(if zig { "zigbuild" } else { "build" });
+    command.arg(toolchain.subcommand());
     command.args(SHIPPED).args(["--lib", "--message-format=json-render-diagnostics", "--manifest-path"]);
     command.arg(metadata.workspace_root.join("Cargo.toml"));
     for package in packages {
         command.args(["--package", package]);
     }
-    if let Some(platform) = platform {
-        check_installed(platform)?;
-        command.args(["--target", &platform.given]);
-    }
+    toolchain.configure(&mut command);
     let failed = |error: std::io::Error| Failure::new(format!("cannot run cargo: {error}"));
     let mut child = command.stdout(Stdio::piped()).spawn().map_err(failed)?;
     let output = child.stdout.take().expect("the output was asked for");
@@ -108,56 +104,6 @@ pub fn build(metadata: &Metadata, packages: &[String], platform: Option<&Platfor
         Some(package) => Err(Failure::new(format!("package `{package}` makes no shared library"))
             .help("its Cargo.toml needs `[lib]` with `crate-type = [\"cdylib\"]` (add \"rlib\" for a model of your own)")),
     }
-}
-
-/// A target that is not there is found out before cargo fails on the first crate.
-fn check_installed(platform: &Platform) -> Result<()> {
-    let Platform { given, triple, glibc, .. } = platform;
-    // Who builds the standard library along with the rest needs none for the target.
-    if std::env::var_os("CARGO_UNSTABLE_BUILD_STD").is_none() {
-        let sysroot = rustc(&["--print", "sysroot"])?;
-        if !Path::new(sysroot.trim()).join("lib/rustlib").join(triple).join("lib").is_dir() {
-            let targets = rustc(&["--print", "target-list"])?;
-            if targets.lines().any(|target| target == triple) {
-                return Err(Failure::new(format!("the target `{triple}` is not installed"))
-                    .help(format!("run `rustup target add {triple}`")));
-            }
-            let failure = Failure::new(format!("rustc knows no target `{triple}`"));
-            let help = similar(triple, targets.lines());
-            return Err(help.into_iter().fold(failure, Failure::help));
-        }
-    }
-    if *glibc
-        && !Command::new("cargo-zigbuild")
-            .arg("--version")
-            .output()
-            .is_ok_and(|output| output.status.success())
-    {
-        return Err(Failure::new(format!("building for the glibc of `{given}` needs cargo-zigbuild"))
-            .help("run `pip install ziglang cargo-zigbuild`, or build without the version"));
-    }
-    Ok(())
-}
-
-fn rustc(arguments: &[&str]) -> Result<String> {
-    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    match Command::new(rustc).args(arguments).output() {
-        Ok(output) if output.status.success() => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
-        Ok(output) => {
-            Err(Failure::new(format!("rustc fails: {}", String::from_utf8_lossy(&output.stderr).trim())))
-        }
-        Err(error) => Err(Failure::new(format!("cannot run rustc: {error}"))),
-    }
-}
-
-/// The target of this machine.
-///
-/// # Errors
-/// If rustc does not run.
-pub fn host() -> Result<Platform> {
-    let version = rustc(&["-vV"])?;
-    let host = version.lines().find_map(|line| line.strip_prefix("host: "));
-    Platform::of(host.ok_or_else(|| Failure::new("rustc does not tell its host"))?)
 }
 
 /// `QuarterCar` is built by the package `fmu-quarter-car`.

@@ -14,10 +14,13 @@ Examples:
   build-fmu --parameters my-rig.toml            a model with your own parameter set
   build-fmu --system my-system.toml             your own composition, as an SSP
   build-fmu --manifest-path my-model/Cargo.toml your own model
-  build-fmu --target x86_64-unknown-linux-gnu --target x86_64-pc-windows-gnu
-                                                both platforms in each FMU
   build-fmu --target x86_64-unknown-linux-gnu.2.17
-                                                for Linux with an old glibc, by cargo-zigbuild
+                                                for any Linux since 2012, by cargo-zigbuild
+  build-fmu --target x86_64-unknown-linux-gnu.2.17 --target x86_64-pc-windows-gnu
+                                                Linux and Windows in each FMU
+
+A target is installed by `rustup target add`. On a Debian machine that cannot do so, build-fmu/cross/toolchain makes a
+toolchain for Windows (x86_64-pc-windows-gnu) and Linux on ARM (aarch64-unknown-linux-gnu), to be given by --cross.
 
 In the workspace, write `cargo run --release --` for `build-fmu`.";
 
@@ -204,6 +207,10 @@ pub struct Arguments {
     /// Rust target to build for, several times for FMUs with several platforms [default: this machine]
     #[arg(long = "target", value_name = "TRIPLE")]
     pub targets: Vec<String>,
+
+    /// Folder of the toolchain for targets that are not installed, as build-fmu/cross/toolchain makes it
+    #[arg(long, value_name = "DIR", env = "STRUT_CROSS")]
+    pub cross: Option<PathBuf>,
 
     /// Parameter set (TOML) to make an FMU of
     #[arg(long, value_name = "FILE")]

@@ -1,5 +1,6 @@
 //! An FMU: a model, perhaps with a parameter set, and its archive.
 
+use std::iter;
 use std::path::PathBuf;
 
 use strut_model::{Causality, Entry, Error, Interface, ParameterSet};
@@ -84,10 +85,11 @@ impl Fmu {
         archive.add("modelDescription.xml", strut_model_description::write(&interface, &header));
         archive.add("model.png", icon::png(about.kind));
         for (platform, library) in libraries {
-            archive.add_library(
-                format!("binaries/{}/{}{}", platform.folder, self.name, platform.ending),
-                library.as_slice(),
-            );
+            let free = |folder: &&String| libraries.iter().all(|(other, _)| other.folder != **folder);
+            for folder in iter::once(&platform.folder).chain(platform.known_as.as_ref().filter(free)) {
+                let file = format!("binaries/{folder}/{}{}", self.name, platform.ending);
+                archive.add_library(file, library.as_slice());
+            }
         }
         let page = Page { fmu: self, interface: &interface, trajectory: &trajectory };
         archive.add("documentation/index.html", documentation::html(&page));
@@ -197,6 +199,24 @@ mod tests {
         std::io::Read::read_to_string(&mut zip.by_name("modelDescription.xml").unwrap(), &mut xml).unwrap();
         assert!(xml.contains("modelIdentifier=\"RecordedRoad\"") && xml.contains("license=\"MIT License\""));
         assert!(xml.contains(&packed.interface.guid()));
+    }
+
+    #[test]
+    fn a_library_for_another_processor_takes_the_folder_of_intels_if_that_is_free() {
+        let names = |triples: &[&str]| {
+            let platform = |triple: &&str| (Platform::of(triple).unwrap(), triple.as_bytes().to_vec());
+            let libraries: Vec<_> = triples.iter().map(platform).collect();
+            let packed = recorded_road(&["profile.csv"]).pack(&libraries, "").unwrap();
+            let zip = zip::ZipArchive::new(std::io::Cursor::new(packed.bytes)).unwrap();
+            let mut names: Vec<String> = zip.file_names().map(|name| name.unwrap().into_owned()).collect();
+            names.retain(|name| name.starts_with("binaries/"));
+            names
+        };
+        let (intel, arm) = ("x86_64-unknown-linux-gnu", "aarch64-unknown-linux-gnu");
+        let [tuple, common] =
+            ["binaries/aarch64-linux/RecordedRoad.so", "binaries/linux64/RecordedRoad.so"].map(String::from);
+        assert_eq!(names(&[arm]), [tuple.clone(), common.clone()]);
+        assert_eq!(names(&[arm, intel]), [tuple, common]);
     }
 
     #[test]

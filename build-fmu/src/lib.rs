@@ -46,6 +46,7 @@ mod fmu;
 mod foreign;
 mod icon;
 mod list;
+mod needs;
 mod plan;
 mod platform;
 mod plot;
@@ -53,6 +54,7 @@ mod run;
 mod style;
 mod system;
 mod table;
+mod toolchain;
 
 #[cfg(feature = "strut")]
 use std::path::Path;
@@ -116,6 +118,7 @@ pub fn pack(project: &Project, parameters: &Path, out: &Path) -> Result<(), Stri
         names: Vec::new(),
         out: out.into(),
         targets: Vec::new(),
+        cross: None,
         parameters: vec![parameters.into()],
         systems: Vec::new(),
         manifest_path: Some(workspace),

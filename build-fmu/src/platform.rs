@@ -9,10 +9,13 @@ pub struct Platform {
     pub given: String,
     /// As `rustc` knows it: `x86_64-unknown-linux-gnu`.
     pub triple: String,
-    /// Whether it carries a glibc version, which `cargo zigbuild` takes care of.
-    pub glibc: bool,
+    /// The oldest glibc to run with, if it is given: `2.17`. `cargo zigbuild` takes care of it.
+    pub glibc: Option<String>,
     /// Folder below `binaries/`.
     pub folder: String,
+    /// The folder where masters look for it that know one processor only; free if there is no library
+    /// for that processor.
+    pub known_as: Option<String>,
     /// Ending of a shared library, with the dot.
     pub ending: &'static str,
 }
@@ -23,11 +26,11 @@ impl Platform {
     /// # Errors
     /// If the triple has no operating system that loads shared libraries.
     pub fn of(given: &str) -> Result<Self> {
-        let triple = match given.split_once("-gnu.") {
+        let (triple, glibc) = match given.split_once("-gnu.") {
             Some((front, version)) if version.chars().all(|c| c.is_ascii_digit() || c == '.') => {
-                format!("{front}-gnu")
+                (format!("{front}-gnu"), Some(version.to_owned()))
             }
-            _ => given.to_owned(),
+            _ => (given.to_owned(), None),
         };
         let (arch, rest) = triple.split_once('-').unwrap_or((&triple, ""));
         let (system, ending) = match rest {
@@ -39,15 +42,16 @@ impl Platform {
                     .help("targets are named like x86_64-unknown-linux-gnu or x86_64-pc-windows-msvc"));
             }
         };
-        // FMI 2.0, section 2.3, names only Intel's platforms; the others follow FMI 3.0's `arch-system`.
-        let folder = match (arch, system) {
-            ("x86_64", "windows") => "win64".into(),
-            ("i586" | "i686", "windows") => "win32".into(),
-            ("x86_64", _) => format!("{system}64"),
-            ("i586" | "i686", _) => format!("{system}32"),
-            _ => format!("{arch}-{system}"),
+        // FMI 2.0.5, section 2.3, names Intel's platforms; the others are FMI 3.0's tuples.
+        let short = if system == "windows" { "win" } else { system };
+        let (folder, known_as) = match arch {
+            "x86_64" => (format!("{short}64"), None),
+            "i586" | "i686" => (format!("{short}32"), None),
+            // FMPy 0.3.32, OMSimulator, fmusim and the `fmi` crate look here for every library of 64 bits.
+            "aarch64" => (format!("{arch}-{system}"), Some(format!("{short}64"))),
+            _ => (format!("{arch}-{system}"), None),
         };
-        Ok(Self { glibc: triple != given, given: given.to_owned(), triple, folder, ending })
+        Ok(Self { given: given.to_owned(), triple, glibc, folder, known_as, ending })
     }
 }
 
@@ -75,7 +79,11 @@ mod tests {
     #[test]
     fn a_glibc_version_is_not_part_of_the_triple() {
         let platform = Platform::of("x86_64-unknown-linux-gnu.2.17").unwrap();
-        assert_eq!((platform.triple.as_str(), platform.glibc), ("x86_64-unknown-linux-gnu", true));
+        assert_eq!(
+            (platform.triple.as_str(), platform.glibc.as_deref()),
+            ("x86_64-unknown-linux-gnu", Some("2.17"))
+        );
+        assert_eq!(Platform::of("x86_64-unknown-linux-gnu").unwrap().glibc, None);
     }
 
     #[test]

@@ -13,8 +13,10 @@ use crate::cargo::{self, Libraries};
 use crate::cli::{Arguments, Command, CommandLine};
 use crate::failure::{Failure, Result};
 use crate::fmu::{Fmu, Packed};
+use crate::needs::Needs;
 use crate::plan::Plan;
 use crate::platform::Platform;
+use crate::toolchain::{self, Toolchain};
 use crate::{Project, Source, describe, foreign, list, table};
 #[cfg(feature = "tools")]
 use crate::{check, completions};
@@ -41,7 +43,11 @@ pub fn run(project: &Project, line: &CommandLine) -> Result<ExitCode> {
         return package.run();
     }
     let text = match &line.command {
-        None => build(project, &line.build)?,
+        None => {
+            let told = build(project, &line.build)?;
+            told.notes.iter().for_each(|note| eprintln!("note: {note}"));
+            told.table
+        }
         Some(Command::List(arguments)) => {
             let (_, plan) = plan(project, &arguments.models.of(&arguments.names))?;
             list::text(&plan, arguments.json)?
@@ -78,13 +84,22 @@ fn plan(project: &Project, arguments: &Arguments) -> Result<(Metadata, Plan)> {
     Ok((metadata, plan))
 }
 
-/// Builds what the arguments ask for from the project's own models; returns what is to be told.
+/// What is to be told of a build.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Told {
+    /// What was built, or could be.
+    pub table: String,
+    /// What the libraries of each platform need of a machine.
+    pub notes: Vec<String>,
+}
+
+/// Builds what the arguments ask for from the project's own models.
 ///
 /// # Errors
 /// Whatever goes wrong first.
-pub fn build(project: &Project, arguments: &Arguments) -> Result<String> {
+pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
     let (metadata, plan) = plan(project, arguments)?;
-    let platforms = platforms(&arguments.targets)?;
+    let platforms = platforms(arguments)?;
     // Mistakes in systems come to light before minutes of compiling.
     let mut needed = plan.wanted.clone();
     for system in &plan.systems {
@@ -103,8 +118,10 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<String> {
     packages.sort();
     packages.dedup();
     let mut built: Vec<(Platform, Libraries)> = Vec::new();
-    for (platform, asked) in platforms {
-        let libraries = cargo::build(&metadata, &packages, asked.then_some(&platform))?;
+    let mut notes = Vec::new();
+    for (platform, toolchain) in platforms {
+        let libraries = cargo::build(&metadata, &packages, &toolchain)?;
+        notes.push(format!("{} needs {}", platform.folder, Needs::of(&platform, &libraries)?));
         built.push((platform, libraries));
     }
     let progress = progress(needed.len() + plan.systems.len());
@@ -146,16 +163,18 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<String> {
         progress.inc(1);
     }
     progress.finish_and_clear();
-    Ok(table::aligned(&["NAME", "KIND", "IN → OUT", "PARAMETERS", "SIZE", "PATH"], &[4], &rows))
+    let table = table::aligned(&["NAME", "KIND", "IN → OUT", "PARAMETERS", "SIZE", "PATH"], &[4], &rows);
+    Ok(Told { table, notes })
 }
 
-/// The platforms to build for, and whether they were asked for by name.
-fn platforms(targets: &[String]) -> Result<Vec<(Platform, bool)>> {
-    if targets.is_empty() {
-        return Ok(vec![(cargo::host()?, false)]);
+/// The platforms to build for, and what builds: a target that is not installed is found out before the
+/// first is built.
+fn platforms(arguments: &Arguments) -> Result<Vec<(Platform, Toolchain)>> {
+    if arguments.targets.is_empty() {
+        return Ok(vec![(toolchain::host()?, Toolchain::HOST)]);
     }
-    let mut platforms: Vec<(Platform, bool)> = Vec::new();
-    for target in targets {
+    let mut platforms: Vec<(Platform, Toolchain)> = Vec::new();
+    for target in &arguments.targets {
         let platform = Platform::of(target)?;
         if let Some((other, _)) = platforms.iter().find(|(other, _)| other.folder == platform.folder) {
             return Err(Failure::new(format!(
@@ -164,7 +183,8 @@ fn platforms(targets: &[String]) -> Result<Vec<(Platform, bool)>> {
             ))
             .help("give one of them"));
         }
-        platforms.push((platform, true));
+        let toolchain = Toolchain::of(&platform, arguments.cross.as_deref())?;
+        platforms.push((platform, toolchain));
     }
     Ok(platforms)
 }

@@ -9,6 +9,7 @@ fn build_fmu(arguments: &[&str]) -> Output {
         .args(arguments)
         .current_dir(root())
         .env_remove("SOURCE_DATE_EPOCH")
+        .env_remove("STRUT_CROSS")
         .output()
         .unwrap()
 }
@@ -173,6 +174,25 @@ fn targets_that_cannot_be_built_for_are_told_at_once() {
     with(&["wasm32-wasip1"], &["no target that FMUs are made for"]);
     with(&["x86_64-unknown-linux-gnu", "x86_64-unknown-linux-musl"], &["are both `linux64` in an FMU"]);
     with(&["i686-pc-windows-msvc"], &["is not installed", "rustup target add i686-pc-windows-msvc"]);
+}
+
+#[test]
+fn a_toolchain_that_is_none_or_lacks_the_target_is_told_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let cross = folder.path().to_str().unwrap();
+    let arguments = ["Road", "--out", cross, "--target", "i686-pc-windows-msvc", "--cross"];
+    fails(
+        &[&arguments[..], &["nowhere"]].concat(),
+        &["no toolchain in `nowhere`", "build-fmu/cross/toolchain"],
+    );
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        std::fs::create_dir(folder.path().join("bin")).unwrap();
+        let compiler = file(&folder, "bin/rustc", "#!/bin/sh\necho /nowhere\n");
+        std::fs::set_permissions(&compiler, std::fs::Permissions::from_mode(0o755)).unwrap();
+        fails(&[&arguments[..], &[cross]].concat(), &["`i686-pc-windows-msvc` is not installed"]);
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The FMU's resources: where they are, and the parameter set in them.
 
 use std::{
-    ffi::{CStr, c_void},
+    ffi::c_void,
     io::ErrorKind,
     path::{Path, PathBuf},
 };
@@ -99,9 +99,19 @@ fn read(folder: &Path) -> Result<Option<ParameterSet>, String> {
 
 /// The resources of the FMU that the library with this address was unpacked with: it is in
 /// `binaries/<platform>`.
-#[cfg(unix)]
 fn beside_library(address: *const c_void) -> Option<PathBuf> {
-    use std::{ffi::OsStr, mem::MaybeUninit, os::unix::ffi::OsStrExt};
+    let folder = library(address)?.parent()?.join("../../resources");
+    folder.is_dir().then_some(folder)
+}
+
+/// The file of the library with this address, as the loader knows it.
+#[cfg(unix)]
+fn library(address: *const c_void) -> Option<PathBuf> {
+    use std::{
+        ffi::{CStr, OsStr},
+        mem::MaybeUninit,
+        os::unix::ffi::OsStrExt,
+    };
 
     let mut info = MaybeUninit::<libc::Dl_info>::zeroed();
     // SAFETY: `dladdr` takes any address and writes to `info`, for which zeros are valid too.
@@ -116,13 +126,38 @@ fn beside_library(address: *const c_void) -> Option<PathBuf> {
     }
     // SAFETY: the loader's name of the library ends with a zero and lives as long as the library.
     let name = unsafe { CStr::from_ptr(info.dli_fname) };
-    let folder = Path::new(OsStr::from_bytes(name.to_bytes())).parent()?.join("../../resources");
-    folder.is_dir().then_some(folder)
+    Some(OsStr::from_bytes(name.to_bytes()).into())
+}
+
+/// The file of the library with this address, as the loader knows it.
+#[cfg(windows)]
+fn library(address: *const c_void) -> Option<PathBuf> {
+    use std::{ffi::OsString, os::windows::ffi::OsStringExt, ptr};
+    use windows_sys::Win32::System::LibraryLoader::{
+        GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS, GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT,
+        GetModuleFileNameW, GetModuleHandleExW,
+    };
+
+    const FLAGS: u32 = GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT;
+    /// No path is longer.
+    const LONGEST: u32 = 0x8000;
+
+    let mut module = ptr::null_mut();
+    let mut name = vec![0; LONGEST as usize];
+    // SAFETY: with these flags any address may be asked for, and the module stays loaded: we are in it.
+    // The name is written to a buffer of the length that is told.
+    let length = unsafe {
+        if GetModuleHandleExW(FLAGS, address.cast(), &mut module) == 0 {
+            return None;
+        }
+        GetModuleFileNameW(module, name.as_mut_ptr(), LONGEST)
+    };
+    (length > 0).then(|| OsString::from_wide(&name[..length as usize]).into())
 }
 
 /// Elsewhere a library is not asked where it is.
-#[cfg(not(unix))]
-fn beside_library(_: *const c_void) -> Option<PathBuf> {
+#[cfg(not(any(unix, windows)))]
+fn library(_: *const c_void) -> Option<PathBuf> {
     None
 }
 

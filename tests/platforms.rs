@@ -1,0 +1,126 @@
+//! FMUs with several platforms in one file: what they need, what masters see in them, and that every library gives
+//! the same bits. What is checked stands in `masters/platforms.py` and `platforms/host.c`.
+//!
+//! Windows is emulated by Wine, Linux on ARM by QEMU; `.ci/install` installs both and the compilers. Where something
+//! is missing, that platform is left out, which is told; not so where `CI` is set.
+
+use std::ffi::OsString;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::process::Command;
+
+/// A platform that the machine of the tests is not.
+struct Platform {
+    folder: &'static str,
+    target: &'static str,
+    triple: &'static str,
+    programs: &'static [&'static str],
+}
+
+const EMULATED: [Platform; 2] = [
+    Platform {
+        folder: "win64",
+        target: "x86_64-pc-windows-gnu",
+        triple: "x86_64-pc-windows-gnu",
+        programs: &["x86_64-w64-mingw32-gcc", "wine"],
+    },
+    Platform {
+        folder: "aarch64-linux",
+        target: "aarch64-unknown-linux-gnu.2.17",
+        triple: "aarch64-unknown-linux-gnu",
+        programs: &["aarch64-linux-gnu-gcc", "qemu-aarch64-static"],
+    },
+];
+
+/// A rig with a parameter set in its resources, and an actuator without.
+const FMUS: [&str; 2] = ["TumQuarterVehicle", "LinearMotor"];
+
+impl Platform {
+    /// What is missing here for building and running its libraries.
+    fn missing(&self) -> Vec<String> {
+        let mut missing: Vec<String> = Vec::new();
+        if std::env::var_os("STRUT_CROSS").is_none() && !is_installed(self.triple) {
+            missing.push(format!("the target {} (or STRUT_CROSS)", self.triple));
+        }
+        missing
+            .extend(self.programs.iter().filter(|program| !runs(program)).map(|program| (*program).into()));
+        missing
+    }
+}
+
+#[test]
+fn every_platform_in_one_file_gives_the_same_bits() {
+    if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
+        return skip("every platform: they are emulated on Linux on an Intel processor only");
+    }
+    let mut folders = vec!["linux64"];
+    let mut targets = vec!["x86_64-unknown-linux-gnu.2.17"];
+    for platform in &EMULATED {
+        let missing = platform.missing();
+        if missing.is_empty() {
+            folders.push(platform.folder);
+            targets.push(platform.target);
+        } else {
+            skip(&format!("{}: for want of {}", platform.folder, missing.join(" and ")));
+        }
+    }
+    let work = strut::target().join("tested-platforms");
+    let fmus = work.join("fmus");
+    let _ = fs::remove_dir_all(&fmus);
+    let mut build = strut::build_fmu();
+    build.args(FMUS).arg("--out").arg(&fmus).env("PATH", with_zig());
+    for target in targets {
+        build.args(["--target", target]);
+    }
+    let told = String::from_utf8_lossy(&strut::run(&mut build).stderr).into_owned();
+    let needs = |folder: &str| {
+        let line = told.lines().find_map(|line| line.strip_prefix(&format!("note: {folder} needs ")));
+        line.unwrap_or_else(|| panic!("nothing is told of {folder}: {told}")).to_owned()
+    };
+    for folder in &folders {
+        let needs = needs(folder);
+        match needs.strip_prefix("glibc 2.").and_then(|rest| rest.strip_suffix(" or newer")) {
+            Some(version) => assert!(version.parse::<u32>().is_ok_and(|it| it <= 17), "{folder}: {needs}"),
+            None => assert_eq!(needs, "nothing but the system", "{folder}"),
+        }
+    }
+    let mut arguments: Vec<OsString> = vec![fmus.into(), work.into()];
+    arguments.extend(folders.iter().map(OsString::from));
+    let output = strut::python("tests/masters/platforms.py", &arguments);
+    print!("{output}");
+    assert_eq!(output.lines().count(), FMUS.len() * folders.len(), "every library is to be run");
+}
+
+/// Told even though the test passes: a test that did not run has not passed.
+///
+/// # Panics
+/// Where `CI` is set: there everything is installed.
+fn skip(what: &str) {
+    assert!(
+        std::env::var_os("CI").is_none(),
+        "{what}: nothing is left out in CI, where .ci/install brings it all"
+    );
+    // Past the test runner, which keeps what a passing test prints.
+    let _ = writeln!(std::io::stderr(), "skipped: {what}; .ci/install brings what is missing");
+}
+
+/// Whether the compiler has a target of its own.
+fn is_installed(triple: &str) -> bool {
+    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let output = strut::run(Command::new(rustc).args(["--print", "sysroot"]));
+    let sysroot = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+    Path::new(&sysroot).join("lib/rustlib").join(triple).is_dir()
+}
+
+fn runs(program: &str) -> bool {
+    Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success())
+}
+
+/// The path with the environment's `cargo-zigbuild` in it.
+fn with_zig() -> OsString {
+    let own = strut::interpreter().parent().expect("it is in a folder").to_owned();
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    std::env::join_paths(std::iter::once(own).chain(std::env::split_paths(&path)))
+        .expect("no `:` in the folder's name")
+}
