@@ -13,8 +13,9 @@ use crate::cargo::{self, Libraries};
 use crate::cli::Arguments;
 use crate::failure::{Failure, Result};
 use crate::fmu::{Fmu, Packed};
-use crate::plan::Plan;
+use crate::plan::{Component, Plan};
 use crate::platform::Platform;
+use crate::system::{self, Face, System};
 use crate::{Project, Source, foreign, table};
 
 /// Does what the arguments say.
@@ -45,18 +46,15 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<String> {
         Source::Workspace { files } => metadata.workspace_root.as_std_path().join(files),
         Source::Package { .. } => metadata.workspace_root.as_std_path().into(),
     };
-    let plan = Plan::new(project, arguments, &files)?;
+    let mut plan = Plan::new(project, arguments, &files)?;
     if arguments.list {
         return listing(&plan);
     }
     let platforms = platforms(&arguments.targets)?;
     // Mistakes in systems come to light before minutes of compiling.
     let mut needed = plan.wanted.clone();
-    for system in &plan.systems {
-        let components = plan.components(system)?;
-        system.check(&interfaces(&plan, &components)?)?;
-        needed.extend(components);
-    }
+    let assemblies = assemble(project, &mut plan)?;
+    needed.extend(assemblies.iter().flat_map(Assembly::ours));
     needed.sort_unstable();
     needed.dedup();
     let folder = Folder::open(&arguments.out)?;
@@ -72,7 +70,7 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<String> {
         let libraries = cargo::build(&metadata, &packages, asked.then_some(&platform))?;
         built.push((platform, libraries));
     }
-    let progress = progress(needed.len() + plan.systems.len());
+    let progress = progress(needed.len() + assemblies.len());
     let mut packed: BTreeMap<usize, Packed> = BTreeMap::new();
     let mut rows = Vec::new();
     for index in needed {
@@ -91,14 +89,13 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<String> {
         packed.insert(index, result);
         progress.inc(1);
     }
-    for system in &plan.systems {
+    for assembly in &assemblies {
+        let system = &assembly.system;
         progress.set_message(system.name.clone());
-        let components: Vec<(&Fmu, &Packed)> =
-            plan.components(system)?.into_iter().map(|index| (&plan.fmus[index], &packed[&index])).collect();
-        let bytes = system.pack(&components);
+        let bytes = assembly.pack(&plan, &packed);
         let file = format!("{}.ssp", system.name);
         folder.write(&file, &bytes)?;
-        let parts = format!("{} FMUs", components.len());
+        let parts = format!("{} FMUs", assembly.components.len());
         let path = arguments.out.join(file).display().to_string();
         rows.push(vec![
             system.name.clone(),
@@ -134,8 +131,55 @@ fn platforms(targets: &[String]) -> Result<Vec<(Platform, bool)>> {
     Ok(platforms)
 }
 
-fn interfaces(plan: &Plan, components: &[usize]) -> Result<Vec<strut_model::Interface>> {
-    components.iter().map(|index| plan.fmus[*index].interface()).collect()
+/// A system with all that it is made of.
+struct Assembly {
+    system: System,
+    /// Those of the file, then the adapters.
+    components: Vec<Component>,
+    /// Of those of the file.
+    faces: Vec<Face>,
+}
+
+/// Finds what the systems are made of and checks that it fits.
+fn assemble(project: &Project, plan: &mut Plan) -> Result<Vec<Assembly>> {
+    let mut assemblies = Vec::new();
+    for (system, folder) in plan.systems.clone() {
+        let mut components = plan.components(&system, &folder)?;
+        let face = |component: &Component| match component {
+            Component::Ours(index) => Ok(Face::of(&plan.fmus[*index].interface()?)),
+            Component::Theirs(theirs) => Ok(theirs.face.clone()),
+        };
+        let faces = components.iter().map(face).collect::<Result<Vec<_>>>()?;
+        let adapters = system.check(&faces)?;
+        components.extend(plan.add(project, &system, &adapters)?.into_iter().map(Component::Ours));
+        plan.check_files(&system, &components)?;
+        assemblies.push(Assembly { system, components, faces });
+    }
+    Ok(assemblies)
+}
+
+impl Assembly {
+    fn ours(&self) -> impl Iterator<Item = usize> {
+        self.components.iter().filter_map(|component| match component {
+            Component::Ours(index) => Some(*index),
+            Component::Theirs(_) => None,
+        })
+    }
+
+    fn pack(&self, plan: &Plan, packed: &BTreeMap<usize, Packed>) -> Vec<u8> {
+        let part = |component| match component {
+            &Component::Ours(index) => system::Packed {
+                title: plan.fmus[index].title(),
+                file: component.file(plan),
+                bytes: &packed[&index].bytes,
+            },
+            Component::Theirs(theirs) => {
+                system::Packed { title: &theirs.title, file: theirs.file.clone(), bytes: &theirs.bytes }
+            }
+        };
+        let parts: Vec<system::Packed> = self.components.iter().map(part).collect();
+        self.system.pack(&self.faces, &parts)
+    }
 }
 
 fn library(path: &Path) -> Result<Vec<u8>> {
@@ -176,7 +220,7 @@ fn listing(plan: &Plan) -> Result<String> {
         row[3] = fmu.title().to_owned();
         rows.push(row);
     }
-    for system in &plan.systems {
+    for (system, _) in &plan.systems {
         rows.push(vec![
             system.name.clone(),
             "system".into(),

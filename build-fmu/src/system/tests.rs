@@ -5,6 +5,7 @@ use std::io::Read;
 use strut_model::ParameterSet;
 
 use super::*;
+use crate::fmu::Fmu;
 
 const GOOD: &str = r#"
 name = "corner"
@@ -41,7 +42,11 @@ fn fmus() -> [Fmu; 2] {
 
 fn check(text: &str) -> Result<()> {
     let system = System::parse("corner.toml", text)?;
-    system.check(&fmus().map(|fmu| fmu.interface().unwrap()))
+    system.check(&faces()).map(drop)
+}
+
+fn faces() -> [Face; 2] {
+    fmus().map(|fmu| Face::of(&fmu.interface().unwrap()))
 }
 
 #[test]
@@ -91,8 +96,13 @@ fn mistakes_are_named() {
 fn packed() -> (Vec<String>, String, String) {
     let fmus = fmus();
     let packed = fmus.each_ref().map(|fmu| fmu.pack(&[], "").unwrap());
-    let components: Vec<_> = fmus.iter().zip(&packed).collect();
-    let bytes = System::parse("corner.toml", GOOD).unwrap().pack(&components);
+    let components = fmus.iter().zip(&packed).map(|(fmu, packed)| Packed {
+        title: fmu.title(),
+        file: format!("{}.fmu", fmu.name),
+        bytes: &packed.bytes,
+    });
+    let components: Vec<_> = components.collect();
+    let bytes = System::parse("corner.toml", GOOD).unwrap().pack(&faces(), &components);
     let mut zip = zip::ZipArchive::new(std::io::Cursor::new(bytes)).unwrap();
     let names = zip.file_names().map(|name| name.unwrap().into_owned()).collect();
     let mut text = |name: &str| {

@@ -1,0 +1,97 @@
+//! What stands between components of different conventions.
+
+use serde::Deserialize;
+
+use super::Adapted;
+use super::check::End;
+
+/// What becomes of a signal before factor and offset.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum Operation {
+    /// It stays what it is.
+    #[default]
+    Value,
+    /// Its rate of change.
+    Derivative,
+    /// Its integral.
+    Integral,
+}
+
+/// How a signal is adapted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Adaptation {
+    /// What becomes of it first.
+    pub operation: Operation,
+    /// Factor.
+    pub factor: f64,
+    /// What is added.
+    pub offset: f64,
+    /// Time constant of the filter of a rate of change, in seconds.
+    pub filter: f64,
+    /// Integral at the start.
+    pub initial: f64,
+}
+
+impl Adaptation {
+    /// As it is written; none if nothing is.
+    pub(super) fn of(line: &Adapted) -> Option<Self> {
+        let Adapted { factor, offset, operation, filter, initial, .. } = line;
+        let told = factor.or(*offset).or(*filter).or(*initial).is_some() || operation.is_some();
+        told.then(|| Self {
+            operation: operation.unwrap_or_default(),
+            factor: factor.unwrap_or(1.0),
+            offset: offset.unwrap_or(0.0),
+            filter: filter.unwrap_or(0.0),
+            initial: initial.unwrap_or(0.0),
+        })
+    }
+
+    /// Whether the signal stays as it is.
+    pub fn is_none(&self) -> bool {
+        self.operation == Operation::Value && self.factor == 1.0 && self.offset == 0.0
+    }
+}
+
+/// A component that adapts a signal on its way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Adapter {
+    /// Its name, which is its FMU's too.
+    pub name: String,
+    /// Its parameter set: every master knows start values, and not every one reads a system's.
+    pub set: String,
+}
+
+impl Adapter {
+    /// The model that adapters are made of.
+    pub const MODEL: &str = "SignalAdapter";
+
+    /// The adapter of a connection; its period is the communication step.
+    pub fn new(system: &str, name: String, text: &str, adaptation: Adaptation, period: f64) -> Self {
+        let Adaptation { operation, factor, offset, filter, initial } = adaptation;
+        let title = format!("What stands between the components of {system}: {text}");
+        let set = format!(
+            "fmu = \"{name}\"\nmodel = \"{}\"\ntitle = {}\nsource = \"{system}\"\n[values]\n\
+             operation = {{ value = \"{operation:?}\", source = \"the system's file\" }}\n\
+             factor = {{ value = {factor:?}, unit = \"1\", source = \"the system's file\" }}\n\
+             offset = {{ value = {offset:?}, unit = \"1\", source = \"the system's file\" }}\n\
+             initial = {{ value = {initial:?}, unit = \"1\", source = \"the system's file\" }}\n\
+             filter = {{ value = {filter:?}, unit = \"s\", source = \"the system's file\" }}\n\
+             period = {{ value = {period:?}, unit = \"s\", source = \"the communication step\" }}\n",
+            Self::MODEL,
+            toml::Value::String(title)
+        );
+        Self { name, set }
+    }
+
+    /// A name for the adapter of an input: an identifier that no other component bears.
+    pub fn name(component: &str, to: End, taken: impl Fn(&str) -> bool) -> String {
+        let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+        let name: String = format!("to_{component}_{}", to.variable.name).chars().map(plain).collect();
+        let numbered = (2..).map(|number| format!("{name}_{number}"));
+        std::iter::once(name.clone())
+            .chain(numbered)
+            .find(|name| !taken(name))
+            .expect("there is always another number")
+    }
+}
