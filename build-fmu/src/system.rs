@@ -9,6 +9,7 @@ mod tests;
 #[cfg(test)]
 mod tests_theirs;
 mod theirs;
+mod wire;
 mod xml;
 
 use std::path::PathBuf;

@@ -74,7 +74,8 @@ CASES = [
            package="TumVelocityEstimator",
            changed={"leak_frequency": 0.7, "high_pass_frequency": 0.0, "period": 2e-3}),
     *(single(f"signal-adapter-{operation.lower()}", SignalAdapter,
-             {"input": {"sines": [[12.0, 1.5, 0.3], [4.0, 12.0, 0.1]], "steps": [[2.0, 0.2005]]}},
+             {"input": {"sines": [[12.0, 1.5, 0.3], [4.0, 12.0, 0.1]], "steps": [[2.0, 0.2005]]},
+              "added": {"sines": [[0.05, 3.1, 0.7]], "steps": []}},
              stop=0.6, every=12, error=1e-12, settings={"operation": operation},
              parameters={"factor": 1.0, "offset": 0.0, "initial": 0.0, "filter": 0.0, "period": 1e-3},
              changed={"factor": -1e-3, "offset": 0.02} | changed)

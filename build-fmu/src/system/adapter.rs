@@ -2,8 +2,7 @@
 
 use serde::Deserialize;
 
-use super::Adapted;
-use super::check::End;
+use super::{Adapted, System};
 
 /// What becomes of a signal before factor and offset.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
@@ -60,18 +59,26 @@ pub struct Adapter {
     pub name: String,
     /// Its parameter set: every master knows start values, and not every one reads a system's.
     pub set: String,
+    /// Units of what comes and of what goes.
+    pub units: [String; 2],
 }
 
 impl Adapter {
     /// The model that adapters are made of.
     pub const MODEL: &str = "SignalAdapter";
 
-    /// The adapter of a connection; its period is the communication step.
-    pub fn new(system: &str, name: String, text: &str, adaptation: Adaptation, period: f64) -> Self {
+    /// An adapter; its period is the system's communication step.
+    pub fn new(
+        name: String,
+        title: &str,
+        units: [String; 2],
+        adaptation: Adaptation,
+        system: &System,
+    ) -> Self {
         let Adaptation { operation, factor, offset, filter, initial } = adaptation;
-        let title = format!("What stands between the components of {system}: {text}");
+        let (source, period) = (&system.name, system.experiment.step);
         let set = format!(
-            "fmu = \"{name}\"\nmodel = \"{}\"\ntitle = {}\nsource = \"{system}\"\n[values]\n\
+            "fmu = \"{name}\"\nmodel = \"{}\"\ntitle = {}\nsource = \"{source}\"\n[values]\n\
              operation = {{ value = \"{operation:?}\", source = \"the system's file\" }}\n\
              factor = {{ value = {factor:?}, unit = \"1\", source = \"the system's file\" }}\n\
              offset = {{ value = {offset:?}, unit = \"1\", source = \"the system's file\" }}\n\
@@ -79,15 +86,15 @@ impl Adapter {
              filter = {{ value = {filter:?}, unit = \"s\", source = \"the system's file\" }}\n\
              period = {{ value = {period:?}, unit = \"s\", source = \"the communication step\" }}\n",
             Self::MODEL,
-            toml::Value::String(title)
+            toml::Value::String(title.into())
         );
-        Self { name, set }
+        Self { name, set, units }
     }
 
     /// A name for the adapter of an input: an identifier that no other component bears.
-    pub fn name(component: &str, to: End, taken: impl Fn(&str) -> bool) -> String {
+    pub fn name(to: &str, taken: impl Fn(&str) -> bool) -> String {
         let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
-        let name: String = format!("to_{component}_{}", to.variable.name).chars().map(plain).collect();
+        let name: String = format!("to_{to}").chars().map(plain).collect();
         let numbered = (2..).map(|number| format!("{name}_{number}"));
         std::iter::once(name.clone())
             .chain(numbered)

@@ -3,14 +3,15 @@
 use strut_model::{Causality, Value};
 
 use super::adapter::{Adaptation, Adapter, Operation};
-use super::face::{Face, Fit, Kind, Variable};
+use super::face::{Face, Fit, Kind};
+use super::wire::{End, Sink, Source, Way, Wire};
 use super::{Factors, Line, Part, Port, Setting, System};
 use crate::failure::{Failure, Result, similar};
 
 /// A system that fits: every name exists, every unit agrees or is adapted, every input is driven.
 pub struct Checked<'a> {
-    /// From outputs to inputs.
-    pub connections: Vec<Connection<'a>>,
+    /// What leads where.
+    pub wires: Vec<Wire<'a>>,
     /// What stands between the components.
     pub adapters: Vec<Adapter>,
     /// What is looked at.
@@ -19,48 +20,11 @@ pub struct Checked<'a> {
     pub settings: Vec<(End<'a>, Value)>,
 }
 
-/// From an output to an input.
-pub struct Connection<'a> {
-    /// Where from.
-    pub from: End<'a>,
-    /// Where to.
-    pub to: End<'a>,
-    /// What happens on the way.
-    pub way: Way,
-}
-
-/// What happens to a signal on its way.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Way {
-    /// Nothing.
-    Straight,
-    /// Nothing, whatever the units are: it was said so.
-    AsItIs,
-    /// The connection transforms it.
-    Transformed {
-        /// Factor.
-        factor: f64,
-        /// What is added.
-        offset: f64,
-    },
-    /// It passes through the adapter of this position.
-    Through(usize),
-}
-
-/// A variable of a component, found.
-#[derive(Clone, Copy)]
-pub struct End<'a> {
-    /// Position of the component.
-    pub component: usize,
-    /// The variable.
-    pub variable: &'a Variable,
-}
-
 impl<'a> Checked<'a> {
     /// Finds every name and compares every unit.
     pub fn new(system: &System, faces: &'a [Face]) -> Result<Self> {
         let finder = Finder { system, faces };
-        let (mut connections, mut adapters): (Vec<Connection>, Vec<Adapter>) = Default::default();
+        let (mut wires, mut adapters): (Vec<Wire>, Vec<Adapter>) = Default::default();
         for line in &system.connections {
             let (from, to, adaptation) = match line {
                 Line::Plain(text) => {
@@ -77,27 +41,11 @@ impl<'a> Checked<'a> {
             };
             let from = finder.find_as(&system.port(from)?, Causality::Output)?;
             let to = finder.find_as(&system.port(to)?, Causality::Input)?;
-            let way = match adaptation {
-                None => finder.agree(from, to).map(|()| Way::Straight)?,
-                Some(adaptation) => {
-                    let adaptation = finder.adaptable(from, to, adaptation)?;
-                    if adaptation.is_none() {
-                        Way::AsItIs
-                    } else if adaptation.operation == Operation::Value
-                        && system.factors == Factors::Connection
-                    {
-                        Way::Transformed { factor: adaptation.factor, offset: adaptation.offset }
-                    } else {
-                        let text = format!("{} -> {}", finder.name(from), finder.name(to));
-                        adapters.push(finder.adapter(to, &text, adaptation, &adapters));
-                        Way::Through(adapters.len() - 1)
-                    }
-                }
-            };
-            if connections.iter().any(|other| other.to.is(to)) {
-                return Err(finder.failure(format!("the input `{}` is connected twice", finder.name(to))));
+            match adaptation {
+                None => finder.agree(from, to)?,
+                Some(adaptation) => finder.adaptable(from, to, adaptation)?,
             }
-            connections.push(Connection { from, to, way });
+            finder.lay(from, to, adaptation, &mut wires, &mut adapters)?;
         }
         let outputs = system
             .outputs
@@ -107,7 +55,7 @@ impl<'a> Checked<'a> {
         let mut settings: Vec<(End, Value)> = Vec::new();
         for setting in system.settings()? {
             let end = finder.find(&setting.port)?;
-            if connections.iter().any(|connection| connection.to.is(end)) {
+            if wires.iter().any(|wire| wire.leads_to(end)) {
                 return Err(
                     finder.failure(format!("`{}` is connected and has a value as well", finder.name(end)))
                 );
@@ -117,14 +65,8 @@ impl<'a> Checked<'a> {
             }
             settings.push((end, finder.value(end, &setting)?));
         }
-        finder.every_input_is_driven(&connections, &settings)?;
-        Ok(Self { connections, adapters, outputs, settings })
-    }
-}
-
-impl End<'_> {
-    fn is(&self, other: End) -> bool {
-        self.component == other.component && self.variable.name == other.variable.name
+        finder.every_input_is_driven(&wires, &settings)?;
+        Ok(Self { wires, adapters, outputs, settings })
     }
 }
 
@@ -183,11 +125,11 @@ impl<'a> Finder<'a, '_> {
         Err(similar(&port.variable, names).into_iter().fold(failure, Failure::help))
     }
 
-    fn every_input_is_driven(&self, connections: &[Connection], settings: &[(End, Value)]) -> Result<()> {
+    fn every_input_is_driven(&self, wires: &[Wire], settings: &[(End, Value)]) -> Result<()> {
         for (component, face) in self.faces.iter().enumerate() {
             for variable in face.variables.iter().filter(|variable| variable.causality == Causality::Input) {
                 let end = End { component, variable };
-                if !connections.iter().any(|connection| connection.to.is(end))
+                if !wires.iter().any(|wire| wire.leads_to(end))
                     && !settings.iter().any(|(set, _)| set.is(end))
                 {
                     let name = self.name(end);
@@ -258,7 +200,7 @@ impl<'a> Finder<'a, '_> {
     }
 
     /// Whether a signal can be adapted like this.
-    fn adaptable(&self, from: End, to: End, adaptation: Adaptation) -> Result<Adaptation> {
+    fn adaptable(&self, from: End, to: End, adaptation: Adaptation) -> Result<()> {
         self.of_one_type(from, to)?;
         let name = format!("the connection `{} -> {}`", self.name(from), self.name(to));
         if !matches!(from.variable.kind, Kind::Real { .. }) {
@@ -285,16 +227,68 @@ impl<'a> Finder<'a, '_> {
                 .failure(format!("{name} has an initial value"))
                 .help("it is for operation = \"integral\""));
         }
-        Ok(adaptation)
+        Ok(())
     }
 
-    fn adapter(&self, to: End, text: &str, adaptation: Adaptation, others: &[Adapter]) -> Adapter {
-        let (component, _) = self.system.components.get_index(to.component).expect("an end is found");
+    /// Lays the wires from an output to an input.
+    fn lay(
+        &self,
+        from: End<'a>,
+        to: End<'a>,
+        adaptation: Option<Adaptation>,
+        wires: &mut Vec<Wire<'a>>,
+        adapters: &mut Vec<Adapter>,
+    ) -> Result<()> {
+        let before = wires.iter().position(|wire| wire.leads_to(to));
+        let transforming = self.system.factors == Factors::Connection;
+        let way = match (adaptation, before) {
+            (None, None) => Some(Way::Straight),
+            (None, Some(_)) => return Err(self.twice(from, to)),
+            (Some(adaptation), None) if adaptation.is_none() => Some(Way::AsItIs),
+            (Some(Adaptation { operation: Operation::Value, factor, offset, .. }), None) if transforming => {
+                Some(Way::Transformed { factor, offset })
+            }
+            (Some(adaptation), _) => {
+                adapters.push(self.adapter(from, to, adaptation, adapters));
+                None
+            }
+        };
+        if let Some(way) = way {
+            wires.push(Wire { from: Source::Output(from), to: Sink::Input(to), way });
+            return Ok(());
+        }
+        let adapter = adapters.len() - 1;
+        if let Some(index) = before {
+            // A further part of a sum: what has led to the input is added to it.
+            wires[index].to = Sink::Added(adapter);
+            if wires[index].way == Way::Straight {
+                wires[index].way = Way::AsItIs;
+            }
+        }
+        wires.extend([
+            Wire { from: Source::Output(from), to: Sink::Adapter(adapter), way: Way::AsItIs },
+            Wire { from: Source::Adapter(adapter), to: Sink::Input(to), way: Way::AsItIs },
+        ]);
+        Ok(())
+    }
+
+    fn twice(&self, from: End, to: End) -> Failure {
+        let (from, to) = (self.name(from), self.name(to));
+        self.failure(format!("the input `{to}` is connected twice")).help(format!(
+            "if it is to be the sum, write the second as {{ from = \"{from}\", to = \"{to}\", factor = 1.0 }}"
+        ))
+    }
+
+    fn adapter(&self, from: End, to: End, adaptation: Adaptation, others: &[Adapter]) -> Adapter {
         let taken = |name: &str| {
             self.system.components.contains_key(name) || others.iter().any(|other| other.name == name)
         };
-        let name = Adapter::name(component, to, taken);
-        Adapter::new(&self.system.name, name, text, adaptation, self.system.experiment.step)
+        let (from_name, to_name) = (self.name(from), self.name(to));
+        let name = Adapter::name(&to_name, taken);
+        let units = [from, to].map(|end| end.variable.symbol().to_owned());
+        let title =
+            format!("What stands between the components of {}: {from_name} -> {to_name}", self.system.name);
+        Adapter::new(name, &title, units, adaptation, self.system)
     }
 
     /// The value in the type of its variable.

@@ -10,17 +10,16 @@
 
 use strut_model::Value;
 
-use super::check::{Checked, Way};
+use super::adapter::Adapter;
+use super::check::Checked;
 use super::face::{Kind, Unit, Variable};
+use super::wire::{End, Sink, Source, Way};
 use super::xml::Element;
 use super::{Packed, System};
 use crate::archive::Archive;
 
 /// All parameter sets bear this name: Ecos applies one name at a time.
 const SET: &str = "defaults";
-/// The connectors of an adapter.
-const ADAPTER: [&str; 2] = ["input", "output"];
-
 /// The archive.
 pub fn archive(system: &System, checked: &Checked, components: &[Packed]) -> Vec<u8> {
     let mut archive = Archive::default();
@@ -49,6 +48,7 @@ fn structure(system: &System, checked: &Checked, components: &[Packed]) -> Vec<u
     let own = system.components.keys().map(String::as_str);
     let names: Vec<&str> = own.chain(checked.adapters.iter().map(|adapter| adapter.name.as_str())).collect();
     let adapter = |index: usize| names[system.components.len() + index];
+    let port = |end: End<'_>| (names[end.component], end.variable.name.clone());
     let elements = names.iter().enumerate().map(|(index, name)| {
         let bindings = has_values(checked, index).then(|| {
             Element::new("ssd:ParameterBinding")
@@ -74,22 +74,28 @@ fn structure(system: &System, checked: &Checked, components: &[Packed]) -> Vec<u
                 .with("y2", 20)])
             .list("ssd:ParameterBindings", bindings)
     });
-    let connections = checked.connections.iter().flat_map(|connection| {
-        let from = (names[connection.from.component], connection.from.variable.name.as_str());
-        let to = (names[connection.to.component], connection.to.variable.name.as_str());
-        match connection.way {
-            Way::Straight => vec![join(from, to)],
-            Way::AsItIs => vec![unconverted(from, to)],
+    let connections = checked.wires.iter().map(|wire| {
+        let from = match wire.from {
+            Source::Output(end) => port(end),
+            Source::Adapter(index) => (adapter(index), "output".to_owned()),
+        };
+        let to = match wire.to {
+            Sink::Input(end) => port(end),
+            Sink::Adapter(index) => (adapter(index), "input".to_owned()),
+            Sink::Added(index) => (adapter(index), "added".to_owned()),
+        };
+        let connection = Element::new("ssd:Connection")
+            .with("startElement", from.0)
+            .with("startConnector", from.1)
+            .with("endElement", to.0)
+            .with("endConnector", to.1);
+        match wire.way {
+            Way::Straight => connection,
+            Way::AsItIs => unconverted(connection),
             Way::Transformed { factor, offset } => {
-                vec![
-                    unconverted(from, to).of([Element::new("ssc:LinearTransformation")
-                        .with("factor", number(factor))
-                        .with("offset", number(offset))]),
-                ]
-            }
-            Way::Through(index) => {
-                let [input, output] = ADAPTER.map(|connector| (adapter(index), connector));
-                vec![unconverted(from, input), unconverted(output, to)]
+                unconverted(connection).of([Element::new("ssc:LinearTransformation")
+                    .with("factor", number(factor))
+                    .with("offset", number(offset))])
             }
         }
     });
@@ -131,29 +137,30 @@ fn structure(system: &System, checked: &Checked, components: &[Packed]) -> Vec<u
         .document()
 }
 
-type Connector<'a> = (&'a str, &'a str);
-
-fn join(from: Connector, to: Connector) -> Element {
-    Element::new("ssd:Connection")
-        .with("startElement", from.0)
-        .with("startConnector", from.1)
-        .with("endElement", to.0)
-        .with("endConnector", to.1)
+/// A connection in whose values nobody converts units.
+fn unconverted(connection: Element) -> Element {
+    connection.with("suppressUnitConversion", true)
 }
 
-/// A connection in whose values nobody converts units.
-fn unconverted(from: Connector, to: Connector) -> Element {
-    join(from, to).with("suppressUnitConversion", true)
+/// The variables that wires begin and end at, inputs first.
+fn wired<'a>(checked: &'a Checked) -> impl Iterator<Item = (&'static str, End<'a>)> {
+    let inputs = checked.wires.iter().filter_map(|wire| match wire.to {
+        Sink::Input(end) => Some(("input", end)),
+        Sink::Adapter(_) | Sink::Added(_) => None,
+    });
+    let outputs = checked.wires.iter().filter_map(|wire| match wire.from {
+        Source::Output(end) => Some(("output", end)),
+        Source::Adapter(_) => None,
+    });
+    inputs.chain(outputs)
 }
 
 /// The connectors of a component: those that are connected or looked at, each once.
 fn connectors(checked: &Checked, component: usize) -> Vec<Element> {
-    let outputs = checked.connections.iter().map(|connection| connection.from);
-    let outputs = outputs.chain(checked.outputs.iter().copied()).map(|end| ("output", end));
-    let inputs = checked.connections.iter().map(|connection| ("input", connection.to));
+    let ends = wired(checked).chain(checked.outputs.iter().map(|end| ("output", *end)));
     let mut seen: Vec<&str> = Vec::new();
     let mut connectors = Vec::new();
-    for (kind, end) in inputs.chain(outputs).filter(|(_, end)| end.component == component) {
+    for (kind, end) in ends.filter(|(_, end)| end.component == component) {
         let name = end.variable.name.as_str();
         if !seen.contains(&name) {
             seen.push(name);
@@ -164,22 +171,20 @@ fn connectors(checked: &Checked, component: usize) -> Vec<Element> {
 }
 
 /// The connectors of an adapter bear the units of what they are joined to.
-fn adapter_connectors(checked: &Checked, adapter: usize) -> Vec<Element> {
-    let [input, output] = ADAPTER;
-    let through = checked.connections.iter().filter(|connection| connection.way == Way::Through(adapter));
-    through
-        .flat_map(|connection| {
-            [
-                connector(input, "input", connection.from.variable),
-                connector(output, "output", connection.to.variable),
-            ]
-        })
-        .collect()
+fn adapter_connectors(checked: &Checked, index: usize) -> Vec<Element> {
+    let Adapter { units: [from, to], .. } = &checked.adapters[index];
+    let added = checked.wires.iter().any(|wire| matches!(wire.to, Sink::Added(adapter) if adapter == index));
+    let mut list = vec![("input", "input", from), ("output", "output", to)];
+    list.extend(added.then_some(("added", "input", to)));
+    let connector = |(name, kind, unit): (&str, &str, &String)| {
+        Element::new("ssd:Connector").with("name", name).with("kind", kind).of([real("ssc:Real", unit)])
+    };
+    list.into_iter().map(connector).collect()
 }
 
 fn connector(name: &str, kind: &str, variable: &Variable) -> Element {
     let of_type = match variable.kind {
-        Kind::Real { .. } => real("ssc:Real", variable),
+        Kind::Real { .. } => real("ssc:Real", variable.symbol()),
         Kind::Integer => Element::new("ssc:Integer"),
         Kind::Boolean => Element::new("ssc:Boolean"),
         Kind::Text => Element::new("ssc:String"),
@@ -189,8 +194,8 @@ fn connector(name: &str, kind: &str, variable: &Variable) -> Element {
     Element::new("ssd:Connector").with("name", name).with("kind", kind).of([of_type])
 }
 
-fn real(name: &'static str, variable: &Variable) -> Element {
-    match variable.symbol() {
+fn real(name: &'static str, unit: &str) -> Element {
+    match unit {
         "" => Element::new(name),
         unit => Element::new(name).with("unit", unit),
     }
@@ -198,8 +203,8 @@ fn real(name: &'static str, variable: &Variable) -> Element {
 
 /// The units of the connectors, sorted.
 fn units(checked: &Checked) -> Vec<Element> {
-    let ends = checked.connections.iter().flat_map(|connection| [&connection.from, &connection.to]);
-    elements_of(ends.chain(&checked.outputs).filter_map(|end| end.variable.unit()).collect())
+    let ends = wired(checked).map(|(_, end)| end).chain(checked.outputs.iter().copied());
+    elements_of(ends.filter_map(|end| end.variable.unit()).collect())
 }
 
 fn elements_of(mut units: Vec<&Unit>) -> Vec<Element> {
@@ -227,7 +232,7 @@ fn values(checked: &Checked, component: usize) -> Vec<u8> {
     let settings: Vec<_> = checked.settings.iter().filter(|(end, _)| end.component == component).collect();
     let parameters = settings.iter().map(|(end, value)| {
         let value = match value {
-            Value::Real(value) => real("ssv:Real", end.variable).with("value", number(*value)),
+            Value::Real(value) => real("ssv:Real", end.variable.symbol()).with("value", number(*value)),
             Value::Integer(value) => Element::new("ssv:Integer").with("value", value),
             Value::Boolean(value) => Element::new("ssv:Boolean").with("value", value),
             Value::Text(value) => Element::new("ssv:String").with("value", value),

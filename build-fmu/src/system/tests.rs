@@ -76,7 +76,11 @@ fn mistakes_are_named() {
         ("road.velocity ->", "rig.actuator.force ->", "`rig.actuator.force` is no output"),
         ("-> rig.road.velocity", "-> rig.body.position", "`rig.body.position` is no input"),
         ("-> rig.road.velocity", "-> rig.road.position", "leads from \"m/s\" to \"m\""),
-        ("road.velocity -> rig.road.velocity", "road.position -> rig.road.position", "is connected twice"),
+        (
+            "road.velocity -> rig.road.velocity",
+            "road.position -> rig.road.position",
+            "`rig.road.position` is connected twice in the system corner\nhelp: if it is to be the sum, write",
+        ),
         (", \"road.velocity -> rig.road.velocity\"", "", "nothing drives the input `rig.road.velocity`"),
         ("\"rig.actuator.force\"", "\"rig.road.position\"", "is connected and has a value as well"),
         ("unit = \"kg\"", "unit = \"g\"", "`rig.sprung_mass` is given in \"g\" but declared in \"kg\""),

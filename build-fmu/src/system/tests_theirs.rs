@@ -217,6 +217,30 @@ fn nobody_converts_what_has_a_factor() {
 }
 
 #[test]
+fn a_second_connection_with_a_factor_is_added() {
+    let more = "outputs = [";
+    let text = SYSTEM.replace(
+        &format!("]\n{more}"),
+        &format!("    {{ from = \"motor.force\", to = \"truck.F_strut[1]\", factor = -2.0, offset = 1.0 }},\n]\n{more}"),
+    );
+    let ssd = structure(&text);
+    let document = roxmltree::Document::parse(&ssd).unwrap();
+    let ends: Vec<_> = document
+        .descendants()
+        .filter(|node| node.tag_name().name() == "Connection")
+        .map(|node| ["startElement", "endElement", "endConnector"].map(|name| node.attribute(name).unwrap()))
+        .collect();
+    let first = "to_truck_F_strut_1_";
+    let second = "to_truck_F_strut_1__2";
+    assert!(ends.contains(&[first, second, "added"]), "{ends:?}");
+    assert!(ends.contains(&["motor", second, "input"]) && ends.contains(&[second, "truck", "F_strut[1]"]));
+    assert_eq!(ends.iter().filter(|end| end[1] == "truck").count(), 1);
+    let plain =
+        SYSTEM.replace(&format!("]\n{more}"), &format!("    \"motor.force -> motor.voltage\",\n]\n{more}"));
+    assert!(check(&plain).unwrap_err().to_string().contains("leads from \"N\" to \"V\""));
+}
+
+#[test]
 fn the_connection_itself_may_have_the_factor() {
     let ssd = structure(&SYSTEM.replace("[experiment]", "factors = \"connection\"\n[experiment]"));
     let document = roxmltree::Document::parse(&ssd).unwrap();

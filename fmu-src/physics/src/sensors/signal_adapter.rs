@@ -58,6 +58,9 @@ pub struct Input<R> {
     /// Signal, in whatever unit it has
     #[var(unit = ONE)]
     pub input: R,
+    /// What is added to it, in the output's unit: another part of the same force
+    #[var(unit = ONE)]
+    pub added: R,
 }
 
 /// What is remembered from one sample to the next.
@@ -86,16 +89,19 @@ impl Model for SignalAdapter {
     const ABOUT: About = About {
         name: "SignalAdapter",
         summary: "Between models of different conventions: factor and offset of a signal, its rate of change or its \
-            integral",
+            integral, and the sum of two",
         kind: Kind::Other,
         equations: &[
-            Equation { text: "value: y = factor u + offset", source: "SSP 1.0, LinearTransformation" },
             Equation {
-                text: "derivative: y = factor w_k + offset, w_k = (tau w_(k-1) + u_k - u_(k-1))/(tau + T)",
+                text: "value: y = factor u + offset + added",
+                source: "SSP 1.0, LinearTransformation",
+            },
+            Equation {
+                text: "derivative: y = factor w_k + offset + added, w_k = (tau w_(k-1) + u_k - u_(k-1))/(tau + T)",
                 source: "backward difference",
             },
             Equation {
-                text: "integral: y = factor I_k + offset, I_k = I_(k-1) + T (u_k + u_(k-1))/2",
+                text: "integral: y = factor I_k + offset + added, I_k = I_(k-1) + T (u_k + u_(k-1))/2",
                 source: "trapezoidal rule",
             },
         ],
@@ -149,7 +155,7 @@ impl Model for SignalAdapter {
             Operation::Derivative => memory.rate,
             Operation::Integral => memory.integral,
         };
-        (Nothing, Output { output: p.factor * signal + p.offset })
+        (Nothing, Output { output: p.factor * signal + p.offset + now.input.added })
     }
 }
 
@@ -180,6 +186,8 @@ mod tests {
         let mut adapter = adapter(1).start("factor", -1e-3).start("offset", 0.5).initialized();
         adapter.set("input", 20.0);
         assert_eq!(adapter.get("output"), 0.48);
+        adapter.set("added", 1.5);
+        assert_eq!(adapter.get("output"), 1.98);
     }
 
     #[test]
