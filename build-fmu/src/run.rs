@@ -54,6 +54,7 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<String> {
     // Mistakes in systems come to light before minutes of compiling.
     let mut needed = plan.wanted.clone();
     let assemblies = assemble(project, &mut plan)?;
+    assemblies.iter().try_for_each(|assembly| assembly.runs_on(&platforms))?;
     needed.extend(assemblies.iter().flat_map(Assembly::ours));
     needed.sort_unstable();
     needed.dedup();
@@ -164,6 +165,31 @@ impl Assembly {
             Component::Ours(index) => Some(*index),
             Component::Theirs(_) => None,
         })
+    }
+
+    /// A system runs where each of its FMUs has a binary.
+    fn runs_on(&self, platforms: &[(Platform, bool)]) -> Result<()> {
+        let theirs = || {
+            self.components.iter().filter_map(|component| match component {
+                Component::Ours(_) => None,
+                Component::Theirs(theirs) => Some(theirs),
+            })
+        };
+        let everywhere = |folder: &String| theirs().all(|theirs| theirs.platforms.contains(folder));
+        if platforms.iter().any(|(platform, _)| everywhere(&platform.folder)) {
+            return Ok(());
+        }
+        let ours: Vec<&str> = platforms.iter().map(|(platform, _)| platform.folder.as_str()).collect();
+        let failure = Failure::new(format!(
+            "the system {} would run nowhere: ours are built for {}",
+            self.system.name,
+            ours.join(", ")
+        ));
+        let failure = theirs().fold(failure, |failure, theirs| {
+            failure.help(format!("`{}` has binaries for {}", theirs.file, theirs.platforms.join(", ")))
+        });
+        Err(failure
+            .help("build for a platform that all have with --target, or ask for an export for this one"))
     }
 
     fn pack(&self, plan: &Plan, packed: &BTreeMap<usize, Packed>) -> Vec<u8> {

@@ -17,13 +17,33 @@ pub enum Operation {
     Integral,
 }
 
+impl Operation {
+    /// The power of time that it multiplies the signal's unit by.
+    pub fn power_of_time(self) -> i32 {
+        match self {
+            Self::Value => 0,
+            Self::Derivative => -1,
+            Self::Integral => 1,
+        }
+    }
+
+    /// As it is written.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Value => "value",
+            Self::Derivative => "derivative",
+            Self::Integral => "integral",
+        }
+    }
+}
+
 /// How a signal is adapted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Adaptation {
     /// What becomes of it first.
     pub operation: Operation,
-    /// Factor.
-    pub factor: f64,
+    /// Factor; none where the units are to agree.
+    pub factor: Option<f64>,
     /// What is added.
     pub offset: f64,
     /// Time constant of the filter of a rate of change, in seconds.
@@ -39,7 +59,7 @@ impl Adaptation {
         let told = factor.or(*offset).or(*filter).or(*initial).is_some() || operation.is_some();
         told.then(|| Self {
             operation: operation.unwrap_or_default(),
-            factor: factor.unwrap_or(1.0),
+            factor: *factor,
             offset: offset.unwrap_or(0.0),
             filter: filter.unwrap_or(0.0),
             initial: initial.unwrap_or(0.0),
@@ -48,7 +68,12 @@ impl Adaptation {
 
     /// Whether the signal stays as it is.
     pub fn is_none(&self) -> bool {
-        self.operation == Operation::Value && self.factor == 1.0 && self.offset == 0.0
+        self.operation == Operation::Value && self.factor() == 1.0 && self.offset == 0.0
+    }
+
+    /// The factor.
+    pub fn factor(&self) -> f64 {
+        self.factor.unwrap_or(1.0)
     }
 }
 
@@ -75,7 +100,8 @@ impl Adapter {
         adaptation: Adaptation,
         system: &System,
     ) -> Self {
-        let Adaptation { operation, factor, offset, filter, initial } = adaptation;
+        let Adaptation { operation, offset, filter, initial, .. } = adaptation;
+        let factor = adaptation.factor();
         let (source, period) = (&system.name, system.experiment.step);
         let set = format!(
             "fmu = \"{name}\"\nmodel = \"{}\"\ntitle = {}\nsource = \"{source}\"\n[values]\n\

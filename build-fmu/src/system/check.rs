@@ -42,7 +42,7 @@ impl<'a> Checked<'a> {
             let from = finder.find_as(&system.port(from)?, Causality::Output)?;
             let to = finder.find_as(&system.port(to)?, Causality::Input)?;
             match adaptation {
-                None => finder.agree(from, to)?,
+                None => finder.agree(from, to, Operation::Value)?,
                 Some(adaptation) => finder.adaptable(from, to, adaptation)?,
             }
             finder.lay(from, to, adaptation, &mut wires, &mut adapters)?;
@@ -143,48 +143,47 @@ impl<'a> Finder<'a, '_> {
         Ok(())
     }
 
-    /// Whether a signal can be passed on as it is; if not, what to write.
-    fn agree(&self, from: End, to: End) -> Result<()> {
+    /// Whether what becomes of a signal can be passed on as it is; if not, what to write.
+    fn agree(&self, from: End, to: End, operation: Operation) -> Result<()> {
         self.of_one_type(from, to)?;
         let (from_name, to_name) = (self.name(from), self.name(to));
-        let write = |rest: &str| format!("write {{ from = \"{from_name}\", to = \"{to_name}\", {rest} }}");
-        let leads = || {
-            let (given, wanted) = (from.variable.symbol(), to.variable.symbol());
-            let text =
-                format!("the connection `{from_name} -> {to_name}` leads from {given:?} to {wanted:?}");
-            self.failure(text)
+        let (given, wanted) = (from.variable.symbol(), to.variable.symbol());
+        let ends = format!("from = \"{from_name}\", to = \"{to_name}\"");
+        let with = |operation: Operation, rest: &str| {
+            let operation = match operation {
+                Operation::Value => String::new(),
+                other => format!(", operation = \"{}\"", other.name()),
+            };
+            format!("write {{ {ends}{operation}{rest} }}")
         };
-        Err(match from.variable.fit(to.variable) {
+        let leads = self
+            .failure(format!("the connection `{from_name} -> {to_name}` leads from {given:?} to {wanted:?}"));
+        let same = "connect variables of the same unit";
+        Err(match from.variable.fit(to.variable, operation.power_of_time()) {
             Fit::Same => return Ok(()),
-            Fit::Linear { factor, offset: 0.0 } => leads().help(write(&format!("factor = {factor:?}"))),
+            Fit::Linear { factor, offset: 0.0 } => {
+                leads.help(with(operation, &format!(", factor = {factor:?}")))
+            }
             Fit::Linear { factor, offset } => {
-                leads().help(write(&format!("factor = {factor:?}, offset = {offset:?}")))
+                leads.help(with(operation, &format!(", factor = {factor:?}, offset = {offset:?}")))
             }
-            Fit::Derivative => leads()
-                .help("connect variables of the same unit: an output that is the rate of change is best")
-                .help(write("operation = \"derivative\"").replacen(
-                    "write",
-                    "or take the rate of change: write",
-                    1,
-                )),
-            Fit::Integral => leads()
-                .help("connect variables of the same unit")
-                .help(write("operation = \"integral\"").replacen("write", "or take the integral: write", 1)),
-            Fit::Different => {
-                leads().help("connect variables of the same unit").help(write("factor = ...").replacen(
-                    "write",
-                    "or say what the one is in terms of the other: write",
-                    1,
-                ))
+            Fit::Derivative => leads
+                .help(same)
+                .help(format!("or take the rate of change: {}", with(Operation::Derivative, ""))),
+            Fit::Integral => {
+                leads.help(same).help(format!("or take the integral: {}", with(Operation::Integral, "")))
             }
+            Fit::Different => leads.help(same).help(format!(
+                "or say what the one is in terms of the other: {}",
+                with(operation, ", factor = ...")
+            )),
             Fit::Unknown => {
                 let silent =
                     if from.variable.unit().is_none_or(|unit| unit.base.is_none()) { from } else { to };
-                let other = if silent.is(from) { to } else { from };
+                let other = if silent.is(from) { wanted } else { given };
                 self.failure(format!("`{}` does not tell its unit", self.name(silent))).help(format!(
-                    "look it up; if it is {:?}, with the same sign, {}",
-                    other.variable.symbol(),
-                    write("factor = 1.0")
+                    "look it up; if it is that of {other:?} with the same sign, {}",
+                    with(operation, ", factor = 1.0")
                 ))
             }
         })
@@ -208,7 +207,11 @@ impl<'a> Finder<'a, '_> {
                 .failure(format!("{name} is of type {}", from.variable.kind.name()))
                 .help("factor, offset and operation are for numbers of type Real"));
         }
-        let Adaptation { operation, factor, offset, filter, initial } = adaptation;
+        let Adaptation { operation, offset, filter, initial, .. } = adaptation;
+        let factor = adaptation.factor();
+        if adaptation.factor.is_none() {
+            self.agree(from, to, operation)?;
+        }
         if ![factor, offset, filter, initial].iter().all(|number| number.is_finite()) || filter < 0.0 {
             return Err(self.failure(format!("{name} has a number that is not finite, or a negative filter")));
         }
@@ -245,8 +248,8 @@ impl<'a> Finder<'a, '_> {
             (None, None) => Some(Way::Straight),
             (None, Some(_)) => return Err(self.twice(from, to)),
             (Some(adaptation), None) if adaptation.is_none() => Some(Way::AsItIs),
-            (Some(Adaptation { operation: Operation::Value, factor, offset, .. }), None) if transforming => {
-                Some(Way::Transformed { factor, offset })
+            (Some(adaptation), None) if transforming && adaptation.operation == Operation::Value => {
+                Some(Way::Transformed { factor: adaptation.factor(), offset: adaptation.offset })
             }
             (Some(adaptation), _) => {
                 adapters.push(self.adapter(from, to, adaptation, adapters));

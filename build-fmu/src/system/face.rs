@@ -124,12 +124,12 @@ impl Variable {
         self.unit().map_or("", |unit| &unit.symbol)
     }
 
-    /// How its signal becomes one that another variable takes.
-    pub fn fit(&self, other: &Self) -> Fit {
+    /// How its signal, multiplied by a power of time, becomes one that another variable takes.
+    pub fn fit(&self, other: &Self, power_of_time: i32) -> Fit {
         let (Some(from), Some(to)) = (self.unit(), other.unit()) else {
             return if self.unit() == other.unit() { Fit::Same } else { Fit::Unknown };
         };
-        from.fit(to)
+        from.fit(to, power_of_time)
     }
 }
 
@@ -155,16 +155,12 @@ impl Unit {
         (!symbol.is_empty()).then(|| Self { symbol: symbol.into(), base: Some(base), factor, offset })
     }
 
-    fn fit(&self, to: &Self) -> Fit {
+    fn fit(&self, to: &Self, power_of_time: i32) -> Fit {
         let (Some(base), Some(wanted)) = (&self.base, &to.base) else {
             // A unit that is only named is known by its name.
-            return if self.symbol == to.symbol { Fit::Same } else { Fit::Unknown };
+            let same = self.symbol == to.symbol && power_of_time == 0;
+            return if same { Fit::Same } else { Fit::Unknown };
         };
-        if base == wanted {
-            let (factor, offset) = (self.factor / to.factor, (self.offset - to.offset) / to.factor);
-            let same = (factor - 1.0).abs() < 1e-12 && offset == 0.0;
-            return if same { Fit::Same } else { Fit::Linear { factor, offset } };
-        }
         let exponent = |list: &[(&str, i32)], name: &str| {
             list.iter().find(|(other, _)| *other == name).map_or(0, |(_, exponent)| *exponent)
         };
@@ -172,9 +168,16 @@ impl Unit {
         if others.into_iter().any(|name| exponent(base, name) != exponent(wanted, name)) {
             return Fit::Different;
         }
-        match exponent(wanted, "s") - exponent(base, "s") {
-            -1 => Fit::Derivative,
-            1 => Fit::Integral,
+        match exponent(wanted, "s") - exponent(base, "s") - power_of_time {
+            0 => {
+                // What a rate of change is made of has lost its offset.
+                let zero = if power_of_time == 0 { self.offset - to.offset } else { 0.0 };
+                let (factor, offset) = (self.factor / to.factor, zero / to.factor);
+                let same = (factor - 1.0).abs() < 1e-12 && offset == 0.0;
+                if same { Fit::Same } else { Fit::Linear { factor, offset } }
+            }
+            -1 if power_of_time == 0 => Fit::Derivative,
+            1 if power_of_time == 0 => Fit::Integral,
             _ => Fit::Different,
         }
     }
@@ -195,13 +198,16 @@ mod tests {
         let speed = unit("m.s-1", &[("m", 1), ("s", -1)], 1.0, 0.0);
         let force = unit("kN", &[("kg", 1), ("m", 1), ("s", -2)], 1e3, 0.0);
         let (kelvin, celsius) = (unit("K", &[("K", 1)], 1.0, 0.0), unit("degC", &[("K", 1)], 1.0, 273.15));
-        assert_eq!(millimetre.fit(&metre), Fit::Linear { factor: 1e-3, offset: 0.0 });
-        assert_eq!(kelvin.fit(&celsius), Fit::Linear { factor: 1.0, offset: -273.15 });
-        assert_eq!(Unit::ours(strut_model::unit::M_PER_S).unwrap().fit(&speed), Fit::Same);
-        assert_eq!(metre.fit(&speed), Fit::Derivative);
-        assert_eq!(speed.fit(&metre), Fit::Integral);
-        assert_eq!(metre.fit(&force), Fit::Different);
+        assert_eq!(millimetre.fit(&metre, 0), Fit::Linear { factor: 1e-3, offset: 0.0 });
+        assert_eq!(kelvin.fit(&celsius, 0), Fit::Linear { factor: 1.0, offset: -273.15 });
+        assert_eq!(Unit::ours(strut_model::unit::M_PER_S).unwrap().fit(&speed, 0), Fit::Same);
+        assert_eq!(metre.fit(&speed, 0), Fit::Derivative);
+        assert_eq!(speed.fit(&metre, 0), Fit::Integral);
+        assert_eq!(metre.fit(&force, 0), Fit::Different);
+        assert_eq!((metre.fit(&speed, -1), speed.fit(&metre, 1)), (Fit::Same, Fit::Same));
+        assert_eq!(millimetre.fit(&speed, -1), Fit::Linear { factor: 1e-3, offset: 0.0 });
+        assert_eq!(celsius.fit(&kelvin, -1), Fit::Different);
         let named = |symbol: &str| Unit { base: None, ..unit(symbol, &[], 1.0, 0.0) };
-        assert_eq!((named("m").fit(&metre), named("furlong").fit(&metre)), (Fit::Same, Fit::Unknown));
+        assert_eq!((named("m").fit(&metre, 0), named("furlong").fit(&metre, 0)), (Fit::Same, Fit::Unknown));
     }
 }

@@ -75,6 +75,11 @@ fn truck() -> Theirs {
     Theirs::read(&fmu(folder.path(), TRUCK, true)).unwrap()
 }
 
+#[test]
+fn platforms_are_those_with_a_library() {
+    assert_eq!(truck().platforms, ["linux64"]);
+}
+
 fn faces() -> [Face; 2] {
     let motor = strut_physics::CATALOGUE.iter().find(|entry| entry.about.name == "LinearMotor").unwrap();
     [truck().face, Face::of(&motor.interface(None, None).unwrap())]
@@ -122,7 +127,7 @@ fn mistakes_tell_what_to_write() {
         (
             "chassis.z[1]\", to = \"motor.suspension.deflection\", factor = -1e-3",
             "chassis.v[1]\", to = \"motor.suspension.velocity\"",
-            "`truck.chassis.v[1]` does not tell its unit in the system truck\nhelp: look it up; if it is \"m/s\", with the same sign, write",
+            "`truck.chassis.v[1]` does not tell its unit in the system truck\nhelp: look it up; if it is that of \"m/s\" with the same sign, write",
         ),
         (
             "chassis.z[1]\", to = \"motor.suspension.deflection\", factor = -1e-3",
@@ -143,6 +148,12 @@ fn mistakes_tell_what_to_write() {
             "truck.chassis.z[1]\", to = \"motor.suspension.deflection",
             "truck.chassis.z[2]\", to = \"motor.suspension.deflection",
             "component `truck` (Truck.fmu) has no variable `chassis.z[2]`",
+        ),
+        (
+            "factor = -1e-3, operation = \"derivative\", filter",
+            "operation = \"derivative\", filter",
+            "help: write { from = \"truck.chassis.z[1]\", to = \"motor.suspension.velocity\", \
+             operation = \"derivative\", factor = 0.001 }",
         ),
         ("factor = 1e-3 }", "factor = 0.0 }", "has the factor zero"),
         ("factor = 1e-3 }", "factor = 1e-3, filter = 0.1 }", "it is for operation = \"derivative\""),

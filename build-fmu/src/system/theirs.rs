@@ -19,6 +19,8 @@ pub struct Theirs {
     pub title: String,
     /// Its variables.
     pub face: Face,
+    /// Folders of the platforms that it has a binary for.
+    pub platforms: Vec<String>,
     /// The archive, as it is.
     pub bytes: Vec<u8>,
 }
@@ -36,10 +38,9 @@ impl Theirs {
         })?;
         let no_fmu = |why: &dyn std::fmt::Display| Failure::new(format!("`{shown}` is no FMU: {why}"));
         let mut archive = ZipArchive::new(Cursor::new(&bytes)).map_err(|error| no_fmu(&error))?;
-        let binaries = archive.file_names().filter(|name| {
-            name.as_ref().is_ok_and(|name| name.starts_with("binaries/") && !name.ends_with('/'))
-        });
-        let binaries = binaries.count();
+        let mut platforms: Vec<String> =
+            archive.file_names().filter_map(|name| platform_of(&name.ok()?)).collect();
+        platforms.dedup();
         let mut xml = String::new();
         archive
             .by_name("modelDescription.xml")
@@ -57,7 +58,7 @@ impl Theirs {
             return Err(Failure::new(format!("`{shown}` is for model exchange only"))
                 .help("ask for an export for co-simulation, which brings its own solver"));
         }
-        if binaries == 0 {
+        if platforms.is_empty() {
             return Err(Failure::new(format!("`{shown}` has no binaries, only sources"))
                 .help("compile it first: `fmpy compile FILE` does"));
         }
@@ -65,8 +66,15 @@ impl Theirs {
         let title = title.or_else(|| root.attribute("modelName")).unwrap_or_default().to_owned();
         let file = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         let face = face(root).map_err(|why| no_fmu(&why))?;
-        Ok(Self { file, title, face, bytes })
+        Ok(Self { file, title, face, platforms, bytes })
     }
+}
+
+/// The platform's folder of a library, `binaries/win64/Truck.dll`.
+fn platform_of(name: &str) -> Option<String> {
+    let (platform, file) = name.strip_prefix("binaries/")?.split_once('/')?;
+    let library = [".so", ".dll", ".dylib"].iter().any(|ending| file.ends_with(ending));
+    (library && !file.contains('/')).then(|| platform.to_owned())
 }
 
 fn child<'a, 'x>(node: Node<'a, 'x>, name: &str) -> Option<Node<'a, 'x>> {
