@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
+const NAMES: [&str; 3] = ["their-plant", "our-rig", "their-truck"];
+
 /// The systems with the FMUs of others in them.
 fn systems() -> &'static Path {
     static SYSTEMS: OnceLock<PathBuf> = OnceLock::new();
@@ -12,7 +14,7 @@ fn systems() -> &'static Path {
         strut::python("examples/third-party/fetch.py", [&theirs]);
         let mut build = strut::build_fmu();
         build.arg("--out").arg(&out);
-        for name in ["their-plant", "our-rig"] {
+        for name in NAMES {
             build.arg("--system").arg(theirs.join(name).with_extension("toml"));
         }
         strut::run(&mut build);
@@ -32,8 +34,8 @@ fn ours_and_theirs_do_together_what_an_independent_solution_does() {
     let arguments = ["--fmus".as_ref(), systems().as_os_str(), "--out".as_ref(), pictures.as_os_str()];
     let text = strut::python("examples/third-party/third_party.py", arguments);
     print!("{text}");
-    let [plant, with_ours, swings, rig, seat, rest, ..] = &numbers(&text)[..] else {
-        panic!("not six lines: {text}")
+    let [plant, with_ours, swings, rig, seat, rest, truck, active, over, ..] = &numbers(&text)[..] else {
+        panic!("not nine lines: {text}")
     };
     // Their explicit Euler swings itself up: 1 + (w h)^2/2 a step make 1.7 % in three seconds, at most.
     assert!(plant[0] < 0.02, "{text}");
@@ -46,11 +48,15 @@ fn ours_and_theirs_do_together_what_an_independent_solution_does() {
     assert!(rig[0] < 0.002 && seat[0] < 0.01, "{text}");
     // 100 mm of their ramp are 100 mm of our rig.
     assert!((rest[0] - 100.0).abs() < 0.01, "{text}");
+    // In millimetres and kilonewtons, downwards, with a sum at the axle: one wrong sign or unit would be off by all of it.
+    assert!(truck[0] < 0.003 && active[0] < 0.003, "{text}");
+    let [alone, with_motor] = over[..] else { panic!("{text}") };
+    assert!(with_motor < alone - 3.0, "{text}");
 }
 
 #[test]
 fn the_systems_run_in_masters_that_read_start_values() {
-    for name in ["their-plant", "our-rig"] {
+    for name in NAMES {
         let arguments = [systems().join(name).with_extension("ssp")];
         print!("{}", strut::python("tests/masters/third_party.py", arguments));
     }

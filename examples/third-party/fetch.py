@@ -2,8 +2,8 @@
 
     python fetch.py FOLDER
 
-They lie in the wheel of gemseo-fmu 3.1.1 (PyPI, LGPL), with binaries for linux64. Only the wheel is downloaded, nothing
-of it is installed. The systems' files are copied beside them.
+Some lie in the wheel of gemseo-fmu 3.1.1 (PyPI, LGPL), with binaries for linux64. Only the wheel is downloaded, nothing
+of it is installed. Others PythonFMU makes of the models `truck_*.py`. The systems' files are copied beside them.
 """
 
 import subprocess
@@ -26,7 +26,11 @@ def fetch(folder):
         with zipfile.ZipFile(wheel) as archive:
             for name in FMUS:
                 (folder / name).write_bytes(archive.read(str(PurePosixPath(WHERE) / name)))
-    for system in sorted(Path(__file__).parent.glob("*.toml")):
+    here = Path(__file__).resolve().parent
+    for model in sorted(here.glob("truck_*.py")):
+        build = [sys.executable, "-m", "pythonfmu", "build", "--file", str(model), "--dest", str(folder)]
+        subprocess.run(build, check=True, stdout=subprocess.DEVNULL)
+    for system in sorted(here.glob("*.toml")):
         (folder / system.name).write_bytes(system.read_bytes())
 
 

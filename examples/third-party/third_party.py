@@ -2,12 +2,12 @@
 
     python third_party.py [--fmus FOLDER] [--out FOLDER]
 
-The systems lie beside this script. Their FMUs come with gemseo-fmu (`python fetch.py FOLDER`), and
+The systems lie beside this script. `python fetch.py theirs` brings the FMUs of others, and
 
-    cargo run --release -- --system FOLDER/their-plant.toml --system FOLDER/our-rig.toml --out fmus
+    cargo run --release -- --system theirs/their-plant.toml --system theirs/our-rig.toml --system theirs/their-truck.toml
 
-makes SSPs of both, once FOLDER has the systems' files too. They run here in the master of the examples; in
-libcosimpy and Ecos they run as they are. Each result is compared with a solution that shares nothing with the FMUs.
+makes SSPs of all. They run here in the master of the examples. Each result is compared with a solution that shares
+nothing with the FMUs.
 """
 
 import sys
@@ -33,6 +33,8 @@ BODY, WHEEL, STRUT, STRUT_DAMPING, TIRE, TIRE_DAMPING = 89.56, 23.92, 8250.0, 75
 # Their seat and their ramp.
 SEAT, SEAT_STIFFNESS, SEAT_DAMPING = 80.0, 20e3, 800.0
 HEIGHT, DURATION, START = 0.1, 0.5, 0.5
+# Their truck, in our units.
+CHASSIS, WHEEL_OF_TRUCK, SPRING, DAMPER, TIRE_OF_TRUCK, SKYHOOK = 2000.0, 300.0, 150e3, 5e3, 1e6, 4000.0
 
 
 def plant_alone(times, damping):
@@ -78,6 +80,32 @@ def rig_alone(times):
     return found
 
 
+def truck_alone(times, road, damping):
+    """Chassis and wheel in our units and signs, the motor between them: exact for a road that is held for a step."""
+    a = np.zeros((8, 8))
+    chassis, wheel, motor, given, command = (0, 1), (2, 3), (4, 5), 6, 7
+    strut = np.zeros(8)
+    strut[[0, 1, 2, 3]] = SPRING, DAMPER, -SPRING, -DAMPER
+    force = np.zeros(8)
+    force[5] = READOUT * FORCE
+    a[chassis], a[wheel] = 1.0, 1.0
+    a[1] = (force - strut) / CHASSIS
+    a[3] = (strut - force) / WHEEL_OF_TRUCK
+    a[3, [2, given]] += -TIRE_OF_TRUCK / WHEEL_OF_TRUCK, TIRE_OF_TRUCK / WHEEL_OF_TRUCK
+    a[4, 4], a[4, command] = -POLE, POLE / READOUT / FORCE
+    a[5, motor] = DELAY_POLE, -DELAY_POLE
+    step = times[1] - times[0]
+    onward, ticks = expm(step * a), round(PERIOD / step)
+    state, rows = np.zeros(8), []
+    for index, height in enumerate(road):
+        rows.append(state[0])
+        state[given] = height
+        if index % ticks == 0:
+            state[command] = -damping * state[1]
+        state = onward @ state
+    return np.array(rows)
+
+
 def off(found, expected):
     """The largest difference, as a share of the largest value."""
     return float(np.abs(found - expected).max() / np.abs(expected).max())
@@ -112,8 +140,22 @@ def our_rig(fmus):
     return result, moved
 
 
-def plot(free, damped, result, moved):
-    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4), layout="constrained")
+def their_truck(fmus):
+    results = {}
+    for label, damping in (("alone", 0.0), ("under Skyhook", SKYHOOK)):
+        with open_system(fmus, "their-truck", {"skyhook.damping": damping}) as system:
+            result = results[label] = system.run(3.0, STEP, ["road.position", "chassis.chassis.z[1]"])
+        # Theirs counts downwards, in millimetres.
+        result["height"] = -1e-3 * result["chassis.chassis.z[1]"]
+        expected = truck_alone(result["time"], result["road.position"], damping)
+        print(f"their truck {label} differs from scipy's by {off(result['height'], expected):.5f} of its motion")
+    over = [1e3 * result["height"].max() for result in results.values()]
+    print(f"on a step of 20 mm their truck rises by {over[0]:.3f} mm alone, by {over[1]:.3f} mm with ours")
+    return results
+
+
+def plot(free, damped, result, moved, truck):
+    figure, (left, right, last) = plt.subplots(1, 3, figsize=(15, 4), layout="constrained")
     left.plot(free["time"], 1e3 * free["plant.x1"], color="0.6", linewidth=1, label="their plant alone")
     left.plot(damped["time"], 1e3 * damped["plant.x1"], color="tab:blue", label="with our motor under Skyhook")
     left.set_title("Their plant, our actuator and controller", fontsize=11)
@@ -123,7 +165,13 @@ def plot(free, damped, result, moved):
     right.plot(result["time"], 1e3 * moved, color="tab:orange", label="their seat, against the body")
     right.set_title("Our rig, their road and seat", fontsize=11)
     left.set_ylim(-230, 160)
-    for axes in (left, right):
+    right.set_ylim(-50, 122)
+    alone, active = truck.values()
+    last.plot(alone["time"], 1e3 * alone["road.position"], color="0.6", label="our road")
+    last.plot(alone["time"], 1e3 * alone["height"], color="tab:orange", label="their truck alone")
+    last.plot(active["time"], 1e3 * active["height"], color="tab:blue", label="with our motor under Skyhook")
+    last.set_title("Their truck, our road, actuator and controller", fontsize=11)
+    for axes in (left, right, last):
         axes.set_xlabel("time in s")
         axes.legend(loc="lower right")
     return figure
@@ -131,8 +179,8 @@ def plot(free, damped, result, moved):
 
 def main():
     fmus, out = folders(__doc__)
-    plant, rig = their_plant(fmus), our_rig(fmus)
-    save(plot(*plant, *rig), out / "third_party.png")
+    plant, rig, truck = their_plant(fmus), our_rig(fmus), their_truck(fmus)
+    save(plot(*plant, *rig, truck), out / "third_party.png")
 
 
 if __name__ == "__main__":
