@@ -7,7 +7,7 @@ import zipfile
 from pathlib import Path
 
 import numpy as np
-from excitation import AMPLITUDE
+from excitation import excitation
 from fmpy import read_model_description
 
 sys.path.insert(0, str(Path(__file__).parent.parent.parent / "examples"))
@@ -29,9 +29,9 @@ class Job:
         self.name, self.components, self.connections = name, components, connections
         self.values, self.signals, self.step, self.count = values, signals, step, count
 
-    def json(self):
+    def json(self, **more):
         fields = ("components", "connections", "values", "signals", "step", "count")
-        return json.dumps({field: getattr(self, field) for field in fields})
+        return json.dumps({field: getattr(self, field) for field in fields} | more)
 
     def run(self, kind):
         """In a master of the examples' kind: a row after every step."""
@@ -45,7 +45,8 @@ def single(path):
     """An FMU by itself, its inputs held where every effect is at work."""
     variables = read_model_description(str(path)).modelVariables
     inputs = [v for v in variables if v.causality == "input" and v.type == "Real"]
-    values = {f"fmu.{v.name}": float(v.start) + AMPLITUDE[v.unit] for v in inputs}
+    # As the checks swing them, at a time when none is at zero: each by another amount.
+    values = {f"fmu.{v.name}": float(v.start) + excitation(v.name, v.unit, 0.1) for v in inputs}
     values |= {f"fmu.{v.name}": BEGIN[v.name] for v in variables if v.name in BEGIN}
     signals = [f"fmu.{v.name}" for v in variables if v.causality == "output" and v.type == "Real"]
     return Job(path.stem, {"fmu": str(path.resolve())}, [], values, signals, count=COUNT if inputs else LONG)

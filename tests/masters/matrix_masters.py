@@ -6,10 +6,10 @@ after every step, and the scheme of our own master that they are to agree with (
 
 import contextlib
 import logging
-import os
 import re
 import subprocess
 import tempfile
+from collections import Counter
 from importlib.metadata import version
 from pathlib import Path
 
@@ -142,8 +142,12 @@ class Fmucontainer(Master):
             Assembly(target.name, default_step_size=job.step, fmu_directory=Path(folder), default_auto_local=True
                      ).make_fmu()
             (made,) = Path(folder).glob("*.fmu")
-            # It names what is inside by file.
-            stems = {name: Path(path).stem.lower() for name, path in job.components.items()}
+            # It names what is inside by file, and numbers those of one file.
+            stems, seen = {}, Counter()
+            for name, file in job.components.items():
+                stem = Path(file).stem.lower()
+                stems[name] = f"{stem}-{seen[stem]}" if seen[stem] else stem
+                seen[stem] += 1
             ends = [signal.split(".", 1) for signal in job.signals]
             names = [f"{stems[component]}.{variable}" for component, variable in ends]
             result = simulate_fmu(str(made), fmi_type="CoSimulation", output=names, step_size=job.step,
@@ -156,17 +160,17 @@ class Cofmupy(Master):
         script = "from importlib.metadata import version; print(version('cofmupy'), end='')"
         release = subprocess.run([python, "-c", script], check=True, capture_output=True, text=True).stdout
         super().__init__("cofmupy", release)
-        self.python = python
+        # One process for all: it takes seconds to start.
+        script = Path(__file__).parent / "matrix_cofmupy.py"
+        self.process = subprocess.Popen([python, script], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                        stderr=subprocess.DEVNULL, text=True, bufsize=1)
 
     def run(self, kind, path, job):
         with tempfile.TemporaryDirectory() as folder:
             rows = Path(folder) / "rows.npy"
-            script = Path(__file__).parent / "matrix_cofmupy.py"
-            # Its FMPy is another one.
-            environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-            done = subprocess.run([self.python, script, rows], input=job.json(), capture_output=True, text=True,
-                                  env=environment)
-            assert done.returncode == 0, done.stderr[-500:]
+            print(job.json(rows=str(rows)), file=self.process.stdin)
+            answer = self.process.stdout.readline()
+            assert answer == "\n", answer or "it has ended"
             return np.load(rows), InTurn
 
 
