@@ -106,13 +106,15 @@ impl Model for SignalAdapter {
             },
         ],
         notes: &[
-            "Many masters pass over the LinearTransformation of a connection in an SSP without a word. A component is \
+            "Some masters pass over the LinearTransformation of a connection in an SSP without a word. A component is \
              something that every master runs.",
             "The value passes through without a delay of its own. A master that takes the same step with every \
              component (Jacobi) still passes it on one step later than a direct connection: so does every component in \
              between.",
             "The rate of change is a mean over the last period, half a period late, and rough where the signal is: \
              `filter` smooths it. A model that puts out its velocity is better asked for it.",
+            "A communication step may be shorter than the period, not longer: between two exchanges the signal rests, and \
+             its rate is zero.",
             "The first sample has no predecessor: its rate is zero. The integral drifts with an offset of the signal; \
              VelocityEstimator does not.",
         ],
