@@ -1,5 +1,6 @@
 """A system as its .ssp file has it, for the master of jacobi.py."""
 
+import tempfile
 import xml.etree.ElementTree as ElementTree
 import zipfile
 from pathlib import Path, PurePosixPath
@@ -7,6 +8,7 @@ from pathlib import Path, PurePosixPath
 from jacobi import System
 
 NAMESPACES = {
+    "ssc": "http://ssp-standard.org/SSP1/SystemStructureCommon",
     "ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription",
     "ssv": "http://ssp-standard.org/SSP1/SystemStructureParameterValues",
 }
@@ -34,6 +36,8 @@ def read(path):
                     (value,) = parameter
                     kind = value.tag.rpartition("}")[2]
                     parameters[f"{name}.{parameter.get('name')}"] = KINDS[kind](value.get("value"))
+    if root.find(".//ssd:Connection/ssc:LinearTransformation", NAMESPACES) is not None:
+        raise ValueError(f"{path}: a connection transforms its signal; build the system with factors = \"component\"")
     connections = [
         (f"{c.get('startElement')}.{c.get('startConnector')}", f"{c.get('endElement')}.{c.get('endConnector')}")
         for c in root.iterfind(".//ssd:Connection", NAMESPACES)
@@ -42,6 +46,9 @@ def read(path):
 
 
 def open_system(folder, name, parameters=None, kind=System):
-    """The system `name` of a folder of FMUs, with parameters other than its own."""
-    components, connections, given = read(Path(folder) / f"{name}.ssp")
-    return kind(folder, components, connections, given | (parameters or {}))
+    """The system `name` of a folder, with the FMUs in it, with parameters other than its own."""
+    path = Path(folder) / f"{name}.ssp"
+    components, connections, given = read(path)
+    with tempfile.TemporaryDirectory() as unpacked, zipfile.ZipFile(path) as archive:
+        archive.extractall(unpacked)
+        return kind(Path(unpacked) / "resources", components, connections, given | (parameters or {}))

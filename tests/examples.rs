@@ -16,10 +16,8 @@ fn python_example(name: &str) -> Vec<f64> {
 
 /// Runs a Rust example that uses the `fmi` crate; returns what it prints.
 fn rust_example<S: AsRef<OsStr>>(package: &str, arguments: impl IntoIterator<Item = S>) -> String {
-    let (native, headers) = strut::libclang();
-    let mut master = strut::cargo();
+    let mut master = strut::cargo_with_libclang();
     master.args(["run", "--quiet", "--package", package, "--"]).args(arguments);
-    master.env("LIBCLANG_PATH", native).env("BINDGEN_EXTRA_CLANG_ARGS", include(&headers));
     String::from_utf8_lossy(&strut::run(&mut master).stdout).into_owned()
 }
 
@@ -57,10 +55,6 @@ fn the_car_rides_as_in_figure_8() {
         assert!(active < soft && soft < hard, "{motion:?}");
         assert!(high_active < high_hard && high_soft < high_hard, "{motion:?}");
     }
-}
-
-fn include(folder: &std::path::Path) -> std::ffi::OsString {
-    [OsStr::new("-I"), folder.as_os_str()].into_iter().collect()
 }
 
 #[test]

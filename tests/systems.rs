@@ -60,6 +60,11 @@ fn parameter_sets_of_a_system_take_effect() {
 }
 
 #[test]
+fn factors_of_connections_are_honoured_as_the_examples_tell() {
+    print!("{}", strut::python("tests/masters/connected_gains.py", [strut::fmus()]));
+}
+
+#[test]
 fn the_coupling_error_falls_with_the_step() {
     print!("{}", strut::python("tests/masters/connected_convergence.py", [strut::fmus()]));
 }

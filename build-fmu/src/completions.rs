@@ -10,7 +10,7 @@ use crate::plan::Plan;
 /// The script for a shell; those for bash and zsh have the names of the FMUs and systems that there are.
 pub fn script(shell: Shell, plan: &Plan) -> String {
     let fmus = plan.fmus.iter().map(|fmu| fmu.name.clone());
-    let names: Vec<String> = fmus.chain(plan.systems.iter().map(|system| system.name.clone())).collect();
+    let names: Vec<String> = fmus.chain(plan.systems.iter().map(|(system, _)| system.name.clone())).collect();
     // Only the script's parser knows the names: the program's own takes those of files given beside them too.
     let parser = || PossibleValuesParser::new(names.clone());
     let mut command = CommandLine::command()

@@ -20,10 +20,12 @@ pub fn text(plan: &Plan, json: bool) -> Result<String> {
     let fmus = plan.wanted.iter().map(|index| &plan.fmus[*index]);
     let fmus = fmus.map(|fmu| Ok((fmu, fmu.interface()?))).collect::<Result<Vec<_>>>()?;
     if json {
-        let systems = plan.systems.iter().map(|system| {
+        let systems = plan.systems.iter().map(|(system, _)| {
+            let components =
+                system.components.iter().map(|(name, part)| (name.clone(), json!(part.to_string())));
             json!({
                 "name": system.name, "kind": "system", "title": system.title, "source": system.source,
-                "components": system.components,
+                "components": Value::Object(components.collect()),
             })
         });
         let all: Vec<Value> =
@@ -36,7 +38,7 @@ pub fn text(plan: &Plan, json: bool) -> Result<String> {
         let kind = fmu.entry.about.kind.name().into();
         rows.push(vec![fmu.name.clone(), kind, format!("{inputs} → {outputs}"), fmu.title().to_owned()]);
     }
-    for system in &plan.systems {
+    for (system, _) in &plan.systems {
         rows.push(vec![
             system.name.clone(),
             "system".into(),

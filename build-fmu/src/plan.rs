@@ -1,6 +1,6 @@
 //! Which FMUs and systems there are and which of them are wanted.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use strut_model::ParameterSet;
 
@@ -8,7 +8,7 @@ use crate::Project;
 use crate::cli::{Arguments, COMMANDS};
 use crate::failure::{Failure, Result, similar};
 use crate::fmu::{Fmu, Set};
-use crate::system::System;
+use crate::system::{Adapter, Part, System, Theirs};
 
 /// All FMUs and systems, and the wanted ones among them.
 #[derive(Debug)]
@@ -17,8 +17,17 @@ pub struct Plan {
     pub fmus: Vec<Fmu>,
     /// Positions of the FMUs that are written to the output folder.
     pub wanted: Vec<usize>,
-    /// The systems that are.
-    pub systems: Vec<System>,
+    /// The systems that are, with the folder that their FMUs of others are found from.
+    pub systems: Vec<(System, PathBuf)>,
+}
+
+/// What a component of a system is made of.
+#[derive(Debug)]
+pub enum Component {
+    /// The FMU of this position.
+    Ours(usize),
+    /// A file of others.
+    Theirs(Theirs),
 }
 
 impl Plan {
@@ -50,11 +59,12 @@ impl Plan {
         }
         let mut systems = Vec::new();
         for (name, text) in project.systems {
-            systems.push(System::parse(name, text)?);
+            systems.push((System::parse(name, text)?, PathBuf::new()));
         }
         let given_systems = systems.len();
         for path in &arguments.systems {
-            systems.push(System::parse(&path.display().to_string(), &read(path)?)?);
+            let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+            systems.push((System::parse(&path.display().to_string(), &read(path)?)?, folder));
         }
         check_names(&fmus, &systems)?;
         // A file on the command line is a wish, like a name.
@@ -62,7 +72,8 @@ impl Plan {
         let everything =
             arguments.names.is_empty() && arguments.parameters.is_empty() && arguments.systems.is_empty();
         for name in &arguments.names {
-            if !fmus.iter().any(|fmu| fmu.name == *name) && !systems.iter().any(|system| system.name == *name)
+            if !fmus.iter().any(|fmu| fmu.name == *name)
+                && !systems.iter().any(|(system, _)| system.name == *name)
             {
                 return Err(unknown(name, &fmus, &systems));
             }
@@ -71,7 +82,7 @@ impl Plan {
         let wanted =
             (0..fmus.len()).filter(|index| named(&fmus[*index].name) || user_fmus.contains(index)).collect();
         let mut index = 0;
-        systems.retain(|system| {
+        systems.retain(|(system, _)| {
             index += 1;
             named(&system.name) || index > given_systems
         });
@@ -83,30 +94,97 @@ impl Plan {
         unknown(name, &self.fmus, &self.systems)
     }
 
-    /// Positions of the FMUs that a system is made of.
+    /// What a system is made of.
     ///
     /// # Errors
-    /// If there is no FMU of a name.
-    pub fn components(&self, system: &System) -> Result<Vec<usize>> {
-        let position = |(component, fmu): (&String, &String)| {
+    /// If there is no FMU of a name, or a file of others cannot be used.
+    pub fn components(&self, system: &System, folder: &Path) -> Result<Vec<Component>> {
+        let position = |component: &String, fmu: &String| {
             self.fmus.iter().position(|other| other.name == *fmu).ok_or_else(|| {
                 let failure = Failure::new(format!(
                     "component `{component}` of the system {} is made of `{fmu}`, which is no FMU",
                     system.name
                 ));
-                similar(fmu, self.fmus.iter().map(|fmu| fmu.name.as_str()))
+                let failure = similar(fmu, self.fmus.iter().map(|fmu| fmu.name.as_str()))
                     .into_iter()
-                    .fold(failure, Failure::help)
+                    .fold(failure, Failure::help);
+                if fmu.ends_with(".fmu") {
+                    failure.help(format!("one of others is written {component} = {{ fmu = \"{fmu}\" }}"))
+                } else {
+                    failure
+                }
             })
         };
-        system.components.iter().map(position).collect()
+        let parts = system.components.iter();
+        parts
+            .map(|(component, part)| match part {
+                Part::Ours(fmu) => position(component, fmu).map(Component::Ours),
+                Part::Theirs(foreign) => Theirs::read(&folder.join(&foreign.fmu)).map(Component::Theirs),
+            })
+            .collect()
+    }
+
+    /// Adds the FMUs of a system's adapters; returns their positions.
+    ///
+    /// # Errors
+    /// If this project has no model to make them of.
+    pub fn add(&mut self, project: &Project, system: &System, adapters: &[Adapter]) -> Result<Vec<usize>> {
+        let first = self.fmus.len();
+        for adapter in adapters {
+            if !project.catalogue.iter().any(|entry| entry.about.name == Adapter::MODEL) {
+                return Err(Failure::new(format!(
+                    "the system {} adapts a signal, and this project has no {}",
+                    system.name,
+                    Adapter::MODEL
+                ))
+                .help("build your model first, and the system among Strut's, with it as { fmu = \"...\" }"));
+            }
+            self.fmus.push(with_set(project, &adapter.name, &adapter.set, Path::new(""))?);
+        }
+        Ok((first..self.fmus.len()).collect())
+    }
+
+    /// In a system's archive the FMUs lie side by side.
+    ///
+    /// # Errors
+    /// If two different ones have one name.
+    pub fn check_files(&self, system: &System, components: &[Component]) -> Result<()> {
+        for (index, one) in components.iter().enumerate() {
+            let file = one.file(self);
+            if components[..index].iter().any(|other| other.file(self) == file && !other.is(one)) {
+                return Err(Failure::new(format!(
+                    "the system {} is made of two different FMUs of the name `{file}`",
+                    system.name
+                ))
+                .help("rename one of the files"));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Component {
+    /// The name of its file.
+    pub fn file(&self, plan: &Plan) -> String {
+        match self {
+            Self::Ours(index) => format!("{}.fmu", plan.fmus[*index].name),
+            Self::Theirs(theirs) => theirs.file.clone(),
+        }
+    }
+
+    fn is(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Ours(one), Self::Ours(other)) => one == other,
+            (Self::Theirs(one), Self::Theirs(other)) => one.bytes == other.bytes,
+            _ => false,
+        }
     }
 }
 
 /// What to say of a name that there is nothing of.
-fn unknown(name: &str, fmus: &[Fmu], systems: &[System]) -> Failure {
+fn unknown(name: &str, fmus: &[Fmu], systems: &[(System, PathBuf)]) -> Failure {
     let names = fmus.iter().map(|fmu| fmu.name.as_str());
-    let names = names.chain(systems.iter().map(|system| system.name.as_str()));
+    let names = names.chain(systems.iter().map(|(system, _)| system.name.as_str()));
     let failure = Failure::new(format!("there is no FMU or system `{name}`"));
     let failure =
         similar(name, names.chain(COMMANDS.iter().copied())).into_iter().fold(failure, Failure::help);
@@ -141,9 +219,9 @@ fn with_set(project: &Project, file: &str, text: &str, folder: &Path) -> Result<
 }
 
 /// Two files of one name would overwrite each other.
-fn check_names(fmus: &[Fmu], systems: &[System]) -> Result<()> {
+fn check_names(fmus: &[Fmu], systems: &[(System, PathBuf)]) -> Result<()> {
     let mut names: Vec<String> = fmus.iter().map(|fmu| fmu.name.clone()).collect();
-    names.extend(systems.iter().map(|system| system.name.clone()));
+    names.extend(systems.iter().map(|(system, _)| system.name.clone()));
     names.sort();
     match names.windows(2).find(|pair| pair[0] == pair[1]) {
         None => Ok(()),

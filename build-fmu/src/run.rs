@@ -14,8 +14,9 @@ use crate::cli::{Arguments, Command, CommandLine};
 use crate::failure::{Failure, Result};
 use crate::fmu::{Fmu, Packed};
 use crate::needs::Needs;
-use crate::plan::Plan;
+use crate::plan::{Component, Plan};
 use crate::platform::Platform;
+use crate::system::{self, Face, System};
 use crate::toolchain::{self, Toolchain};
 use crate::{Project, Source, describe, foreign, list, table};
 #[cfg(feature = "tools")]
@@ -98,15 +99,13 @@ pub struct Told {
 /// # Errors
 /// Whatever goes wrong first.
 pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
-    let (metadata, plan) = plan(project, arguments)?;
+    let (metadata, mut plan) = plan(project, arguments)?;
     let platforms = platforms(arguments)?;
     // Mistakes in systems come to light before minutes of compiling.
     let mut needed = plan.wanted.clone();
-    for system in &plan.systems {
-        let components = plan.components(system)?;
-        system.check(&interfaces(&plan, &components)?)?;
-        needed.extend(components);
-    }
+    let assemblies = assemble(project, &mut plan)?;
+    assemblies.iter().try_for_each(|assembly| assembly.runs_on(&platforms))?;
+    needed.extend(assemblies.iter().flat_map(Assembly::ours));
     needed.sort_unstable();
     needed.dedup();
     let folder = Folder::open(&arguments.out)?;
@@ -124,7 +123,7 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
         notes.push(format!("{} needs {}", platform.folder, Needs::of(&platform, &libraries)?));
         built.push((platform, libraries));
     }
-    let progress = progress(needed.len() + plan.systems.len());
+    let progress = progress(needed.len() + assemblies.len());
     let mut packed: BTreeMap<usize, Packed> = BTreeMap::new();
     let mut rows = Vec::new();
     for index in needed {
@@ -143,14 +142,13 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
         packed.insert(index, result);
         progress.inc(1);
     }
-    for system in &plan.systems {
+    for assembly in &assemblies {
+        let system = &assembly.system;
         progress.set_message(system.name.clone());
-        let components: Vec<(&Fmu, &Packed)> =
-            plan.components(system)?.into_iter().map(|index| (&plan.fmus[index], &packed[&index])).collect();
-        let bytes = system.pack(&components);
+        let bytes = assembly.pack(&plan, &packed);
         let file = format!("{}.ssp", system.name);
         folder.write(&file, &bytes)?;
-        let parts = format!("{} FMUs", components.len());
+        let parts = format!("{} FMUs", assembly.components.len());
         let path = arguments.out.join(file).display().to_string();
         rows.push(vec![
             system.name.clone(),
@@ -189,8 +187,80 @@ fn platforms(arguments: &Arguments) -> Result<Vec<(Platform, Toolchain)>> {
     Ok(platforms)
 }
 
-fn interfaces(plan: &Plan, components: &[usize]) -> Result<Vec<strut_model::Interface>> {
-    components.iter().map(|index| plan.fmus[*index].interface()).collect()
+/// A system with all that it is made of.
+struct Assembly {
+    system: System,
+    /// Those of the file, then the adapters.
+    components: Vec<Component>,
+    /// Of those of the file.
+    faces: Vec<Face>,
+}
+
+/// Finds what the systems are made of and checks that it fits.
+fn assemble(project: &Project, plan: &mut Plan) -> Result<Vec<Assembly>> {
+    let mut assemblies = Vec::new();
+    for (system, folder) in plan.systems.clone() {
+        let mut components = plan.components(&system, &folder)?;
+        let face = |component: &Component| match component {
+            Component::Ours(index) => Ok(Face::of(&plan.fmus[*index].interface()?)),
+            Component::Theirs(theirs) => Ok(theirs.face.clone()),
+        };
+        let faces = components.iter().map(face).collect::<Result<Vec<_>>>()?;
+        let adapters = system.check(&faces)?;
+        components.extend(plan.add(project, &system, &adapters)?.into_iter().map(Component::Ours));
+        plan.check_files(&system, &components)?;
+        assemblies.push(Assembly { system, components, faces });
+    }
+    Ok(assemblies)
+}
+
+impl Assembly {
+    fn ours(&self) -> impl Iterator<Item = usize> {
+        self.components.iter().filter_map(|component| match component {
+            Component::Ours(index) => Some(*index),
+            Component::Theirs(_) => None,
+        })
+    }
+
+    /// A system runs where each of its FMUs has a binary.
+    fn runs_on(&self, platforms: &[(Platform, Toolchain)]) -> Result<()> {
+        let theirs = || {
+            self.components.iter().filter_map(|component| match component {
+                Component::Ours(_) => None,
+                Component::Theirs(theirs) => Some(theirs),
+            })
+        };
+        let everywhere = |folder: &String| theirs().all(|theirs| theirs.platforms.contains(folder));
+        if platforms.iter().any(|(platform, _)| everywhere(&platform.folder)) {
+            return Ok(());
+        }
+        let ours: Vec<&str> = platforms.iter().map(|(platform, _)| platform.folder.as_str()).collect();
+        let failure = Failure::new(format!(
+            "the system {} would run nowhere: ours are built for {}",
+            self.system.name,
+            ours.join(", ")
+        ));
+        let failure = theirs().fold(failure, |failure, theirs| {
+            failure.help(format!("`{}` has binaries for {}", theirs.file, theirs.platforms.join(", ")))
+        });
+        Err(failure
+            .help("build for a platform that all have with --target, or ask for an export for this one"))
+    }
+
+    fn pack(&self, plan: &Plan, packed: &BTreeMap<usize, Packed>) -> Vec<u8> {
+        let part = |component| match component {
+            &Component::Ours(index) => system::Packed {
+                title: plan.fmus[index].title(),
+                file: component.file(plan),
+                bytes: &packed[&index].bytes,
+            },
+            Component::Theirs(theirs) => {
+                system::Packed { title: &theirs.title, file: theirs.file.clone(), bytes: &theirs.bytes }
+            }
+        };
+        let parts: Vec<system::Packed> = self.components.iter().map(part).collect();
+        self.system.pack(&self.faces, &parts)
+    }
 }
 
 fn library(path: &Path) -> Result<Vec<u8>> {

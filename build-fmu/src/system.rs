@@ -1,18 +1,30 @@
 //! Systems: components and the connections between them.
 
+mod adapter;
 mod check;
+mod face;
 mod ssp;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_theirs;
+mod theirs;
+mod wire;
 mod xml;
+
+use std::fmt::{self, Display, Formatter};
+use std::path::PathBuf;
 
 use indexmap::IndexMap;
 use serde::Deserialize;
-use strut_model::{Interface, Value};
+use strut_model::Value;
 use toml::Value as Toml;
 
+pub use adapter::Adapter;
+pub use face::Face;
+pub use theirs::Theirs;
+
 use crate::failure::{Failure, Result};
-use crate::fmu::{Fmu, Packed};
 
 /// A composition of FMUs, from a TOML file.
 ///
@@ -20,8 +32,11 @@ use crate::fmu::{Fmu, Packed};
 /// name = "quanser-lqr"
 /// title = "Active suspension with state feedback"
 /// source = "Quanser 3.1"
-/// components = { road = "QuanserRoad", rig = "QuanserQuarterCar" }    # name = FMU
-/// connections = ["road.position -> rig.road.position"]                 # first the component, then its variable
+/// components = { road = "QuanserRoad", rig = "QuanserQuarterCar", seat = { fmu = "seat.fmu" } } # one is of others
+/// connections = [
+///     "road.position -> rig.road.position",                            # first the component, then its variable
+///     { from = "rig.body.acceleration", to = "seat.force", factor = -80.0 },
+/// ]
 /// outputs = ["rig.body.position"]                                      # what to look at
 ///
 /// [experiment]
@@ -41,9 +56,11 @@ pub struct System {
     /// Where it is from.
     pub source: String,
     /// FMU of each component, in the order of calculation.
-    pub components: IndexMap<String, String>,
-    /// `component.variable -> component.variable`.
-    pub connections: Vec<String>,
+    pub components: IndexMap<String, Part>,
+    connections: Vec<Line>,
+    /// What multiplies a signal that is connected with a factor.
+    #[serde(default)]
+    factors: Factors,
     /// What to look at.
     #[serde(default)]
     pub outputs: Vec<String>,
@@ -61,6 +78,109 @@ pub struct Experiment {
     pub stop: f64,
     /// Communication step in seconds.
     pub step: f64,
+}
+
+/// What a component is made of.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(
+    untagged,
+    expecting = "a component is the name of an FMU, or { fmu = \"path.fmu\" } for one of others"
+)]
+pub enum Part {
+    /// An FMU of the catalogue, by its name.
+    Ours(String),
+    /// A file that others have made.
+    Theirs(Foreign),
+}
+
+impl Display for Part {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Ours(name) => write!(f, "{name}"),
+            Self::Theirs(foreign) => write!(f, "{}", foreign.fmu.display()),
+        }
+    }
+}
+
+/// An FMU that others have made.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Foreign {
+    /// Its file, from the folder of the system's.
+    pub fmu: PathBuf,
+}
+
+/// A connection as it is written.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "a connection is \"road.position -> rig.road.position\", or { from = \"...\", to = \"...\" } with some of \
+                 factor, offset, operation (\"value\", \"derivative\" or \"integral\"), filter, initial"
+)]
+enum Line {
+    Plain(String),
+    Adapted(Adapted),
+}
+
+impl Line {
+    /// Where it comes from, and where it goes; what is done to the signal on the way stands with the latter.
+    fn ends(&self) -> (String, String) {
+        match self {
+            Self::Plain(text) => {
+                let (from, to) = text.split_once("->").unwrap_or((text, ""));
+                (from.trim().into(), to.trim().into())
+            }
+            Self::Adapted(adapted) => {
+                let numbers = [
+                    ("factor", adapted.factor),
+                    ("offset", adapted.offset),
+                    ("filter", adapted.filter),
+                    ("initial", adapted.initial),
+                ];
+                let numbers =
+                    numbers.iter().filter_map(|(name, value)| Some(format!("{name} {}", (*value)?)));
+                let operation = adapted.operation.map(|it| format!("{it:?}").to_lowercase());
+                let done: Vec<String> = operation.into_iter().chain(numbers).collect();
+                let done = if done.is_empty() { String::new() } else { format!(" ({})", done.join(", ")) };
+                (adapted.from.clone(), format!("{}{done}", adapted.to))
+            }
+        }
+    }
+}
+
+/// A connection between different conventions.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Adapted {
+    from: String,
+    to: String,
+    factor: Option<f64>,
+    offset: Option<f64>,
+    operation: Option<adapter::Operation>,
+    filter: Option<f64>,
+    initial: Option<f64>,
+}
+
+/// What multiplies a signal that is connected with a factor.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
+#[serde(rename_all = "lowercase")]
+enum Factors {
+    /// A component of its own, which every master runs.
+    #[default]
+    Component,
+    /// The connection, by SSP's LinearTransformation, which some masters pass over.
+    Connection,
+}
+
+/// A component as it is packed.
+#[derive(Clone, Debug)]
+pub struct Packed<'a> {
+    /// What it is, in one sentence.
+    pub title: &'a str,
+    /// Its file's name.
+    pub file: String,
+    /// The file.
+    pub bytes: &'a [u8],
 }
 
 /// A variable of a component.
@@ -110,22 +230,24 @@ impl System {
         Ok(system)
     }
 
-    /// Checks names, roles, units and values against the components' interfaces, which are in the order
-    /// of the components.
+    /// Checks names, roles, units and values against the components, which are in their order. Returns what has to
+    /// stand between them.
     ///
     /// # Errors
     /// The first mistake, by name.
-    pub fn check(&self, interfaces: &[Interface]) -> Result<()> {
-        check::Checked::new(self, interfaces).map(|_| ())
+    pub fn check(&self, faces: &[Face]) -> Result<Vec<Adapter>> {
+        check::Checked::new(self, faces).map(|checked| checked.adapters)
     }
 
-    /// The SSP. The components are in the order of the system's; it has been checked.
-    pub fn pack(&self, components: &[(&Fmu, &Packed)]) -> Vec<u8> {
-        let interfaces: Vec<Interface> =
-            components.iter().map(|(_, packed)| packed.interface.clone()).collect();
-        let checked =
-            check::Checked::new(self, &interfaces).expect("a system is checked before it is packed");
+    /// The SSP. The components are in the order of the system's, followed by the adapters; it has been checked.
+    pub fn pack(&self, faces: &[Face], components: &[Packed]) -> Vec<u8> {
+        let checked = check::Checked::new(self, faces).expect("a system is checked before it is packed");
         ssp::archive(self, &checked, components)
+    }
+
+    /// Where each connection comes from, and where it goes with what is done to the signal on the way.
+    pub fn ends(&self) -> impl Iterator<Item = (String, String)> {
+        self.connections.iter().map(Line::ends)
     }
 
     /// The parameters, with nested tables flattened to dotted names.

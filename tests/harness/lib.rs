@@ -3,14 +3,17 @@
 //! Nothing has to be installed by hand: the environment is made under `target/` at first use, with
 //! pinned packages.
 
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-const REQUIREMENTS: &str = include_str!("../masters/requirements.txt");
+/// Lists of packages, and what each says: a changed one makes a new environment.
+const MASTERS: (&str, &str) = ("requirements.txt", include_str!("../masters/requirements.txt"));
+const COFMUPY: (&str, &str) =
+    ("requirements-cofmupy.txt", include_str!("../masters/requirements-cofmupy.txt"));
 
 /// The project's root folder.
 pub fn root() -> &'static Path {
@@ -67,12 +70,31 @@ pub fn python<S: AsRef<OsStr>>(script: &str, arguments: impl IntoIterator<Item =
 
 /// The Python interpreter that has the masters.
 pub fn interpreter() -> PathBuf {
-    environment().join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" })
+    interpreter_of(environment())
+}
+
+/// The Python interpreter that has cofmupy, which wants another FMPy than the rest.
+pub fn cofmupy() -> PathBuf {
+    static ENVIRONMENT: OnceLock<PathBuf> = OnceLock::new();
+    interpreter_of(ENVIRONMENT.get_or_init(|| made(COFMUPY)))
+}
+
+fn interpreter_of(environment: &Path) -> PathBuf {
+    environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" })
+}
+
+/// Cargo, at the root, for packages that the `fmi` crate is in.
+pub fn cargo_with_libclang() -> Command {
+    let (native, headers) = libclang();
+    let include: OsString = [OsStr::new("-I"), headers.as_os_str()].into_iter().collect();
+    let mut command = cargo();
+    command.env("LIBCLANG_PATH", native).env("BINDGEN_EXTRA_CLANG_ARGS", include);
+    command
 }
 
 /// The folder of libclang, which building the `fmi` crate needs, and the folder of the C compiler's own
 /// headers, which libclang's package lacks.
-pub fn libclang() -> (PathBuf, PathBuf) {
+fn libclang() -> (PathBuf, PathBuf) {
     let script = "import clang, pathlib; print(pathlib.Path(clang.__file__).parent / 'native', end='')";
     let native = run(Command::new(interpreter()).args(["-c", script]));
     let headers = run(Command::new("cc").arg("-print-file-name=include"));
@@ -80,27 +102,30 @@ pub fn libclang() -> (PathBuf, PathBuf) {
     (path(native), path(headers))
 }
 
-/// The Python environment, made on the first call; a changed list of packages makes a new one.
+/// The Python environment, made on the first call.
 fn environment() -> &'static Path {
     static ENVIRONMENT: OnceLock<PathBuf> = OnceLock::new();
-    ENVIRONMENT.get_or_init(|| {
-        let mut hasher = DefaultHasher::new();
-        REQUIREMENTS.hash(&mut hasher);
-        let folder = target().join(format!("python-{:016x}", hasher.finish()));
-        let _lock = lock("python.lock");
-        let complete = folder.join("complete");
-        if !complete.exists() {
-            eprintln!("making the Python environment of the tests in {}", folder.display());
-            let base = if cfg!(windows) { "python" } else { "python3" };
-            run(Command::new(base).args(["-m", "venv", "--clear"]).arg(&folder));
-            let pip = folder.join(if cfg!(windows) { "Scripts/pip.exe" } else { "bin/pip" });
-            run(Command::new(pip)
-                .args(["install", "--quiet", "--disable-pip-version-check", "--requirement"])
-                .arg(root().join("tests/masters/requirements.txt")));
-            fs::write(&complete, REQUIREMENTS).expect("the environment's folder is writable");
-        }
-        folder
-    })
+    ENVIRONMENT.get_or_init(|| made(MASTERS))
+}
+
+/// The Python environment of a list of packages; a changed list makes a new one.
+fn made((list, text): (&str, &str)) -> PathBuf {
+    let mut hasher = DefaultHasher::new();
+    text.hash(&mut hasher);
+    let folder = target().join(format!("python-{:016x}", hasher.finish()));
+    let _lock = lock("python.lock");
+    let complete = folder.join("complete");
+    if !complete.exists() {
+        eprintln!("making the Python environment of the tests in {}", folder.display());
+        let base = if cfg!(windows) { "python" } else { "python3" };
+        run(Command::new(base).args(["-m", "venv", "--clear"]).arg(&folder));
+        let pip = folder.join(if cfg!(windows) { "Scripts/pip.exe" } else { "bin/pip" });
+        run(Command::new(pip)
+            .args(["install", "--quiet", "--disable-pip-version-check", "--requirement"])
+            .arg(root().join("tests/masters").join(list)));
+        fs::write(&complete, text).expect("the environment's folder is writable");
+    }
+    folder
 }
 
 /// Held while something shared is made: test programs run at the same time.

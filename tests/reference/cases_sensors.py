@@ -3,7 +3,7 @@
 import math
 
 from cases import single
-from sensors import AngleSensorChain, SensorChain, VelocityEstimator
+from sensors import AngleSensorChain, SensorChain, SignalAdapter, VelocityEstimator
 
 # Calibrated, as TUM Tables 1-5 have it. What is assumed says the parameter set.
 CONVERTERS = {"body_acceleration": 20.0 / 2**16, "wheel_acceleration": 20.0 / 2**12, "wheel_force": 20.0 / 2**16,
@@ -73,4 +73,12 @@ CASES = [
            {"body.acceleration": {"sines": [[2.0, 1.5, 0.3]], "steps": []}}, stop=1.0, every=10, error=1e-12,
            package="TumVelocityEstimator",
            changed={"leak_frequency": 0.7, "high_pass_frequency": 0.0, "period": 2e-3}),
+    *(single(f"signal-adapter-{operation.lower()}", SignalAdapter,
+             {"input": {"sines": [[12.0, 1.5, 0.3], [4.0, 12.0, 0.1]], "steps": [[2.0, 0.2005]]},
+              "added": {"sines": [[0.05, 3.1, 0.7]], "steps": []}},
+             stop=0.6, every=12, error=1e-12, settings={"operation": operation},
+             parameters={"factor": 1.0, "offset": 0.0, "initial": 0.0, "filter": 0.0, "period": 1e-3},
+             changed={"factor": -1e-3, "offset": 0.02} | changed)
+      for operation, changed in (("Value", {}), ("Derivative", {"filter": 5e-3}),
+                                 ("Integral", {"initial": 0.4, "period": 2e-3}))),
 ]

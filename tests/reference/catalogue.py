@@ -22,7 +22,7 @@ from pump import PumpHydraulicActuator, PumpHydraulicActuatorLinear
 from quarter_car import QuarterCar
 from roads import FourWheelRoad, Road
 from sas import MrRotaryBrake, SasRig
-from sensors import AngleSensorChain, SensorChain, VelocityEstimator
+from sensors import AngleSensorChain, SensorChain, SignalAdapter, VelocityEstimator
 from servo import ServoHydraulicActuator, ServoSuspension, ServoSuspensionIdentified
 from sources import FrequencySource, VoltageSource
 
@@ -52,6 +52,7 @@ MODELS = {model.__name__: model for model in (
     ServoHydraulicActuator,
     ServoSuspension,
     ServoSuspensionIdentified,
+    SignalAdapter,
     Skyhook,
     VelocityEstimator,
     VoltageSource,

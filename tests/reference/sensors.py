@@ -160,3 +160,24 @@ class VelocityEstimator(Sampled):
 
     def output(self, _state, u, _mode):
         return u[1:2]
+
+
+class SignalAdapter(Sampled):
+    """y = factor x + offset + added, of the signal, its backward difference or its integral by the trapezoidal rule."""
+
+    inputs, outputs = ["input", "added"], ["output"]
+
+    def __init__(self, parameters, settings):
+        self.period, self.filter, self.initial = (parameters[name] for name in ("period", "filter", "initial"))
+        self.factor, self.offset = parameters["factor"], parameters["offset"]
+        self.shown_part = {"Value": 0, "Derivative": 3, "Integral": 4}[settings["operation"]]
+
+    def tick(self, memory, _state, u, _k):
+        if not memory:
+            return [u[0], 0.0, self.initial]
+        before, rate, integral = memory
+        return [u[0], (self.filter * rate + u[0] - before) / (self.filter + self.period),
+                integral + 0.5 * self.period * (u[0] + before)]
+
+    def output(self, _state, u, _mode):
+        return [self.factor * u[self.shown_part] + self.offset + u[1]]

@@ -78,9 +78,11 @@ pub fn system(system: &System) -> String {
         let name = format!("{}.{}", setting.port.component, setting.port.variable);
         (name, json!({"value": value(&setting.value), "unit": setting.unit}))
     });
+    let components = system.components.iter().map(|(name, part)| (name.clone(), json!(part.to_string())));
+    let connections: Vec<String> = system.ends().map(|(from, to)| format!("{from} -> {to}")).collect();
     let facts = json!({
         "name": system.name, "kind": "system", "title": system.title, "source": system.source,
-        "components": system.components, "connections": system.connections, "outputs": system.outputs,
+        "components": components.collect::<Map<_, _>>(), "connections": connections, "outputs": system.outputs,
         "experiment": {"stop": system.experiment.stop, "step": system.experiment.step},
         "parameters": parameters.collect::<Map<_, _>>(),
     });

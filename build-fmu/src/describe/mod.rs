@@ -7,6 +7,7 @@ mod system;
 
 use crate::failure::Result;
 use crate::plan::Plan;
+use crate::system::Part;
 
 /// The description of the FMU or system of a name.
 ///
@@ -17,7 +18,7 @@ pub fn text(plan: &Plan, name: &str, json: bool) -> Result<String> {
         let interface = fmu.interface()?;
         return Ok(if json { json::fmu(plan, fmu, &interface) } else { fmu::page(plan, fmu, &interface) });
     }
-    if let Some(system) = plan.systems.iter().find(|system| system.name == name) {
+    if let Some((system, _)) = plan.systems.iter().find(|(system, _)| system.name == name) {
         return Ok(if json { json::system(system) } else { system::page(system) });
     }
     let failure = plan.unknown(name);
@@ -33,6 +34,8 @@ pub fn text(plan: &Plan, name: &str, json: bool) -> Result<String> {
 fn related<'a>(plan: &'a Plan, name: &str, model: &str) -> (Vec<&'a str>, Vec<&'a str>) {
     let sets = plan.fmus.iter().filter(|fmu| fmu.set.is_some() && fmu.name != name);
     let sets = sets.filter(|fmu| fmu.entry.about.name == model).map(|fmu| fmu.name.as_str());
-    let systems = plan.systems.iter().filter(|system| system.components.values().any(|fmu| fmu == name));
+    let systems = plan.systems.iter().map(|(system, _)| system);
+    let is_this = |part: &Part| matches!(part, Part::Ours(fmu) if fmu == name);
+    let systems = systems.filter(|system| system.components.values().any(is_this));
     (sets.collect(), systems.map(|system| system.name.as_str()).collect())
 }

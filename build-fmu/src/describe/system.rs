@@ -12,13 +12,10 @@ pub fn page(system: &System) -> String {
     let (stop, step) = (number(experiment.stop), number(experiment.step));
     page.aside("", &format!("Source: {}; SSP 1.0; {stop} s in steps of {step} s", system.source));
     page.heading("Components");
-    let rows = system.components.iter().map(|(name, fmu)| vec![name.clone(), fmu.clone()]);
+    let rows = system.components.iter().map(|(name, fmu)| vec![name.clone(), fmu.to_string()]);
     page.table(&["name", "FMU"], None, &rows.collect::<Vec<_>>());
     page.heading("Connections");
-    let rows = system.connections.iter().map(|connection| {
-        let (from, to) = connection.split_once("->").unwrap_or((connection, ""));
-        vec![from.trim().to_owned(), format!("→ {}", to.trim())]
-    });
+    let rows = system.ends().map(|(from, to)| vec![from, format!("→ {to}")]);
     page.table(&["from", "  to"], None, &rows.collect::<Vec<_>>());
     let rows: Vec<_> = system
         .settings()

@@ -1,51 +1,51 @@
 //! Whether a system fits its components.
 
-use strut_model::{Causality, Initial, Interface, Value, Variable, VariableKind};
+use strut_model::{Causality, Value};
 
-use super::{Port, Setting, System};
+use super::adapter::{Adaptation, Adapter, Operation};
+use super::face::{Face, Fit, Kind};
+use super::wire::{End, Sink, Source, Way, Wire};
+use super::{Factors, Line, Part, Port, Setting, System};
 use crate::failure::{Failure, Result, similar};
 
-/// A system that fits: every name exists, every unit agrees, every input is driven.
+/// A system that fits: every name exists, every unit agrees or is adapted, every input is driven.
 pub struct Checked<'a> {
-    /// From an output to an input.
-    pub connections: Vec<(End<'a>, End<'a>)>,
+    /// What leads where.
+    pub wires: Vec<Wire<'a>>,
+    /// What stands between the components.
+    pub adapters: Vec<Adapter>,
     /// What is looked at.
     pub outputs: Vec<End<'a>>,
     /// Start values, with the variable that each is for.
     pub settings: Vec<(End<'a>, Value)>,
 }
 
-/// A variable of a component, found.
-#[derive(Clone, Copy)]
-pub struct End<'a> {
-    /// Position of the component.
-    pub component: usize,
-    /// The variable.
-    pub variable: &'a Variable,
-}
-
 impl<'a> Checked<'a> {
     /// Finds every name and compares every unit.
-    pub fn new(system: &System, interfaces: &'a [Interface]) -> Result<Self> {
-        let finder = Finder { system, interfaces };
-        let mut connections: Vec<(End, End)> = Vec::new();
-        for text in &system.connections {
-            let (from, to) = text.split_once("->").ok_or_else(|| {
-                Failure::new(format!("the connection `{text}` of the system {} has no arrow", system.name))
-                    .help("write `road.position -> rig.road.position`")
-            })?;
+    pub fn new(system: &System, faces: &'a [Face]) -> Result<Self> {
+        let finder = Finder { system, faces };
+        let (mut wires, mut adapters): (Vec<Wire>, Vec<Adapter>) = Default::default();
+        for line in &system.connections {
+            let (from, to, adaptation) = match line {
+                Line::Plain(text) => {
+                    let (from, to) = text.split_once("->").ok_or_else(|| {
+                        Failure::new(format!(
+                            "the connection `{text}` of the system {} has no arrow",
+                            system.name
+                        ))
+                        .help("write `road.position -> rig.road.position`")
+                    })?;
+                    (from, to, None)
+                }
+                Line::Adapted(line) => (line.from.as_str(), line.to.as_str(), Adaptation::of(line)),
+            };
             let from = finder.find_as(&system.port(from)?, Causality::Output)?;
             let to = finder.find_as(&system.port(to)?, Causality::Input)?;
-            let (given, wanted) = (symbol(from.variable), symbol(to.variable));
-            if given != wanted {
-                return Err(finder
-                    .failure(format!("the connection `{text}` leads from {given:?} to {wanted:?}"))
-                    .help("connect variables of the same unit"));
+            match adaptation {
+                None => finder.agree(from, to, Operation::Value)?,
+                Some(adaptation) => finder.adaptable(from, to, adaptation)?,
             }
-            if connections.iter().any(|(_, other)| other.is(to)) {
-                return Err(finder.failure(format!("the input `{}` is connected twice", finder.name(to))));
-            }
-            connections.push((from, to));
+            finder.lay(from, to, adaptation, &mut wires, &mut adapters)?;
         }
         let outputs = system
             .outputs
@@ -55,7 +55,7 @@ impl<'a> Checked<'a> {
         let mut settings: Vec<(End, Value)> = Vec::new();
         for setting in system.settings()? {
             let end = finder.find(&setting.port)?;
-            if connections.iter().any(|(_, to)| to.is(end)) {
+            if wires.iter().any(|wire| wire.leads_to(end)) {
                 return Err(
                     finder.failure(format!("`{}` is connected and has a value as well", finder.name(end)))
                 );
@@ -65,28 +65,14 @@ impl<'a> Checked<'a> {
             }
             settings.push((end, finder.value(end, &setting)?));
         }
-        finder.every_input_is_driven(&connections, &settings)?;
-        Ok(Self { connections, outputs, settings })
-    }
-}
-
-impl End<'_> {
-    fn is(&self, other: End) -> bool {
-        self.component == other.component && self.variable.name == other.variable.name
-    }
-}
-
-/// The unit of a variable; nothing for those that have none.
-pub fn symbol(variable: &Variable) -> &'static str {
-    match variable.kind {
-        VariableKind::Real { unit, .. } => unit.symbol,
-        _ => "",
+        finder.every_input_is_driven(&wires, &settings)?;
+        Ok(Self { wires, adapters, outputs, settings })
     }
 }
 
 struct Finder<'a, 's> {
     system: &'s System,
-    interfaces: &'a [Interface],
+    faces: &'a [Face],
 }
 
 impl<'a> Finder<'a, '_> {
@@ -108,11 +94,14 @@ impl<'a> Finder<'a, '_> {
             let failure = self.failure(format!("there is no component `{name}`"));
             similar(name, components.keys().map(String::as_str)).into_iter().fold(failure, Failure::help)
         })?;
-        let interface = &self.interfaces[component];
-        let variable = interface.variable(variable).ok_or_else(|| {
-            let fmu = &components[component];
+        let face = &self.faces[component];
+        let variable = face.variable(variable).ok_or_else(|| {
+            let fmu = match &components[component] {
+                Part::Ours(name) => name.clone(),
+                Part::Theirs(foreign) => foreign.fmu.display().to_string(),
+            };
             let failure = self.failure(format!("component `{name}` ({fmu}) has no variable `{variable}`"));
-            let names = interface.variables.iter().map(|variable| variable.name.as_str());
+            let names = face.variables.iter().map(|variable| variable.name.as_str());
             similar(variable, names).into_iter().fold(failure, Failure::help)
         })?;
         Ok(End { component, variable })
@@ -124,24 +113,27 @@ impl<'a> Finder<'a, '_> {
             return Ok(end);
         }
         let word = if causality == Causality::Input { "input" } else { "output" };
-        let failure = self.failure(format!("`{}` is no {word}", self.name(end)));
-        let all = self.interfaces[end.component].variables.iter();
+        let mut failure = self.failure(format!("`{}` is no {word}", self.name(end)));
+        if end.variable.causality == Causality::Local {
+            failure = failure.help(format!(
+                "it is local to its FMU, and masters connect outputs with inputs: ask for an export with it as an {word}"
+            ));
+        }
+        let all = self.faces[end.component].variables.iter();
         let names =
             all.filter(|variable| variable.causality == causality).map(|variable| variable.name.as_str());
         Err(similar(&port.variable, names).into_iter().fold(failure, Failure::help))
     }
 
-    fn every_input_is_driven(&self, connections: &[(End, End)], settings: &[(End, Value)]) -> Result<()> {
-        for (component, interface) in self.interfaces.iter().enumerate() {
-            for variable in
-                interface.variables.iter().filter(|variable| variable.causality == Causality::Input)
-            {
+    fn every_input_is_driven(&self, wires: &[Wire], settings: &[(End, Value)]) -> Result<()> {
+        for (component, face) in self.faces.iter().enumerate() {
+            for variable in face.variables.iter().filter(|variable| variable.causality == Causality::Input) {
                 let end = End { component, variable };
-                if !connections.iter().any(|(_, to)| to.is(end))
+                if !wires.iter().any(|wire| wire.leads_to(end))
                     && !settings.iter().any(|(set, _)| set.is(end))
                 {
                     let name = self.name(end);
-                    let unit = symbol(variable);
+                    let unit = variable.symbol();
                     return Err(self.failure(format!("nothing drives the input `{name}`")).help(format!(
                         "connect it, or let it rest: \"{name}\" = {{ value = 0.0, unit = \"{unit}\" }} under [parameters]"
                     )));
@@ -151,73 +143,220 @@ impl<'a> Finder<'a, '_> {
         Ok(())
     }
 
+    /// Whether what becomes of a signal can be passed on as it is; if not, what to write.
+    fn agree(&self, from: End, to: End, operation: Operation) -> Result<()> {
+        self.of_one_type(from, to)?;
+        let (from_name, to_name) = (self.name(from), self.name(to));
+        let (given, wanted) = (from.variable.symbol(), to.variable.symbol());
+        let ends = format!("from = \"{from_name}\", to = \"{to_name}\"");
+        let with = |operation: Operation, rest: &str| {
+            let operation = match operation {
+                Operation::Value => String::new(),
+                other => format!(", operation = \"{}\"", other.name()),
+            };
+            format!("write {{ {ends}{operation}{rest} }}")
+        };
+        let leads = self
+            .failure(format!("the connection `{from_name} -> {to_name}` leads from {given:?} to {wanted:?}"));
+        let same = "connect variables of the same unit";
+        Err(match from.variable.fit(to.variable, operation.power_of_time()) {
+            Fit::Same => return Ok(()),
+            Fit::Linear { factor, offset: 0.0 } => {
+                leads.help(with(operation, &format!(", factor = {factor:?}")))
+            }
+            Fit::Linear { factor, offset } => {
+                leads.help(with(operation, &format!(", factor = {factor:?}, offset = {offset:?}")))
+            }
+            Fit::Derivative => leads
+                .help(same)
+                .help(format!("or take the rate of change: {}", with(Operation::Derivative, ""))),
+            Fit::Integral => {
+                leads.help(same).help(format!("or take the integral: {}", with(Operation::Integral, "")))
+            }
+            Fit::Different => leads.help(same).help(format!(
+                "or say what the one is in terms of the other: {}",
+                with(operation, ", factor = ...")
+            )),
+            Fit::Unknown => {
+                let silent =
+                    if from.variable.unit().is_none_or(|unit| unit.base.is_none()) { from } else { to };
+                let other = if silent.is(from) { wanted } else { given };
+                self.failure(format!("`{}` does not tell its unit", self.name(silent))).help(format!(
+                    "look it up; if it is that of {other:?} with the same sign, {}",
+                    with(operation, ", factor = 1.0")
+                ))
+            }
+        })
+    }
+
+    fn of_one_type(&self, from: End, to: End) -> Result<()> {
+        let (given, wanted) = (from.variable.kind.name(), to.variable.kind.name());
+        if given == wanted {
+            return Ok(());
+        }
+        let (from, to) = (self.name(from), self.name(to));
+        Err(self.failure(format!("`{from}` is of type {given} and `{to}` of type {wanted}")))
+    }
+
+    /// Whether a signal can be adapted like this.
+    fn adaptable(&self, from: End, to: End, adaptation: Adaptation) -> Result<()> {
+        self.of_one_type(from, to)?;
+        let name = format!("the connection `{} -> {}`", self.name(from), self.name(to));
+        if !matches!(from.variable.kind, Kind::Real { .. }) {
+            return Err(self
+                .failure(format!("{name} is of type {}", from.variable.kind.name()))
+                .help("factor, offset and operation are for numbers of type Real"));
+        }
+        let Adaptation { operation, offset, filter, initial, .. } = adaptation;
+        let factor = adaptation.factor();
+        if adaptation.factor.is_none() {
+            self.agree(from, to, operation)?;
+        }
+        if ![factor, offset, filter, initial].iter().all(|number| number.is_finite()) || filter < 0.0 {
+            return Err(self.failure(format!("{name} has a number that is not finite, or a negative filter")));
+        }
+        if factor == 0.0 {
+            return Err(self
+                .failure(format!("{name} has the factor zero"))
+                .help("give its input a value under [parameters] instead"));
+        }
+        if filter > 0.0 && operation != Operation::Derivative {
+            return Err(self
+                .failure(format!("{name} has a filter"))
+                .help("it is for operation = \"derivative\""));
+        }
+        if initial != 0.0 && operation != Operation::Integral {
+            return Err(self
+                .failure(format!("{name} has an initial value"))
+                .help("it is for operation = \"integral\""));
+        }
+        Ok(())
+    }
+
+    /// Lays the wires from an output to an input.
+    fn lay(
+        &self,
+        from: End<'a>,
+        to: End<'a>,
+        adaptation: Option<Adaptation>,
+        wires: &mut Vec<Wire<'a>>,
+        adapters: &mut Vec<Adapter>,
+    ) -> Result<()> {
+        let before = wires.iter().position(|wire| wire.leads_to(to));
+        let transforming = self.system.factors == Factors::Connection;
+        let way = match (adaptation, before) {
+            (None, None) => Some(Way::Straight),
+            (None, Some(_)) => return Err(self.twice(from, to)),
+            (Some(adaptation), None) if adaptation.is_none() => Some(Way::AsItIs),
+            (Some(adaptation), None) if transforming && adaptation.operation == Operation::Value => {
+                Some(Way::Transformed { factor: adaptation.factor(), offset: adaptation.offset })
+            }
+            (Some(adaptation), _) => {
+                adapters.push(self.adapter(from, to, adaptation, adapters));
+                None
+            }
+        };
+        if let Some(way) = way {
+            wires.push(Wire { from: Source::Output(from), to: Sink::Input(to), way });
+            return Ok(());
+        }
+        let adapter = adapters.len() - 1;
+        if let Some(index) = before {
+            // A further part of a sum: what has led to the input is added to it.
+            wires[index].to = Sink::Added(adapter);
+            if wires[index].way == Way::Straight {
+                wires[index].way = Way::AsItIs;
+            }
+        }
+        wires.extend([
+            Wire { from: Source::Output(from), to: Sink::Adapter(adapter), way: Way::AsItIs },
+            Wire { from: Source::Adapter(adapter), to: Sink::Input(to), way: Way::AsItIs },
+        ]);
+        Ok(())
+    }
+
+    fn twice(&self, from: End, to: End) -> Failure {
+        let (from, to) = (self.name(from), self.name(to));
+        self.failure(format!("the input `{to}` is connected twice")).help(format!(
+            "if it is to be the sum, write the second as {{ from = \"{from}\", to = \"{to}\", factor = 1.0 }}"
+        ))
+    }
+
+    fn adapter(&self, from: End, to: End, adaptation: Adaptation, others: &[Adapter]) -> Adapter {
+        let taken = |name: &str| {
+            self.system.components.contains_key(name) || others.iter().any(|other| other.name == name)
+        };
+        let (from_name, to_name) = (self.name(from), self.name(to));
+        let name = Adapter::name(&to_name, taken);
+        let units = [from, to].map(|end| end.variable.symbol().to_owned());
+        let title =
+            format!("What stands between the components of {}: {from_name} -> {to_name}", self.system.name);
+        Adapter::new(name, &title, units, adaptation, self.system)
+    }
+
     /// The value in the type of its variable.
     fn value(&self, end: End, setting: &Setting) -> Result<Value> {
         let name = self.name(end);
-        let settable =
-            end.variable.causality == Causality::Input || end.variable.initial == Some(Initial::Exact);
-        if !settable {
+        if !end.variable.settable {
             return Err(self.failure(format!("`{name}` is calculated and cannot be given a value")));
         }
         let wrong = |expected: &str| self.failure(format!("`{name}` must be {expected}"));
-        if !matches!(end.variable.kind, VariableKind::Real { .. }) && setting.unit.is_some() {
+        let items = |items: &[(String, i32)]| {
+            let names: Vec<&str> = items.iter().map(|(item, _)| item.as_str()).collect();
+            wrong(&format!("one of {}", names.join(", ")))
+        };
+        if !matches!(end.variable.kind, Kind::Real { .. }) && setting.unit.is_some() {
             return Err(self.failure(format!("`{name}` has no unit")));
         }
         match (&end.variable.kind, &setting.value) {
-            (VariableKind::Real { unit, min, max, .. }, Value::Real(_) | Value::Integer(_)) => {
+            (Kind::Real { min, max, .. }, Value::Real(_) | Value::Integer(_)) => {
                 let value = match setting.value {
                     Value::Integer(value) => f64::from(value),
                     Value::Real(value) => value,
                     _ => unreachable!("matched above"),
                 };
-                match &setting.unit {
-                    Some(given) if given == unit.symbol => {}
-                    None if matches!(unit.symbol, "" | "1") => {}
-                    Some(given) => {
-                        return Err(self
-                            .failure(format!(
-                                "`{name}` is given in {given:?} but declared in {:?}",
-                                unit.symbol
-                            ))
-                            .help("convert the value"));
-                    }
-                    None => return Err(wrong(&format!("given with its unit, {:?}", unit.symbol))),
-                }
-                if !value.is_finite()
-                    || min.is_some_and(|min| value < min)
-                    || max.is_some_and(|max| value > max)
-                {
-                    let bound = |bound: &Option<f64>, word| {
-                        bound.map(|bound| format!(" {word} {bound}")).unwrap_or_default()
-                    };
-                    return Err(self
-                        .failure(format!("`{name}` = {value} {} is out of bounds", unit.symbol))
-                        .help(format!(
-                            "it must be finite{}{}",
-                            bound(min, "and at least"),
-                            bound(max, "and at most")
-                        )));
-                }
-                Ok(Value::Real(value))
+                self.in_its_unit(end, setting)?;
+                self.within(end, value, *min, *max)
             }
-            (VariableKind::Choice { enumeration, .. }, Value::Text(text)) => (1..)
-                .zip(enumeration.items)
-                .find_map(|(index, (item, _))| (item == text).then_some(Value::Integer(index)))
-                .ok_or_else(|| {
-                    let items: Vec<&str> = enumeration.items.iter().map(|(item, _)| *item).collect();
-                    wrong(&format!("one of {}", items.join(", ")))
-                }),
-            (VariableKind::Integer { .. }, value @ Value::Integer(_))
-            | (VariableKind::Boolean { .. }, value @ Value::Boolean(_))
-            | (VariableKind::Text { .. }, value @ Value::Text(_)) => Ok(value.clone()),
-            (VariableKind::Real { .. }, _) => Err(wrong("a number")),
-            (VariableKind::Integer { .. }, _) => Err(wrong("a whole number")),
-            (VariableKind::Boolean { .. }, _) => Err(wrong("true or false")),
-            (VariableKind::Text { .. }, _) => Err(wrong("a text")),
-            (VariableKind::Choice { enumeration, .. }, _) => {
-                let items: Vec<&str> = enumeration.items.iter().map(|(item, _)| *item).collect();
-                Err(wrong(&format!("one of {}", items.join(", "))))
-            }
+            (Kind::Choice(list), Value::Text(text)) => list
+                .iter()
+                .find_map(|(item, number)| (item == text).then_some(Value::Integer(*number)))
+                .ok_or_else(|| items(list)),
+            (Kind::Integer, value @ Value::Integer(_))
+            | (Kind::Boolean, value @ Value::Boolean(_))
+            | (Kind::Text, value @ Value::Text(_)) => Ok(value.clone()),
+            (Kind::Real { .. }, _) => Err(wrong("a number")),
+            (Kind::Integer, _) => Err(wrong("a whole number")),
+            (Kind::Boolean, _) => Err(wrong("true or false")),
+            (Kind::Text, _) => Err(wrong("a text")),
+            (Kind::Choice(list), _) => Err(items(list)),
         }
+    }
+
+    /// The value is given in the variable's unit.
+    fn in_its_unit(&self, end: End, setting: &Setting) -> Result<()> {
+        let (name, symbol) = (self.name(end), end.variable.symbol());
+        match &setting.unit {
+            Some(given) if given == symbol => Ok(()),
+            None if matches!(symbol, "" | "1") => Ok(()),
+            Some(given) => Err(self
+                .failure(format!("`{name}` is given in {given:?} but declared in {symbol:?}"))
+                .help("convert the value")),
+            None => Err(self.failure(format!("`{name}` must be given with its unit, {symbol:?}"))),
+        }
+    }
+
+    fn within(&self, end: End, value: f64, min: Option<f64>, max: Option<f64>) -> Result<Value> {
+        if value.is_finite() && min.is_none_or(|min| value >= min) && max.is_none_or(|max| value <= max) {
+            return Ok(Value::Real(value));
+        }
+        let bound =
+            |bound: Option<f64>, word| bound.map(|bound| format!(" {word} {bound}")).unwrap_or_default();
+        let (name, symbol) = (self.name(end), end.variable.symbol());
+        Err(self.failure(format!("`{name}` = {value} {symbol} is out of bounds")).help(format!(
+            "it must be finite{}{}",
+            bound(min, "and at least"),
+            bound(max, "and at most")
+        )))
     }
 }

@@ -4,28 +4,32 @@
 //! component: a connector of the system, which would be joined to it, makes libcosim and Ecos refuse the
 //! whole file. FMPy names the results alike either way. Enumerations are set by number for the same
 //! reason.
+//!
+//! A master that converts units (OMSimulator does) must not do it again where a factor was given: such
+//! connections suppress it.
 
-use strut_model::{Value, unit::Unit};
+use strut_model::Value;
 
-use super::System;
-use super::check::{Checked, End, symbol};
+use super::adapter::Adapter;
+use super::check::Checked;
+use super::face::{Kind, Unit, Variable};
+use super::wire::{End, Sink, Source, Way};
 use super::xml::Element;
+use super::{Packed, System};
 use crate::archive::Archive;
-use crate::fmu::{Fmu, Packed};
 
 /// All parameter sets bear this name: Ecos applies one name at a time.
 const SET: &str = "defaults";
-
 /// The archive.
-pub fn archive(system: &System, checked: &Checked, components: &[(&Fmu, &Packed)]) -> Vec<u8> {
+pub fn archive(system: &System, checked: &Checked, components: &[Packed]) -> Vec<u8> {
     let mut archive = Archive::default();
     archive.add("SystemStructure.ssd", structure(system, checked, components));
     let mut seen: Vec<&str> = Vec::new();
-    for (fmu, packed) in components {
+    for component in components {
         // Two components may be made of one FMU.
-        if !seen.contains(&fmu.name.as_str()) {
-            seen.push(&fmu.name);
-            archive.add(format!("resources/{}.fmu", fmu.name), packed.bytes.as_slice());
+        if !seen.contains(&component.file.as_str()) {
+            seen.push(&component.file);
+            archive.add(format!("resources/{}", component.file), component.bytes);
         }
     }
     for (index, component) in system.components.keys().enumerate() {
@@ -40,21 +44,29 @@ fn has_values(checked: &Checked, component: usize) -> bool {
     checked.settings.iter().any(|(end, _)| end.component == component)
 }
 
-fn structure(system: &System, checked: &Checked, components: &[(&Fmu, &Packed)]) -> Vec<u8> {
-    let elements = system.components.keys().enumerate().map(|(index, name)| {
+fn structure(system: &System, checked: &Checked, components: &[Packed]) -> Vec<u8> {
+    let own = system.components.keys().map(String::as_str);
+    let names: Vec<&str> = own.chain(checked.adapters.iter().map(|adapter| adapter.name.as_str())).collect();
+    let adapter = |index: usize| names[system.components.len() + index];
+    let port = |end: End<'_>| (names[end.component], end.variable.name.clone());
+    let elements = names.iter().enumerate().map(|(index, name)| {
         let bindings = has_values(checked, index).then(|| {
             Element::new("ssd:ParameterBinding")
                 .with("type", "application/x-ssp-parameter-set")
                 .with("source", format!("resources/{name}.ssv"))
         });
+        let connectors = match index.checked_sub(system.components.len()) {
+            None => connectors(checked, index),
+            Some(adapter) => adapter_connectors(checked, adapter),
+        };
         let left = 40 * index;
         Element::new("ssd:Component")
             .with("name", name)
-            .with("description", components[index].0.title())
+            .with("description", components[index].title)
             .with("type", "application/x-fmu-sharedlibrary")
-            .with("source", format!("resources/{}.fmu", components[index].0.name))
+            .with("source", format!("resources/{}", components[index].file))
             .with("implementation", "CoSimulation")
-            .list("ssd:Connectors", connectors(checked, index))
+            .list("ssd:Connectors", connectors)
             .of([Element::new("ssd:ElementGeometry")
                 .with("x1", left)
                 .with("y1", 0)
@@ -62,13 +74,30 @@ fn structure(system: &System, checked: &Checked, components: &[(&Fmu, &Packed)])
                 .with("y2", 20)])
             .list("ssd:ParameterBindings", bindings)
     });
-    let name = |end: &End| system.components.get_index(end.component).map_or("", |(name, _)| name.as_str());
-    let connections = checked.connections.iter().map(|(from, to)| {
-        Element::new("ssd:Connection")
-            .with("startElement", name(from))
-            .with("startConnector", &from.variable.name)
-            .with("endElement", name(to))
-            .with("endConnector", &to.variable.name)
+    let connections = checked.wires.iter().map(|wire| {
+        let from = match wire.from {
+            Source::Output(end) => port(end),
+            Source::Adapter(index) => (adapter(index), "output".to_owned()),
+        };
+        let to = match wire.to {
+            Sink::Input(end) => port(end),
+            Sink::Adapter(index) => (adapter(index), "input".to_owned()),
+            Sink::Added(index) => (adapter(index), "added".to_owned()),
+        };
+        let connection = Element::new("ssd:Connection")
+            .with("startElement", from.0)
+            .with("startConnector", from.1)
+            .with("endElement", to.0)
+            .with("endConnector", to.1);
+        match wire.way {
+            Way::Straight => connection,
+            Way::AsItIs => unconverted(connection),
+            Way::Transformed { factor, offset } => {
+                unconverted(connection).of([Element::new("ssc:LinearTransformation")
+                    .with("factor", number(factor))
+                    .with("offset", number(offset))])
+            }
+        }
     });
     let step = system.experiment.step;
     // OMSimulator takes a system for co-simulation, and its step, from this annotation.
@@ -84,6 +113,7 @@ fn structure(system: &System, checked: &Checked, components: &[(&Fmu, &Packed)])
         .with("type", "com.opensimulationplatform")
         .of([Element::new("osp:Algorithm")
             .of([Element::new("osp:FixedStepAlgorithm").with("baseStepSize", number(step))])]);
+    let connections: Vec<Element> = connections.collect();
     Element::new("ssd:SystemStructureDescription")
         .with("xmlns:ssc", "http://ssp-standard.org/SSP1/SystemStructureCommon")
         .with("xmlns:ssd", "http://ssp-standard.org/SSP1/SystemStructureDescription")
@@ -107,59 +137,92 @@ fn structure(system: &System, checked: &Checked, components: &[(&Fmu, &Packed)])
         .document()
 }
 
+/// A connection in whose values nobody converts units.
+fn unconverted(connection: Element) -> Element {
+    connection.with("suppressUnitConversion", true)
+}
+
+/// The variables that wires begin and end at, inputs first.
+fn wired<'a>(checked: &'a Checked) -> impl Iterator<Item = (&'static str, End<'a>)> {
+    let inputs = checked.wires.iter().filter_map(|wire| match wire.to {
+        Sink::Input(end) => Some(("input", end)),
+        Sink::Adapter(_) | Sink::Added(_) => None,
+    });
+    let outputs = checked.wires.iter().filter_map(|wire| match wire.from {
+        Source::Output(end) => Some(("output", end)),
+        Source::Adapter(_) => None,
+    });
+    inputs.chain(outputs)
+}
+
 /// The connectors of a component: those that are connected or looked at, each once.
 fn connectors(checked: &Checked, component: usize) -> Vec<Element> {
-    let outputs = checked.connections.iter().map(|(from, _)| from).chain(&checked.outputs);
-    let ends =
-        checked.connections.iter().map(|(_, to)| ("input", to)).chain(outputs.map(|end| ("output", end)));
+    let ends = wired(checked).chain(checked.outputs.iter().map(|end| ("output", *end)));
     let mut seen: Vec<&str> = Vec::new();
     let mut connectors = Vec::new();
     for (kind, end) in ends.filter(|(_, end)| end.component == component) {
         let name = end.variable.name.as_str();
         if !seen.contains(&name) {
             seen.push(name);
-            connectors.push(
-                Element::new("ssd:Connector")
-                    .with("name", name)
-                    .with("kind", kind)
-                    .of([real("ssc:Real", end)]),
-            );
+            connectors.push(connector(name, kind, end.variable));
         }
     }
     connectors
 }
 
-fn real(name: &'static str, end: &End) -> Element {
-    match symbol(end.variable) {
+/// The connectors of an adapter bear the units of what they are joined to.
+fn adapter_connectors(checked: &Checked, index: usize) -> Vec<Element> {
+    let Adapter { units: [from, to], .. } = &checked.adapters[index];
+    let added = checked.wires.iter().any(|wire| matches!(wire.to, Sink::Added(adapter) if adapter == index));
+    let mut list = vec![("input", "input", from), ("output", "output", to)];
+    list.extend(added.then_some(("added", "input", to)));
+    let connector = |(name, kind, unit): (&str, &str, &String)| {
+        Element::new("ssd:Connector").with("name", name).with("kind", kind).of([real("ssc:Real", unit)])
+    };
+    list.into_iter().map(connector).collect()
+}
+
+fn connector(name: &str, kind: &str, variable: &Variable) -> Element {
+    let of_type = match variable.kind {
+        Kind::Real { .. } => real("ssc:Real", variable.symbol()),
+        Kind::Integer => Element::new("ssc:Integer"),
+        Kind::Boolean => Element::new("ssc:Boolean"),
+        Kind::Text => Element::new("ssc:String"),
+        // SSP's own enumerations would have to be declared; their values are whole numbers.
+        Kind::Choice(_) => Element::new("ssc:Integer"),
+    };
+    Element::new("ssd:Connector").with("name", name).with("kind", kind).of([of_type])
+}
+
+fn real(name: &'static str, unit: &str) -> Element {
+    match unit {
         "" => Element::new(name),
         unit => Element::new(name).with("unit", unit),
     }
 }
 
-fn unit_of(end: &End) -> Option<Unit> {
-    match end.variable.kind {
-        strut_model::VariableKind::Real { unit, .. } => Some(unit).filter(|unit| !unit.symbol.is_empty()),
-        _ => None,
-    }
-}
-
 /// The units of the connectors, sorted.
 fn units(checked: &Checked) -> Vec<Element> {
-    let ends = checked.connections.iter().flat_map(|(from, to)| [from, to]).chain(&checked.outputs);
-    elements_of(ends.filter_map(unit_of).collect())
+    let ends = wired(checked).map(|(_, end)| end).chain(checked.outputs.iter().copied());
+    elements_of(ends.filter_map(|end| end.variable.unit()).collect())
 }
 
-fn elements_of(mut units: Vec<Unit>) -> Vec<Element> {
-    units.sort_by_key(|unit| unit.symbol);
-    units.dedup_by_key(|unit| unit.symbol);
+fn elements_of(mut units: Vec<&Unit>) -> Vec<Element> {
+    units.sort_by(|a, b| a.symbol.cmp(&b.symbol));
+    units.dedup_by(|a, b| a.symbol == b.symbol);
     units
         .into_iter()
         .map(|unit| {
-            let base = unit
-                .base
-                .exponents()
+            let exponents = unit.base.iter().flatten();
+            let mut base = exponents
                 .fold(Element::new("ssc:BaseUnit"), |base, (name, exponent)| base.with(name, exponent));
-            Element::new("ssc:Unit").with("name", unit.symbol).of([base])
+            if unit.factor != 1.0 {
+                base = base.with("factor", number(unit.factor));
+            }
+            if unit.offset != 0.0 {
+                base = base.with("offset", number(unit.offset));
+            }
+            Element::new("ssc:Unit").with("name", &unit.symbol).of([base])
         })
         .collect()
 }
@@ -169,7 +232,7 @@ fn values(checked: &Checked, component: usize) -> Vec<u8> {
     let settings: Vec<_> = checked.settings.iter().filter(|(end, _)| end.component == component).collect();
     let parameters = settings.iter().map(|(end, value)| {
         let value = match value {
-            Value::Real(value) => real("ssv:Real", end).with("value", number(*value)),
+            Value::Real(value) => real("ssv:Real", end.variable.symbol()).with("value", number(*value)),
             Value::Integer(value) => Element::new("ssv:Integer").with("value", value),
             Value::Boolean(value) => Element::new("ssv:Boolean").with("value", value),
             Value::Text(value) => Element::new("ssv:String").with("value", value),
@@ -182,7 +245,7 @@ fn values(checked: &Checked, component: usize) -> Vec<u8> {
         .with("version", "1.0")
         .with("name", SET)
         .list("ssv:Parameters", parameters)
-        .list("ssv:Units", elements_of(settings.iter().filter_map(|(end, _)| unit_of(end)).collect()))
+        .list("ssv:Units", elements_of(settings.iter().filter_map(|(end, _)| end.variable.unit()).collect()))
         .document()
 }
 

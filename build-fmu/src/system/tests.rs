@@ -5,6 +5,7 @@ use std::io::Read;
 use strut_model::ParameterSet;
 
 use super::*;
+use crate::fmu::Fmu;
 
 const GOOD: &str = r#"
 name = "corner"
@@ -41,7 +42,11 @@ fn fmus() -> [Fmu; 2] {
 
 fn check(text: &str) -> Result<()> {
     let system = System::parse("corner.toml", text)?;
-    system.check(&fmus().map(|fmu| fmu.interface().unwrap()))
+    system.check(&faces()).map(drop)
+}
+
+fn faces() -> [Face; 2] {
+    fmus().map(|fmu| Face::of(&fmu.interface().unwrap()))
 }
 
 #[test]
@@ -71,7 +76,11 @@ fn mistakes_are_named() {
         ("road.velocity ->", "rig.actuator.force ->", "`rig.actuator.force` is no output"),
         ("-> rig.road.velocity", "-> rig.body.position", "`rig.body.position` is no input"),
         ("-> rig.road.velocity", "-> rig.road.position", "leads from \"m/s\" to \"m\""),
-        ("road.velocity -> rig.road.velocity", "road.position -> rig.road.position", "is connected twice"),
+        (
+            "road.velocity -> rig.road.velocity",
+            "road.position -> rig.road.position",
+            "`rig.road.position` is connected twice in the system corner\nhelp: if it is to be the sum, write",
+        ),
         (", \"road.velocity -> rig.road.velocity\"", "", "nothing drives the input `rig.road.velocity`"),
         ("\"rig.actuator.force\"", "\"rig.road.position\"", "is connected and has a value as well"),
         ("unit = \"kg\"", "unit = \"g\"", "`rig.sprung_mass` is given in \"g\" but declared in \"kg\""),
@@ -91,8 +100,13 @@ fn mistakes_are_named() {
 fn packed() -> (Vec<String>, String, String) {
     let fmus = fmus();
     let packed = fmus.each_ref().map(|fmu| fmu.pack(&[], "").unwrap());
-    let components: Vec<_> = fmus.iter().zip(&packed).collect();
-    let bytes = System::parse("corner.toml", GOOD).unwrap().pack(&components);
+    let components = fmus.iter().zip(&packed).map(|(fmu, packed)| Packed {
+        title: fmu.title(),
+        file: format!("{}.fmu", fmu.name),
+        bytes: &packed.bytes,
+    });
+    let components: Vec<_> = components.collect();
+    let bytes = System::parse("corner.toml", GOOD).unwrap().pack(&faces(), &components);
     let mut zip = zip::ZipArchive::new(std::io::Cursor::new(bytes)).unwrap();
     let names = zip.file_names().map(|name| name.unwrap().into_owned()).collect();
     let mut text = |name: &str| {

@@ -56,6 +56,7 @@ pub static CATALOGUE: &[Entry] = &[
     Entry::of::<sensors::SensorChain>(),
     Entry::of::<sensors::AngleSensorChain>(),
     Entry::of::<sensors::VelocityEstimator>(),
+    Entry::of::<sensors::SignalAdapter>(),
     Entry::of::<roads::Road>(),
     Entry::of::<roads::FourWheelRoad>(),
     Entry::of::<sources::VoltageSource>(),

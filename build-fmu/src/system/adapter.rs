@@ -1,0 +1,130 @@
+//! What stands between components of different conventions.
+
+use serde::Deserialize;
+
+use super::{Adapted, System};
+
+/// What becomes of a signal before factor and offset.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum Operation {
+    /// It stays what it is.
+    #[default]
+    Value,
+    /// Its rate of change.
+    Derivative,
+    /// Its integral.
+    Integral,
+}
+
+impl Operation {
+    /// The power of time that it multiplies the signal's unit by.
+    pub fn power_of_time(self) -> i32 {
+        match self {
+            Self::Value => 0,
+            Self::Derivative => -1,
+            Self::Integral => 1,
+        }
+    }
+
+    /// As it is written.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Value => "value",
+            Self::Derivative => "derivative",
+            Self::Integral => "integral",
+        }
+    }
+}
+
+/// How a signal is adapted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Adaptation {
+    /// What becomes of it first.
+    pub operation: Operation,
+    /// Factor; none where the units are to agree.
+    pub factor: Option<f64>,
+    /// What is added.
+    pub offset: f64,
+    /// Time constant of the filter of a rate of change, in seconds.
+    pub filter: f64,
+    /// Integral at the start.
+    pub initial: f64,
+}
+
+impl Adaptation {
+    /// As it is written; none if nothing is.
+    pub(super) fn of(line: &Adapted) -> Option<Self> {
+        let Adapted { factor, offset, operation, filter, initial, .. } = line;
+        let told = factor.or(*offset).or(*filter).or(*initial).is_some() || operation.is_some();
+        told.then(|| Self {
+            operation: operation.unwrap_or_default(),
+            factor: *factor,
+            offset: offset.unwrap_or(0.0),
+            filter: filter.unwrap_or(0.0),
+            initial: initial.unwrap_or(0.0),
+        })
+    }
+
+    /// Whether the signal stays as it is.
+    pub fn is_none(&self) -> bool {
+        self.operation == Operation::Value && self.factor() == 1.0 && self.offset == 0.0
+    }
+
+    /// The factor.
+    pub fn factor(&self) -> f64 {
+        self.factor.unwrap_or(1.0)
+    }
+}
+
+/// A component that adapts a signal on its way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Adapter {
+    /// Its name, which is its FMU's too.
+    pub name: String,
+    /// Its parameter set: every master knows start values, and not every one reads a system's.
+    pub set: String,
+    /// Units of what comes and of what goes.
+    pub units: [String; 2],
+}
+
+impl Adapter {
+    /// The model that adapters are made of.
+    pub const MODEL: &str = "SignalAdapter";
+
+    /// An adapter; its period is the system's communication step.
+    pub fn new(
+        name: String,
+        title: &str,
+        units: [String; 2],
+        adaptation: Adaptation,
+        system: &System,
+    ) -> Self {
+        let Adaptation { operation, offset, filter, initial, .. } = adaptation;
+        let factor = adaptation.factor();
+        let (source, period) = (&system.name, system.experiment.step);
+        let set = format!(
+            "fmu = \"{name}\"\nmodel = \"{}\"\ntitle = {}\nsource = \"{source}\"\n[values]\n\
+             operation = {{ value = \"{operation:?}\", source = \"the system's file\" }}\n\
+             factor = {{ value = {factor:?}, unit = \"1\", source = \"the system's file\" }}\n\
+             offset = {{ value = {offset:?}, unit = \"1\", source = \"the system's file\" }}\n\
+             initial = {{ value = {initial:?}, unit = \"1\", source = \"the system's file\" }}\n\
+             filter = {{ value = {filter:?}, unit = \"s\", source = \"the system's file\" }}\n\
+             period = {{ value = {period:?}, unit = \"s\", source = \"the communication step\" }}\n",
+            Self::MODEL,
+            toml::Value::String(title.into())
+        );
+        Self { name, set, units }
+    }
+
+    /// A name for the adapter of an input: an identifier that no other component bears.
+    pub fn name(to: &str, taken: impl Fn(&str) -> bool) -> String {
+        let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+        let name: String = format!("to_{to}").chars().map(plain).collect();
+        let numbered = (2..).map(|number| format!("{name}_{number}"));
+        std::iter::once(name.clone())
+            .chain(numbered)
+            .find(|name| !taken(name))
+            .expect("there is always another number")
+    }
+}

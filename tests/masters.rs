@@ -1,0 +1,36 @@
+//! Every FMU and every system in every master: the table in `tests/masters/README.md`.
+
+use std::path::PathBuf;
+
+/// The matrix with all masters that are quick to install.
+fn matrix(more: &[PathBuf]) -> String {
+    // The example's programs for the `fmi` crate.
+    let mut build = strut::cargo_with_libclang();
+    strut::run(build.args(["build", "--quiet", "--package", "rust-master", "--bin", "job"]));
+    let job = strut::target().join("debug/job").with_extension(std::env::consts::EXE_EXTENSION);
+    let usual = [strut::fmus().into(), "--cofmupy".into(), strut::cofmupy(), "--fmi-crate".into(), job];
+    strut::python("tests/masters/matrix.py", [&usual, more].concat())
+}
+
+#[test]
+fn some_of_each_kind_do_the_same_in_every_master() {
+    print!("{}", matrix(&["--short".into()]));
+}
+
+#[test]
+fn ecco_is_no_worse_than_a_fixed_step() {
+    print!("{}", strut::python("tests/masters/connected_ecco.py", [strut::fmus()]));
+}
+
+#[test]
+#[ignore = "takes a quarter of an hour; writes tests/masters/README.md"]
+fn every_fmu_and_system_does_the_same_in_every_master() {
+    let folder = strut::target().join("fmi-sim");
+    let mut install = strut::cargo_with_libclang();
+    install.args(["install", "--quiet", "--version", "0.7.0", "--root"]).arg(&folder).arg("fmi-sim");
+    install.env("CARGO_TARGET_DIR", folder.join("target"));
+    strut::run(&mut install);
+    let program = folder.join("bin/fmi-sim").with_extension(std::env::consts::EXE_EXTENSION);
+    let page = strut::root().join("tests/masters/README.md");
+    print!("{}", matrix(&["--fmi-sim".into(), program, "--page".into(), page]));
+}

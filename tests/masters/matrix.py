@@ -1,0 +1,93 @@
+"""Every FMU and every system in every master: a table of how far each result is from the reference.
+
+    python matrix.py FOLDER [--short] [--page FILE] [--cofmupy PYTHON] [--fmi-sim PROGRAM] [--fmi-crate PROGRAM]
+
+The reference is our own master (examples/jacobi.py), which calls the FMUs through FMPy's bare functions; where a master
+exchanges values at other instants than it, the same scheme is written down in ten lines, so that what is compared is
+arithmetic and not taste. What the FMUs do alone is held against independent solutions by `fmpy_references.py`.
+
+A cell is the largest difference of any signal, relative to its largest value. `--short` takes some of each kind.
+"""
+
+import argparse
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import matrix_jobs
+import matrix_masters
+from matrix_page import page
+
+# Rounding, amplified by what is simulated.
+TOLERANCE = 1e-9
+# The exciter has kinks (dead zone, friction, limits). Masters add up their clocks in different ways, and one rounding apart
+# the error control goes in other steps: what then differs is within its tolerance, which is 1e-7. With a tolerance of
+# 1e-10 it is 2e-14 of ExcitationMotor's signals.
+KINKED = {"ExcitationMotor": 1e-7, "tum-rig": 1e-5}
+
+SHORT = {
+    "TumQuarterVehicle", "KogutSasRig", "LinearMotor", "QuanserLqrController", "TumLiveSensorChain", "RecordedRoad",
+    "FourWheelRoad", "SignalAdapter", "quanser-lqr", "tum-active", "konieczny-open-loop",
+}  # fmt: skip
+
+
+def jobs(folder, short, unpacked):
+    for path in sorted(folder.glob("*.fmu")):
+        if not short or path.stem in SHORT:
+            yield "fmu", path, matrix_jobs.single(path)
+    for path in sorted(folder.glob("*.ssp")):
+        if not short or path.stem in SHORT:
+            yield "ssp", path, matrix_jobs.system(path, Path(unpacked) / path.stem)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path, help="where the FMUs and systems are")
+    parser.add_argument("--short", action="store_true", help="some of each kind, not all")
+    parser.add_argument("--page", type=Path, help="file to write the table to")
+    parser.add_argument("--cofmupy", metavar="PYTHON", help="a Python that has cofmupy")
+    parser.add_argument("--fmi-sim", metavar="PROGRAM", help="the program fmi-sim")
+    parser.add_argument("--fmi-crate", metavar="PROGRAM", help="examples/rust-master's program `job`")
+    arguments = parser.parse_args()
+    begin = time.monotonic()
+    masters = [master for make in matrix_masters.ALL if (master := make(arguments))]
+    table, failures = {}, []
+    with tempfile.TemporaryDirectory() as unpacked:
+        for kind, path, job in jobs(arguments.folder, arguments.short, unpacked):
+            references = {}
+            row = table[kind, job.name] = {}
+            for master in masters:
+                reason = master.cannot(kind, job)
+                if reason:
+                    row[master.name] = reason
+                    continue
+                try:
+                    rows, scheme = master.run(kind, path, job)
+                    if rows is None:
+                        row[master.name] = 0.0
+                        continue
+                    if scheme not in references:
+                        references[scheme] = job.run(scheme)
+                    row[master.name] = matrix_jobs.off(rows, references[scheme])
+                except Exception as error:
+                    failures.append(f"{master.name}, {job.name}: {error}")
+                    row[master.name] = float("inf")
+                    continue
+                if not row[master.name] <= KINKED.get(job.name, TOLERANCE):
+                    failures.append(f"{master.name}, {job.name}: {row[master.name]:.1e} apart")
+            print(job.name, *(f"{name}: {cell:.0e}" if isinstance(cell, float) else f"{name}: -"
+                              for name, cell in row.items()), flush=True)
+    assert table, f"no FMUs in {arguments.folder}"
+    if arguments.page:
+        ecco = subprocess.run([sys.executable, Path(__file__).with_name("connected_ecco.py"), arguments.folder],
+                              check=True, capture_output=True, text=True).stdout
+        minutes = f"{(time.monotonic() - begin) / 60.0:.0f} minutes"
+        page(arguments.page, table, masters, minutes, ecco.strip())
+    if failures:
+        sys.exit("\n".join(failures))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,239 @@
+"""The masters of the matrix: how each is told a job, and what it cannot do.
+
+Each has `name`, `version`, `cannot(kind, job)`: the footnote of what it does not run, and `run(kind, path, job)`: rows
+after every step, and the scheme of our own master that they are to agree with (None, None if it only checks).
+"""
+
+import contextlib
+import logging
+import re
+import subprocess
+import tempfile
+from collections import Counter
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+from connected import MASTERS, ExchangedAfterwards
+from matrix_jobs import InTurn, System, ZeroAtFirst
+
+HANGS = "first"
+ONE = "one"
+NUMBERS = "numbers"
+
+
+class Master:
+    """Of one name and version; without restrictions."""
+
+    def __init__(self, name, release):
+        self.name, self.version = name, release
+
+    def cannot(self, kind, job):
+        return None
+
+
+class Fmpy(Master):
+    def cannot(self, kind, job):
+        # In the first step, which is taken with zero inputs, the wheel of these hangs in the air.
+        return HANGS if kind == "ssp" and job.name.startswith("sas") else None
+
+    def run(self, kind, path, job):
+        if kind == "ssp":
+            return columns(MASTERS["fmpy"][0], path, job), ZeroAtFirst
+        from fmpy import simulate_fmu
+
+        start = {name.split(".", 1)[1]: value for name, value in job.values.items()}
+        names = [signal.split(".", 1)[1] for signal in job.signals]
+        result = simulate_fmu(str(path), fmi_type="CoSimulation", start_values=start, output=names, step_size=job.step,
+                              stop_time=job.count * job.step, output_interval=job.step)
+        return np.array([result[name][1 : job.count + 1] for name in names]).T, System
+
+
+def columns(master, path, job):
+    """What a master of `connected.py` records, without the row for the start."""
+    result = master(path, job.step, job.count, job.signals)
+    return np.array([result[signal][1:] for signal in job.signals]).T
+
+
+class Libcosimpy(Master):
+    def run(self, kind, path, job):
+        if kind == "ssp":
+            return columns(MASTERS["libcosimpy"][0], path, job), System
+        from libcosimpy.CosimExecution import CosimExecution
+        from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
+        from libcosimpy.CosimObserver import CosimObserver
+        from libcosimpy.CosimSlave import CosimLocalSlave
+
+        log_output_level(CosimLogLevel.ERROR)
+        execution = CosimExecution.from_step_size(round(job.step * 1e9))
+        slave = execution.add_local_slave(CosimLocalSlave(fmu_path=str(path), instance_name="fmu"))
+        references = {f"fmu.{v.name.decode()}": v.reference for v in execution.slave_variables(slave)}
+        for name, value in job.values.items():
+            execution.real_initial_value(slave, references[name], value)
+        observer = CosimObserver.create_last_value()
+        assert execution.add_observer(observer)
+        rows = []
+        for _ in range(job.count):
+            assert execution.step(), "a step failed"
+            rows.append(observer.last_real_values(slave, [references[signal] for signal in job.signals]))
+        return np.array(rows), System
+
+
+class Ecos(Master):
+    def run(self, kind, path, job):
+        if kind == "ssp":
+            return columns(MASTERS["ecos"][0], path, job), ExchangedAfterwards
+        from ecospy import EcosSimulation, EcosSimulationStructure
+
+        named = [signal.replace(".", "::", 1) for signal in job.signals]
+        with EcosSimulationStructure() as structure:
+            structure.add_model("fmu", str(path))
+            structure.add_parameter_set(
+                "held", {name.replace(".", "::", 1): value for name, value in job.values.items()}
+            )
+            with EcosSimulation(job.step, structure=structure) as simulation:
+                simulation.init(parameter_set="held")
+                rows = []
+                for _ in range(job.count):
+                    simulation.step()
+                    rows.append([simulation.get_real(name) for name in named])
+                simulation.terminate()
+        return np.array(rows), System
+
+
+class Fmutool(Master):
+    """Checks single FMUs."""
+
+    def cannot(self, kind, job):
+        return ONE if kind == "ssp" else None
+
+    def run(self, kind, path, job):
+        from fmu_manipulation_toolbox.checker import get_checkers
+        from fmu_manipulation_toolbox.operations import FMU
+
+        complaints = []
+        handler = logging.Handler(logging.WARNING)
+        handler.emit = lambda record: complaints.append(record.getMessage())
+        logger = logging.getLogger("fmu_manipulation_toolbox")
+        logger.addHandler(handler)
+        try:
+            fmu = FMU(str(path))
+            for checker in get_checkers():
+                fmu.apply_operation(checker())
+        finally:
+            logger.removeHandler(handler)
+        assert not complaints, complaints
+        return None, None
+
+
+class Fmucontainer(Master):
+    """Makes one FMU of a system, which then runs in FMPy."""
+
+    def cannot(self, kind, job):
+        return ONE if kind == "fmu" else None
+
+    def run(self, kind, path, job):
+        from fmpy import simulate_fmu
+        from fmu_manipulation_toolbox.assembly import Assembly
+
+        with tempfile.TemporaryDirectory() as folder:
+            target = Path(folder) / path.name
+            target.write_bytes(path.read_bytes())
+            Assembly(target.name, default_step_size=job.step, fmu_directory=Path(folder), default_auto_local=True
+                     ).make_fmu()
+            (made,) = Path(folder).glob("*.fmu")
+            # It names what is inside by file, and numbers those of one file.
+            stems, seen = {}, Counter()
+            for name, file in job.components.items():
+                stem = Path(file).stem.lower()
+                stems[name] = f"{stem}-{seen[stem]}" if seen[stem] else stem
+                seen[stem] += 1
+            ends = [signal.split(".", 1) for signal in job.signals]
+            names = [f"{stems[component]}.{variable}" for component, variable in ends]
+            result = simulate_fmu(str(made), fmi_type="CoSimulation", output=names, step_size=job.step,
+                                  stop_time=job.count * job.step, output_interval=job.step)
+        return np.array([result[name][1 : job.count + 1] for name in names]).T, System
+
+
+class Cofmupy(Master):
+    def __init__(self, python):
+        script = "from importlib.metadata import version; print(version('cofmupy'), end='')"
+        release = subprocess.run([python, "-c", script], check=True, capture_output=True, text=True).stdout
+        super().__init__("cofmupy", release)
+        # One process for all: it takes seconds to start.
+        script = Path(__file__).parent / "matrix_cofmupy.py"
+        self.process = subprocess.Popen([python, script], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                        stderr=subprocess.DEVNULL, text=True, bufsize=1)
+
+    def run(self, kind, path, job):
+        with tempfile.TemporaryDirectory() as folder:
+            rows = Path(folder) / "rows.npy"
+            print(job.json(rows=str(rows)), file=self.process.stdin)
+            answer = self.process.stdout.readline()
+            assert answer == "\n", answer or "it has ended"
+            return np.load(rows), InTurn
+
+
+class FmiSim(Master):
+    """Runs single FMUs."""
+
+    def __init__(self, program):
+        # It tells its version as an error.
+        told = subprocess.run([program, "--version"], capture_output=True, text=True)
+        super().__init__("fmi-sim", re.search(r"fmi-sim ([0-9.]+)", told.stdout + told.stderr)[1])
+        self.program = program
+
+    def cannot(self, kind, job):
+        return ONE if kind == "ssp" else None
+
+    def run(self, kind, path, job):
+        values = [f"{name.split('.', 1)[1]}={value!r}" for name, value in job.values.items()]
+        values = [part for value in values for part in ("--init-values", value)]
+        with tempfile.TemporaryDirectory() as folder:
+            rows = Path(folder) / "rows.csv"
+            done = subprocess.run(
+                [self.program, "--model", path, "-o", rows, "co-simulation", "--step", str(job.step),
+                 "--output-interval", str(job.step), "-n", "0", "-s", "0", "-f", str(job.count * job.step), *values],
+                capture_output=True, text=True,
+            )  # fmt: skip
+            assert done.returncode == 0, done.stderr[-500:]
+            found = np.genfromtxt(rows, delimiter=",", names=True, deletechars="")
+        return np.array([found[signal.split(".", 1)[1]][1 : job.count + 1] for signal in job.signals]).T, System
+
+
+class FmiCrate(Master):
+    """The crate `fmi`, as examples/rust-master uses it."""
+
+    def __init__(self, program):
+        super().__init__("fmi (crate)", "0.8")
+        self.program = program
+
+    def run(self, kind, path, job):
+        lines = [f"component\t{name}\t{file}" for name, file in job.components.items()]
+        lines += [f"connect\t{source}\t{target}" for source, target in job.connections]
+        lines += [f"set\t{name}\t{value!r}" for name, value in job.values.items()]
+        lines += [f"signal\t{signal}" for signal in job.signals] + [f"run\t{job.step!r}\t{job.count}"]
+        done = subprocess.run([self.program], input="\n".join(lines), capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr[-500:]
+        rows = np.array([[float(cell) for cell in line.split("\t")] for line in done.stdout.splitlines()])
+        return rows[1:], System
+
+
+def installed(kind, name, package):
+    def make(_arguments):
+        with contextlib.suppress(ImportError):
+            return kind(name, version(package))
+
+    return make
+
+
+ALL = [
+    installed(Fmpy, "FMPy", "FMPy"),
+    installed(Libcosimpy, "libcosimpy", "libcosimpy"),
+    installed(Ecos, "ecos", "ecospy"),
+    installed(Fmutool, "fmutool", "fmu-manipulation-toolbox"),
+    installed(Fmucontainer, "fmucontainer", "fmu-manipulation-toolbox"),
+    lambda arguments: arguments.cofmupy and Cofmupy(arguments.cofmupy),
+    lambda arguments: arguments.fmi_sim and FmiSim(arguments.fmi_sim),
+    lambda arguments: arguments.fmi_crate and FmiCrate(arguments.fmi_crate),
+]

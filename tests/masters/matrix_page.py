@@ -1,0 +1,99 @@
+"""The matrix as a page."""
+
+from collections import Counter
+
+HEAD = """\
+# Every FMU in every master
+
+Made by
+
+```
+cargo test --test masters -- --ignored
+```
+
+which builds the FMUs, makes the Python environments and installs fmi-sim from crates.io; the runs themselves took {minutes}
+on two busy cores. `cargo test` runs a part of it: some FMUs of each kind and three systems, all masters but fmi-sim, whose
+building alone takes minutes. `tests/masters/matrix.py --help` tells how to run it on FMUs of your own.
+
+**The reference** is our own master (`examples/jacobi.py`), which calls the bare functions of FMI through FMPy's bindings.
+Where a master exchanges values at other instants, the same scheme is written down in a few lines (`matrix_jobs.py`,
+`connected.py`), so that a difference is an error and not a taste. What the FMUs do is right by other tests: each follows an
+independent scipy solution (`tests/reference`).
+
+**A number** is the largest difference of any output in 200 steps of 1 ms (1000 for systems and for what only time moves),
+relative to the output's largest value; an FMU by itself has its inputs held at values at which every effect works.
+
+**Tolerance: 1e-9.** Only where the exciter with its kinks is at work (dead zone, friction, limits) it is 1e-7 for ExcitationMotor
+and 1e-5 for tum-rig: masters add up their clocks in different ways, and one rounding apart the error control goes in other
+steps, which it may within its own tolerance of 1e-7. With that at 1e-10, ExcitationMotor's masters agree to 2e-14.
+
+✓ is a check without complaints.
+
+| master | version | what it runs | how it exchanges |
+|---|---|---|---|
+| FMPy | {FMPy} | FMUs; `.ssp` (reads no SSV) | all at once; zeros in the first step |
+| libcosimpy | {libcosimpy} | FMUs; `.ssp`; OSP's own format, also with ecco ([below](#ecco)) | all at once |
+| ecos | {ecos} (ecospy) | FMUs; `.ssp` | all at once, outputs read again with the new inputs |
+| fmutool | {fmutool} | `fmutool -check`: the description by schema and semantics | – |
+| fmucontainer | {fmucontainer} | one FMU of a whole `.ssp` (reads no SSV), then in FMPy | all at once |
+| cofmupy | {cofmupy} | FMUs and systems by a JSON of its own | loops all at once, what follows from them in turn |
+| fmi-sim | {fmi-sim} | FMUs | – |
+| fmi (crate) | {fmi (crate)} | `examples/rust-master` | all at once |
+"""
+
+NOTES = """\
+
+{summary}
+
+¹ It runs, but in the first step, which FMPy takes with zero inputs, the wheel of this rig hangs in the air, and nothing that it
+shows afterwards can be compared.
+
+## What masters pass over
+
+| | evidence |
+|---|---|
+| FMPy and fmucontainer read no start values of a system (`.ssv`). What our systems give there the FMUs have built in, so it is the same system | `connected_parameters.py` shows which masters read them; fmucontainer's `assembly.py` takes components and connections only |
+| libcosimpy knows no enumerations: such a start value is not set | its start values are kept |
+| cofmupy, fmi (our example) set numbers of type Real only | `wrappers.py`: `setReal` |
+| FMPy ignores factors of connections | `connected_gains.py`; [what to do](../../examples/third-party/README.md) |
+
+## Not run
+
+| master | why | what was done instead |
+|---|---|---|
+| OMSimulator | PyPI's `OMSimulator` (3.0.0) is a script that downloads binaries from build.openmodelica.org when it is installed; that is not a registry, and could not be reached | its sources were read: our SSDs bear the annotation `org.openmodelica` with `oms:SimulationInformation` and `oms:FixedStepMaster`, from which `oms::Model` takes the kind of system and `SystemWC` solver, step and tolerance; dependencies are declared, so no false loops; no null log category; no String in an SSV |
+| Simulink, Dymola, CarMaker | licences | [what to click](../../examples/masters.md), from their documents |
+
+## ecco
+
+libcosim's ecco changes its step by the power that is lost across a coupling. `connected_ecco.py` gives it systems in OSP's
+format, with force and velocity of the actuator as a power bond, and compares them with the monolithic references. Its error
+must not exceed the fixed step's by more than a tenth:
+
+{ecco}
+"""
+
+
+def cell(value):
+    if isinstance(value, str):
+        return {"first": "¹"}[value]
+    if value == 0.0:
+        return "0"
+    return f"{value:.0e}".replace("e-0", "e−").replace("e-", "e−")
+
+
+def page(path, table, masters, minutes, ecco):
+    """Writes the page."""
+    names = [master.name for master in masters]
+    text = HEAD.format(minutes=minutes, **{master.name: master.version for master in masters})
+    counts = Counter()
+    for kind, title in (("fmu", "Single FMUs"), ("ssp", "Systems")):
+        used = [name for name in names if any(row[name] != "one" for (k, _), row in table.items() if k == kind)]
+        text += f"\n## {title}\n\n| | " + " | ".join(used) + " |\n|---|" + "--:|" * len(used) + "\n"
+        for (row_kind, name), row in sorted(table.items()):
+            if row_kind == kind:
+                checked = {master: "✓" if master == "fmutool" and row[master] == 0.0 else cell(row[master]) for master in used}
+                text += f"| {name} | " + " | ".join(checked[master] for master in used) + " |\n"
+                counts[kind] += sum(isinstance(row[master], float) for master in used)
+    summary = f"{counts['fmu']} runs of single FMUs and {counts['ssp']} of systems, all within the tolerance."
+    path.write_text(text + NOTES.format(summary=summary, ecco=ecco), encoding="utf-8")

@@ -1,0 +1,63 @@
+//! FMUs that others have made, connected with ours: what the systems in `examples/third-party` do is what scipy says.
+
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+const NAMES: [&str; 3] = ["their-plant", "our-rig", "their-truck"];
+
+/// The systems with the FMUs of others in them.
+fn systems() -> &'static Path {
+    static SYSTEMS: OnceLock<PathBuf> = OnceLock::new();
+    SYSTEMS.get_or_init(|| {
+        let out = strut::target().join("tested-third-party");
+        let theirs = out.join("theirs");
+        strut::python("examples/third-party/fetch.py", [&theirs]);
+        let mut build = strut::build_fmu();
+        build.arg("--out").arg(&out);
+        for name in NAMES {
+            build.arg("--system").arg(theirs.join(name).with_extension("toml"));
+        }
+        strut::run(&mut build);
+        out
+    })
+}
+
+/// The numbers of a text that have a decimal point, line by line.
+fn numbers(text: &str) -> Vec<Vec<f64>> {
+    let number = |word: &str| word.trim_end_matches(',').parse().ok().filter(|_| word.contains('.'));
+    text.lines().map(|line| line.split_whitespace().filter_map(number).collect()).collect()
+}
+
+#[test]
+fn ours_and_theirs_do_together_what_an_independent_solution_does() {
+    let pictures = strut::target().join("tested-pictures");
+    let arguments = ["--fmus".as_ref(), systems().as_os_str(), "--out".as_ref(), pictures.as_os_str()];
+    let text = strut::python("examples/third-party/third_party.py", arguments);
+    print!("{text}");
+    let [plant, with_ours, swings, rig, seat, rest, truck, active, over, ..] = &numbers(&text)[..] else {
+        panic!("not nine lines: {text}")
+    };
+    // Their explicit Euler swings itself up: 1 + (w h)^2/2 a step make 1.7 % in three seconds, at most.
+    assert!(plant[0] < 0.02, "{text}");
+    // What is left beside our motor and controller is of first order in the step.
+    let [fine, coarse] = with_ours[..] else { panic!("{text}") };
+    assert!(fine < 0.005 && (1.7..2.5).contains(&(coarse / fine)), "{text}");
+    // With the wrong sign of any gain it would swing up.
+    let [alone, damped] = swings[..] else { panic!("{text}") };
+    assert!(alone > 100.0 && damped < 3.0, "{text}");
+    assert!(rig[0] < 0.002 && seat[0] < 0.01, "{text}");
+    // 100 mm of their ramp are 100 mm of our rig.
+    assert!((rest[0] - 100.0).abs() < 0.01, "{text}");
+    // In millimetres and kilonewtons, downwards, with a sum at the axle: one wrong sign or unit would be off by all of it.
+    assert!(truck[0] < 0.003 && active[0] < 0.003, "{text}");
+    let [alone, with_motor] = over[..] else { panic!("{text}") };
+    assert!(with_motor < alone - 3.0, "{text}");
+}
+
+#[test]
+fn the_systems_run_in_masters_that_read_start_values() {
+    for name in NAMES {
+        let arguments = [systems().join(name).with_extension("ssp")];
+        print!("{}", strut::python("tests/masters/third_party.py", arguments));
+    }
+}
