@@ -183,6 +183,22 @@ PICTURES = [
             Panel("force in kN", 1e-3, [Line("rig.actuator.force", "actuator", FORCE)]),
         ],
     ),
+    Picture(
+        "konieczny-apart",
+        "Rig and actuator as two FMUs beside both in one: the force that is exchanged follows the one within.",
+        8.0,
+        [
+            Panel("position in mm", 1e3, [
+                Line("road.position", "road", ROAD),
+                Line("one.body.position", "body, in one", BODY),
+                Line("rig.body.position", "body, apart", WHEEL, "--"),
+            ]),
+            Panel("force in kN", 1e-3, [
+                Line("one.actuator.force", "in one", FORCE),
+                Line("actuator.force", "apart", COMMAND, "--"),
+            ]),
+        ],
+    ),
     corner(
         "ajala-pid-l",
         "A car's corner under skyhook control, its pump held to the wanted force by a PID of low bandwidth.",
