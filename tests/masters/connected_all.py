@@ -14,9 +14,9 @@ from xml.etree import ElementTree
 import numpy as np
 from connected import AGREEMENT, MASTERS
 from connected_systems import REFERENCED
+from matrix_jobs import ZeroAtFirst
 
 sys.path.insert(0, str(Path(__file__).parent.parent.parent / "examples"))
-from jacobi import System  # noqa: E402
 from ssp import NAMESPACES, open_system  # noqa: E402
 
 # A second: the roads that begin at 0.5 s have reached the rear wheels.
@@ -33,26 +33,7 @@ APART = {"tum-rig": 1e-5}
 COMPARED = {"fmpy": [name for name in REFERENCED if name != "sas"], "libcosimpy": REFERENCED, "ecos": REFERENCED}
 
 
-class FirstStepAlone(System):
-    """FMPy's first exchange comes after the first step, which is taken with all connected inputs at zero."""
-
-    def initialize(self):
-        self.exchanging = False
-        super().initialize()
-        for name, inputs in self.inputs.items():
-            for variable, _ in inputs:
-                self.components[name].set(variable, 0.0)
-
-    def exchange(self):
-        if self.exchanging:
-            super().exchange()
-
-    def step(self, time, size):
-        super().step(time, size)
-        self.exchanging = True
-
-
-SCHEMES = {name: scheme for name, (_, scheme) in MASTERS.items()} | {"fmpy": FirstStepAlone}
+SCHEMES = {name: scheme for name, (_, scheme) in MASTERS.items()} | {"fmpy": ZeroAtFirst}
 
 
 def outputs(path):

@@ -73,7 +73,7 @@ def off(rows, expected):
 
 
 class ZeroAtFirst(System):
-    """No exchange before the first step, in which every connected input is zero."""
+    """No exchange before the first step, in which every connected input is zero (FMPy)."""
 
     def initialize(self):
         self.exchanging = False

@@ -1,6 +1,6 @@
 """The masters of the matrix: how each is told a job, and what it cannot do.
 
-Each has `name`, `version`, `cannot(kind, job)`: the footnote of what it does not run, and `run(kind, path, job)`: rows
+Each has `name`, `version`, `cannot(kind, job)`: why it does not run something, and `run(kind, path, job)`: rows
 after every step, and the scheme of our own master that they are to agree with (None, None if it only checks).
 """
 
@@ -17,9 +17,8 @@ import numpy as np
 from connected import MASTERS, ExchangedAfterwards
 from matrix_jobs import InTurn, System, ZeroAtFirst
 
-HANGS = "first"
+# What a master of single FMUs, or of systems, does not run.
 ONE = "one"
-NUMBERS = "numbers"
 
 
 class Master:
@@ -33,10 +32,6 @@ class Master:
 
 
 class Fmpy(Master):
-    def cannot(self, kind, job):
-        # In the first step, which is taken with zero inputs, the wheel of these hangs in the air.
-        return HANGS if kind == "ssp" and job.name.startswith("sas") else None
-
     def run(self, kind, path, job):
         if kind == "ssp":
             return columns(MASTERS["fmpy"][0], path, job), ZeroAtFirst

@@ -45,9 +45,6 @@ NOTES = """\
 
 {summary}
 
-¹ It runs, but in the first step, which FMPy takes with zero inputs, the wheel of this rig hangs in the air, and nothing that it
-shows afterwards can be compared.
-
 ## What masters pass over
 
 | | evidence |
@@ -75,8 +72,6 @@ must not exceed the fixed step's by more than a tenth:
 
 
 def cell(value):
-    if isinstance(value, str):
-        return {"first": "¹"}[value]
     if value == 0.0:
         return "0"
     return f"{value:.0e}".replace("e-0", "e−").replace("e-", "e−")
