@@ -24,7 +24,7 @@ fn a_package_does_not_depend_on_where_it_was_built() {
             fs::copy(&from, &to).expect("it can be copied");
         }
     }
-    strut::run(strut::build_fmu().arg("--list"));
+    strut::run(strut::build_fmu().arg("list"));
     let mut packager = Command::new(strut::target().join("debug").join("build-fmu"));
     packager.arg("--out").arg(&out).arg(NAME).current_dir(&copy);
     packager.env("CARGO_MANIFEST_DIR", &copy).env("CARGO_TARGET_DIR", elsewhere.join("target"));
