@@ -13,7 +13,7 @@ use crate::plant::Drive;
 use crate::recorded::{Recorded, Source};
 use crate::rig::Rig;
 use crate::screening::{rms, typical};
-use crate::search::Found;
+use crate::search::{Criterion, Found};
 
 /// Length of a short stretch of data in seconds, over which no model goes far astray.
 const SHOT: f64 = 1.0;
@@ -36,9 +36,19 @@ pub struct Diagnosis<'a> {
     pub reversed: Vec<Handle>,
 }
 
+/// What is known, and what is looked for.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Indices of parameters that were measured otherwise, with value and standard deviation.
+    pub known: Vec<(usize, f64, f64)>,
+    /// Numbers of the causes that are looked at; none: all.
+    pub only: Vec<String>,
+    /// What decides whether a cause is named.
+    pub criterion: Criterion,
+}
+
 /// Diagnoses a rig from records. `train` and `test` are conditioned; `measured` are the latter as they were measured,
-/// on which the errors are told. `known` are parameters' indices with a value and its standard deviation that were
-/// measured otherwise; `only`, unless empty, the numbers of the causes that are looked at.
+/// on which the errors are told.
 ///
 /// # Errors
 /// If the model refuses its parameters or diverges on the records.
@@ -47,8 +57,7 @@ pub fn diagnose<'a>(
     train: &'a [Recorded],
     test: &'a [Recorded],
     measured: &'a [Recorded],
-    known: Vec<(usize, f64, f64)>,
-    only: &[String],
+    options: Options,
     progress: &(dyn Fn(&str) + Sync),
 ) -> Result<Diagnosis<'a>, String> {
     let mut world = World {
@@ -56,9 +65,10 @@ pub fn diagnose<'a>(
         train,
         test,
         typical: Vec::new(),
-        known,
+        known: options.known,
         held: Vec::new(),
-        only: only.to_vec(),
+        only: options.only,
+        criterion: options.criterion,
         sigma: vec![1.0; rig.plant.outputs.len()],
         floor: Vec::new(),
     };
@@ -156,6 +166,7 @@ fn shot(world: &World<'_>, start: &Point) -> Option<Fitted> {
         known: world.known.clone(),
         held: Vec::new(),
         only: Vec::new(),
+        criterion: world.criterion,
         sigma: world.sigma.clone(),
         floor: world.floor.clone(),
         rig: world.rig,

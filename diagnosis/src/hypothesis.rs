@@ -9,6 +9,7 @@ use crate::lsq::{self, Linear, Problem, Stop};
 use crate::plant::Dynamics;
 use crate::recorded::Recorded;
 use crate::rig::Rig;
+use crate::search::Criterion;
 
 /// Points of a table without a name.
 pub const POINTS: usize = 11;
@@ -55,6 +56,8 @@ pub struct World<'a> {
     pub held: Vec<usize>,
     /// Numbers of the causes that are looked at; none: all.
     pub only: Vec<String>,
+    /// What decides whether a cause is named.
+    pub criterion: Criterion,
     /// Standard deviation of each output's residuals.
     pub sigma: Vec<f64>,
     /// Noise of each measured output, in the order of a record's.

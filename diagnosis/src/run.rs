@@ -12,7 +12,7 @@ use strut_model::ParameterSet;
 use crate::cli::{Arguments, Command, DiagnosisArguments, SimulateArguments};
 use crate::data::map::Map;
 use crate::data::table::did_you_mean;
-use crate::diagnosis::diagnose;
+use crate::diagnosis::{Options, diagnose};
 use crate::file::replace;
 use crate::findings::{DataProblem, Findings};
 use crate::import::{align, choose_drive, import};
@@ -94,6 +94,7 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
     }
     align(&mut records)?;
     let test: Vec<Recorded> = records.split_off(arguments.train.len());
+    let options = Options { known, only: arguments.effects.clone(), criterion: arguments.criterion };
     let bar = ProgressBar::new_spinner()
         .with_style(ProgressStyle::with_template("{spinner} {elapsed}  {msg}").expect("a valid template"));
     bar.enable_steady_tick(Duration::from_millis(100));
@@ -101,7 +102,7 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
     bar.set_message("taking the noise off the inputs");
     let conditioned = |records: &[Recorded]| records.iter().map(Recorded::conditioned).collect::<Vec<_>>();
     let (train, judging) = (conditioned(&records), conditioned(&test));
-    let diagnosis = diagnose(&rig, &train, &judging, &test, known, &arguments.effects, &progress)?;
+    let diagnosis = diagnose(&rig, &train, &judging, &test, options, &progress)?;
     bar.set_message("writing the report");
     let findings = diagnosis.findings(problems, clock.elapsed().as_secs_f64());
     report::write(&findings, &arguments.out).map_err(|error| error.to_string())?;

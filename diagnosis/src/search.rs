@@ -1,5 +1,6 @@
 //! The search for causes: forward, with gates, on data that was not learnt from.
 
+mod bic;
 mod revise;
 mod weighing;
 
@@ -26,6 +27,16 @@ const MOST: usize = 4;
 const BESIDE: f64 = 0.35;
 /// Errors that are larger by less than this factor are nearly the same.
 const NEARLY: f64 = 1.02;
+
+/// What decides whether a cause is named.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Criterion {
+    /// All gates, on training and held-out data
+    #[default]
+    Gates,
+    /// The Bayesian information criterion on the training data alone, to compare with
+    Bic,
+}
 
 /// A candidate that was fitted on top of others.
 #[derive(Clone, Debug)]
@@ -64,6 +75,13 @@ pub struct Found {
     pub screened: Vec<Screened>,
     /// All that was fitted, the last word on each term.
     pub tried: Vec<Tried>,
+}
+
+impl Found {
+    /// The starting model, with nothing added.
+    fn nothing(base: Fitted) -> Self {
+        Self { extended: base.clone(), base, accepted: Vec::new(), screened: Vec::new(), tried: Vec::new() }
+    }
 }
 
 impl World<'_> {
@@ -115,14 +133,11 @@ impl World<'_> {
     /// # Errors
     /// If the model refuses its settings or diverges.
     pub fn search(&self, base: Fitted, progress: &(dyn Fn(&str) + Sync)) -> Result<Found, String> {
-        let mut current = base.clone();
-        let mut found = Found {
-            extended: base.clone(),
-            base,
-            accepted: Vec::new(),
-            screened: Vec::new(),
-            tried: Vec::new(),
-        };
+        if self.criterion == Criterion::Bic {
+            return self.search_by_bic(base, progress);
+        }
+        let mut found = Found::nothing(base);
+        let mut current = found.base.clone();
         while found.accepted.len() < MOST {
             progress("comparing every cause to what is missing");
             let screened = self.screened(&current)?;

@@ -3,7 +3,7 @@
 use std::fs;
 
 use strut_diagnosis::data::map::Map;
-use strut_diagnosis::diagnosis::diagnose;
+use strut_diagnosis::diagnosis::{Options, diagnose};
 use strut_diagnosis::import::{align, choose_drive, import};
 use strut_diagnosis::naming::name;
 use strut_diagnosis::recorded::Recorded;
@@ -71,7 +71,7 @@ impl Case {
         let conditioned =
             |records: &[Recorded]| records.iter().map(Recorded::conditioned).collect::<Vec<_>>();
         let (train, judging) = (conditioned(&records), conditioned(&test));
-        let diagnosis = diagnose(&rig, &train, &judging, &test, Vec::new(), &[], &|_| {}).unwrap();
+        let diagnosis = diagnose(&rig, &train, &judging, &test, Options::default(), &|_| {}).unwrap();
         let terms = diagnosis.found.accepted.iter().map(|it| name(it.term, &rig.plant).short()).collect();
         let values = rig.plant.parameters.iter().zip(&diagnosis.found.extended.point.parameters);
         Said { terms, values: values.map(|(declared, value)| (declared.name.clone(), *value)).collect() }

@@ -1,6 +1,6 @@
 //! The search on records that the plant itself has made: what is hidden is found, what is not there is not claimed.
 
-use strut_diagnosis::diagnosis::diagnose;
+use strut_diagnosis::diagnosis::{Options, diagnose};
 use strut_diagnosis::naming::name;
 use strut_diagnosis::plant::Drive;
 use strut_diagnosis::recorded::{Measured, Recorded, Source, derivative};
@@ -102,7 +102,7 @@ fn record(rig: &Rig, seed: u64, changes: &[(&str, f64)]) -> Recorded {
 fn found(changes: &[(&str, f64)]) -> (Vec<String>, Vec<(String, f64)>) {
     let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
     let (train, test) = ([record(&rig, 1, changes)], [record(&rig, 20, changes)]);
-    let diagnosis = diagnose(&rig, &train, &test, &test, Vec::new(), &[], &|_| {}).unwrap();
+    let diagnosis = diagnose(&rig, &train, &test, &test, Options::default(), &|_| {}).unwrap();
     let terms = diagnosis.found.accepted.iter().map(|it| name(it.term, &rig.plant).short());
     let point = &diagnosis.found.extended.point;
     let values = rig.plant.parameters.iter().zip(&point.parameters);

@@ -52,6 +52,9 @@ enum Command {
         /// The page with figures and confusion matrix
         #[arg(long)]
         page: PathBuf,
+        /// What the program gets besides, after `--`
+        #[arg(last = true)]
+        arguments: Vec<String>,
     },
     /// Compare the reports in cases' folders with the truth
     Score {
@@ -90,10 +93,12 @@ fn execute(command: Command) -> Result<(), String> {
                 println!("{}", files::write(&generate(case)?, &out)?.display());
             }
         }
-        Command::Run { program, only, full, out, page } => {
+        Command::Run { program, only, full, out, page, arguments } => {
             let wanted =
                 |case: &&Case| only.is_empty() || only.iter().any(|part| case.name.contains(part.as_str()));
-            let (all, run) = (list(full), Run { program, out });
+            let others =
+                if arguments.is_empty() { String::new() } else { format!(" -- {}", arguments.join(" ")) };
+            let (all, run) = (list(full), Run { program, arguments, out });
             let mut scores = vec![];
             let mut failed = vec![];
             for case in all.iter().filter(wanted) {
@@ -110,7 +115,7 @@ fn execute(command: Command) -> Result<(), String> {
             }
             let parts: Vec<String> = only.iter().map(|part| format!(" --only {part}")).collect();
             let many = full.map_or_else(String::new, |full| format!(" --full {full}"));
-            let command = format!("blind run --program diagnose{many}{}", parts.concat());
+            let command = format!("blind run --program diagnose{many}{}{others}", parts.concat());
             std::fs::write(&page, run::page(&command, &scores))
                 .map_err(|error| format!("{} cannot be written: {error}", page.display()))?;
             if !failed.is_empty() {

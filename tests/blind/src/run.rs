@@ -14,6 +14,8 @@ use crate::{files, generate};
 pub struct Run {
     /// The program, called as `diagnose` is.
     pub program: PathBuf,
+    /// What it gets besides.
+    pub arguments: Vec<String>,
     /// Where the cases' folders go. One that has a report already is not run again.
     pub out: PathBuf,
 }
@@ -31,7 +33,7 @@ impl Run {
         let folder = files::write(&generate(case)?, &self.out)?;
         let data = folder.join("data");
         let mut command = Command::new(&self.program);
-        command.arg("--parameters").arg(data.join("start.toml"));
+        command.args(&self.arguments).arg("--parameters").arg(data.join("start.toml"));
         command.arg("--train").args(records(&data, "train")?).arg("--test").args(records(&data, "test")?);
         command.arg("--out").arg(folder.join("report")).arg("--no-fmu");
         let output =
@@ -90,7 +92,7 @@ mod tests {
                       echo '{\"verdict\": \"no_effect\"}' > \"$1/report.json\"\n";
         fs::write(&program, script).unwrap();
         fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
-        let run = Run { program: program.clone(), out: below.path().join("cases") };
+        let run = Run { program: program.clone(), arguments: vec![], out: below.path().join("cases") };
         let case = Case { duration: 4.0, rate: 100.0, ..Case::standard("case", vec![Hidden::new("01")], 5) };
         let score = run.case(&case).unwrap();
         assert_eq!(score.outcome, Outcome::Missed);
