@@ -134,8 +134,8 @@ def input_derivatives(fmu):
     references = [v.valueReference for v in fmu.inputs]
     slopes = [0.3 * (value - middle) for value, middle in zip(fmu.excitation(0.01), fmu.middle)]
     states = [v.valueReference for v in fmu.states]
-    # An input that is rounded to steps has no slope to follow.
-    start = {"pwm.bits": 0} if "pwm.bits" in fmu.variables else None
+    # An input that is rounded to steps has no slope to follow; an estimate of the load foresees inputs that are held.
+    start = {name: value for name, value in (("pwm.bits", 0), ("load.mass", 0.0)) if name in fmu.variables}
     with fmu.running(start=start) as coarse, fmu.running(start=start, name="fine") as fine:
         coarse.setRealInputDerivatives(references, [1] * len(references), slopes)
         coarse.doStep(currentCommunicationPoint=0.0, communicationStepSize=0.05)

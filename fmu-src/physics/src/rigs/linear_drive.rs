@@ -160,6 +160,8 @@ impl Model for LinearDrive {
         experiment: Experiment {
             stop: 2.0,
             step: 1e-3,
+            // Friction changes its sign within milliseconds.
+            tolerance: 1e-7,
             stimuli: &[("force", Stimulus::Sine { amplitude: 40.0, frequency: 1.0 })],
             plot: &["position", "velocity", "resistance"],
             ..Experiment::DEFAULT
