@@ -18,6 +18,9 @@ pub const POINTS: usize = 11;
 /// and they are no fault.
 const TIMING: f64 = 4e-4;
 
+/// Time over which the velocity at a section's start is guessed from a measured position, in seconds.
+const RATE: f64 = 0.02;
+
 /// Something that is added to the starting model.
 #[derive(Clone, Copy, Debug)]
 pub enum Term {
@@ -102,7 +105,8 @@ impl World<'_> {
         }
     }
 
-    /// A first guess of the states at the start of each section: what was measured of them, otherwise the rig's own.
+    /// A first guess of the states at the start of each section: what was measured of them or follows from it,
+    /// otherwise the rig's own.
     pub fn starts(&self, records: &[Recorded]) -> Vec<Vec<f64>> {
         let plant = &self.rig.plant;
         let of = |record: &Recorded, at: usize| {
@@ -111,6 +115,16 @@ impl World<'_> {
                 let (output, value) = (&plant.outputs[measured.output].name, measured.values[at]);
                 if let Some(state) = plant.state(output).filter(|_| value.is_finite()) {
                     start[state] = value;
+                }
+                // A body that starts at rest may stick, and then nothing tells how fast it was.
+                let rate =
+                    output.strip_suffix("position").and_then(|of| plant.state(&format!("{of}velocity")));
+                let span = ((RATE / record.step) as usize).max(3);
+                if let (Some(state), Some(later)) = (rate, measured.values.get(at + span))
+                    && later.is_finite()
+                    && value.is_finite()
+                {
+                    start[state] = (later - value) / (span as f64 * record.step);
                 }
             }
             start

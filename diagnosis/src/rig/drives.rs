@@ -8,9 +8,6 @@ use crate::plant::Plant;
 
 use super::{DrivenBy, ElementSignals, Excitation, ForceOf, Kind, Missing};
 
-/// Behind a force or a voltage the position drifts wherever nothing holds it: longest section in seconds.
-const DRIFTING: f64 = 1.0;
-
 const MISSING: &[Missing] = &[Missing {
     quantity: "force missing on the moving mass",
     output: "acceleration",
@@ -47,7 +44,8 @@ pub(super) const LINEAR_DRIVE: Kind = Kind {
     trivial: &["resistance"],
     opposed: None,
     missing: MISSING,
-    section: DRIFTING,
+    // Behind a force the position drifts wherever nothing holds it: over a second, errors are still of what happens then.
+    section: 1.0,
     drives: &[
         DrivenBy { setting: "drive", item: "Force", input: "force", base: &[], columns: FORCES },
         DrivenBy { setting: "drive", item: "Command", input: "command", base: &[], columns: VOLTAGES },
@@ -86,7 +84,8 @@ pub(super) const EXCITATION_MOTOR: Kind = Kind {
     trivial: &["following_error", "stroke.reserve", "speed.reserve", "power"],
     opposed: None,
     missing: MISSING,
-    section: DRIFTING,
+    // Behind a force or a voltage the position drifts wherever nothing holds it.
+    section: 5.0,
     // A measured force or voltage says more of the motor than a set point, which a loop of unknown make follows.
     drives: &[
         DrivenBy { setting: "drive", item: "Force", input: "command.force", base: &[], columns: FORCES },
