@@ -4,6 +4,7 @@ use std::fs;
 
 use strut_diagnosis::data::map::Map;
 use strut_diagnosis::diagnosis::{Options, diagnose};
+use strut_diagnosis::fit::Handle;
 use strut_diagnosis::import::{align, choose_drive, import};
 use strut_diagnosis::naming::name;
 use strut_diagnosis::recorded::Recorded;
@@ -27,11 +28,20 @@ struct Case {
 struct Said {
     terms: Vec<String>,
     values: Vec<(String, f64)>,
+    /// Half the 95 % interval of what was fitted.
+    halves: Vec<(String, f64)>,
 }
 
 impl Said {
     fn value(&self, name: &str) -> f64 {
         self.values.iter().find(|(other, _)| other == name).unwrap().1
+    }
+
+    /// Whether a parameter's interval holds what was hidden, and is no wider than a share of it.
+    fn covers(&self, name: &str, hidden: f64, share: f64) {
+        let (found, half) = (self.value(name), self.halves.iter().find(|(of, _)| of == name).unwrap().1);
+        assert!((found - hidden).abs() <= half, "{name} is {found} ± {half}, {hidden} was hidden");
+        assert!(half < share * hidden, "{name} is {found} ± {half}");
     }
 
     /// Whether a parameter is within a share of what was hidden.
@@ -74,7 +84,15 @@ impl Case {
         let diagnosis = diagnose(&rig, &train, &judging, &test, Options::default(), &|_| {}).unwrap();
         let terms = diagnosis.found.accepted.iter().map(|it| name(it.term, &rig.plant).short()).collect();
         let values = rig.plant.parameters.iter().zip(&diagnosis.found.extended.point.parameters);
-        Said { terms, values: values.map(|(declared, value)| (declared.name.clone(), *value)).collect() }
+        let halves = diagnosis.intervals.iter().filter_map(|it| match it.handle {
+            Handle::Parameter(index) => Some((rig.plant.parameters[index].name.clone(), it.half)),
+            Handle::Input(..) | Handle::Output(..) => None,
+        });
+        Said {
+            terms,
+            values: values.map(|(declared, value)| (declared.name.clone(), *value)).collect(),
+            halves: halves.collect(),
+        }
     }
 
     /// A record with the columns that are kept.
@@ -128,7 +146,8 @@ fn a_servo_suspensions_leakage_and_valve_gain_are_parameters_that_do_not_fit() {
 fn guide_friction_is_found_in_a_servo_suspension() {
     let said = Case::of(SERVO).diagnosed(&[("guide.coulomb.force", 40.0)]);
     assert_eq!(said.terms, ["16 guide"]);
-    said.meets("guide.coulomb.force", 40.0, 0.03);
+    // The loops make up for most of the friction: what is left of it hides in the noise by some per cent.
+    said.covers("guide.coulomb.force", 40.0, 0.15);
 }
 
 #[test]
@@ -165,7 +184,8 @@ fn nothing_is_claimed_of_a_sound_drive() {
 fn friction_is_found_in_a_drive_from_its_set_point() {
     let said = Case { step: 4e-3, ..Case::of(MOTOR) }.diagnosed(&[("guide.coulomb.force", 40.0)]);
     assert_eq!(said.terms, ["16 guide"]);
-    said.meets("guide.coulomb.force", 40.0, 0.03);
+    // The loops make up for most of the friction: what is left of it hides in the noise by some per cent.
+    said.covers("guide.coulomb.force", 40.0, 0.15);
 }
 
 #[test]
