@@ -164,7 +164,6 @@ impl Model for LinearDrive {
             tolerance: 1e-8,
             stimuli: &[("force", Stimulus::Sine { amplitude: 40.0, frequency: 1.0 })],
             plot: &["position", "velocity", "resistance"],
-            ..Experiment::DEFAULT
         },
         ..About::DEFAULT
     };
