@@ -163,7 +163,7 @@ impl Model for LinearDrive {
             // Friction's zero crossing and the kinks of an unnamed force ask for it.
             tolerance: 1e-8,
             stimuli: &[("force", Stimulus::Sine { amplitude: 40.0, frequency: 1.0 })],
-            plot: &["position", "velocity", "resistance"],
+            plot: &["position", "velocity", "acceleration"],
         },
         ..About::DEFAULT
     };
