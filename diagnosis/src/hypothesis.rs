@@ -111,15 +111,16 @@ impl World<'_> {
         let plant = &self.rig.plant;
         let of = |record: &Recorded, at: usize| {
             let mut start = self.rig.start.clone();
-            let shown = |name: &str| record.measured.iter().any(|it| plant.outputs[it.output].name == name);
             for measured in &record.measured {
                 let (output, value) = (&plant.outputs[measured.output].name, measured.values[at]);
                 if let Some(state) = plant.state(output).filter(|_| value.is_finite()) {
                     start[state] = value;
                 }
-                // A body that starts at rest may stick, and then nothing tells how fast it was.
-                let rate = output.strip_suffix("position").map(|of| format!("{of}velocity"));
-                let rate = rate.filter(|rate| !shown(rate)).and_then(|rate| plant.state(&rate));
+                // A body that starts at rest may stick, and where nothing but its position is measured, nothing tells how
+                // fast it was.
+                let alone = (record.measured.len() == 1).then_some(output);
+                let rate =
+                    alone.and_then(|it| plant.state(&format!("{}velocity", it.strip_suffix("position")?)));
                 let span = ((RATE / record.step) as usize).max(3);
                 if let (Some(state), Some(later)) = (rate, measured.values.get(at + span))
                     && later.is_finite()
