@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use crate::fit::{Handle, Point};
+use crate::fit::{Coordinate, Handle, Point};
 use crate::hypothesis::{Fitted, World};
 use crate::lsq::Problem;
 use crate::recorded::Recorded;
@@ -63,7 +63,7 @@ impl World<'_> {
     pub fn intervals(&self, fitted: &Fitted) -> Result<Vec<Interval>, String> {
         let own = fitted.linear.robust_covariance(&fitted.trace.scores);
         let opinions = self.opinions(fitted)?;
-        let interval = |(index, coordinate): (usize, &crate::fit::Coordinate)| {
+        let interval = |(index, coordinate): (usize, &Coordinate)| {
             let all: Vec<Opinion> = opinions.iter().map(|excitation| excitation[index]).collect();
             let (between, quantile) = between(&all);
             let variance = NORMAL.powi(2) * own[(index, index)].max(0.0) + quantile.powi(2) * between;
@@ -85,11 +85,8 @@ impl World<'_> {
             let (linear, trace) = fit.linearise(&point);
             let shift = linear.minimiser();
             let covariance = linear.robust_covariance(&trace.scores);
-            let one = |index: usize| Opinion {
-                shift: shift[index],
-                variance: covariance[(index, index)].max(f64::MIN_POSITIVE),
-                learnt,
-            };
+            let one =
+                |index: usize| Opinion { shift: shift[index], variance: covariance[(index, index)], learnt };
             (0..fitted.coordinates.len()).map(one).collect()
         };
         let pieces = EXCITATIONS.div_ceil(self.train.len() + self.test.len());
@@ -121,16 +118,17 @@ fn cut(record: &Recorded, pieces: usize) -> Vec<Vec<Range<usize>>> {
 /// The variance that differences between excitations bring to what was learnt from some of them, and the quantile of
 /// Student's distribution that belongs to it.
 fn between(opinions: &[Opinion]) -> (f64, f64) {
-    let known: Vec<&Opinion> =
-        opinions.iter().filter(|it| it.shift.is_finite() && it.variance.is_finite()).collect();
+    // A piece of one block has no variance that could be told, and a coordinate that does nothing in it an infinite one.
+    let told = |it: &&Opinion| it.shift.is_finite() && it.variance.is_finite() && it.variance > 0.0;
+    let known: Vec<&Opinion> = opinions.iter().filter(told).collect();
     let freedom = known.len() as f64 - 1.0;
     let sum = |of: &dyn Fn(&Opinion) -> f64| known.iter().map(|it| of(it)).sum::<f64>();
     let weight = |it: &Opinion| 1.0 / it.variance;
     let (first, second) = (sum(&weight), sum(&|it| weight(it).powi(2)));
-    let spread = first - second / first;
-    if freedom < 1.0 || spread <= 0.0 {
+    if freedom < 1.0 {
         return (0.0, 0.0);
     }
+    let spread = first - second / first;
     let mean = sum(&|it| weight(it) * it.shift) / first;
     let excess = sum(&|it| weight(it) * (it.shift - mean).powi(2)) - freedom;
     let each = (excess / spread).max(0.0);
@@ -138,4 +136,50 @@ fn between(opinions: &[Opinion]) -> (f64, f64) {
     let share = learnt(2) / learnt(1).powi(2).max(f64::MIN_POSITIVE);
     let quantile = StudentsT::new(0.0, 1.0, freedom).map_or(NORMAL, |it| it.inverse_cdf(0.975));
     (each * share, quantile)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recorded::Measured;
+
+    fn opinions(shifts: &[f64], variance: f64) -> Vec<Opinion> {
+        let of = |(index, shift): (usize, &f64)| Opinion { shift: *shift, variance, learnt: index < 2 };
+        shifts.iter().enumerate().map(of).collect()
+    }
+
+    /// With equal weights the estimator is the sample variance less the variance within, and half of it is left of two
+    /// records that were learnt from.
+    #[test]
+    fn equal_opinions_leave_the_sample_variance_less_that_within() {
+        let (between, quantile) = between(&opinions(&[1.0, -1.0, 3.0, -3.0], 0.5));
+        assert!((between - 0.5 * (20.0 / 3.0 - 0.5)).abs() < 1e-12, "{between}");
+        // Student's distribution with three degrees of freedom.
+        assert!((quantile - 3.182).abs() < 1e-3, "{quantile}");
+    }
+
+    #[test]
+    fn opinions_that_differ_by_less_than_their_variance_widen_nothing() {
+        assert_eq!(between(&opinions(&[0.1, -0.1, 0.2, -0.2], 1.0)).0, 0.0);
+    }
+
+    #[test]
+    fn what_no_variance_is_known_of_does_not_count() {
+        let all = opinions(&[1.0, -1.0, 3.0, -3.0], 0.5);
+        let unknown = [f64::INFINITY, 0.0].map(|variance| Opinion { shift: 7.0, variance, learnt: true });
+        assert_eq!(between(&[all.clone(), unknown.to_vec()].concat()), between(&all));
+        assert_eq!(between(&[all[..1].to_vec(), unknown.to_vec()].concat()), (0.0, 0.0));
+    }
+
+    #[test]
+    fn a_record_is_cut_where_it_may_be() {
+        let sections = vec![0..700, 750..1000];
+        let record = Recorded { name: String::new(), step: 1e-3, inputs: vec![], measured: vec![], sections };
+        assert_eq!(cut(&record, 1).concat(), record.sections);
+        let measured = vec![Measured { output: 0, values: vec![0.0; 2000], noise_floor: 1.0 }];
+        let long = Recorded { measured, sections: vec![0..1400, 1450..2000], ..record };
+        // Of the first section's second half, 400 samples are less than a block.
+        let pieces = cut(&long, 2);
+        assert_eq!((pieces.len(), pieces.concat()), (2, vec![0..1000, 1450..2000]));
+    }
 }
