@@ -245,7 +245,9 @@ impl Model for ServoHydraulicActuator {
         } else {
             now.memory.load
         };
-        let force = self.force(now.parameters, now.derived, now.state, &known, now.tick);
+        let (cylinder, State { pressure, spool }) = (now.parameters.cylinder(), *now.state);
+        let flow = cylinder.flow(self.law, now.derived, spool.position, pressure).load;
+        let force = load.force(&cylinder, now.derived, Pressed { pressure, flow }, &known, now.tick);
         Memory { load: load.remember(&known, now.tick, velocity, force) }
     }
 
@@ -261,29 +263,9 @@ impl Model for ServoHydraulicActuator {
             spool: SpoolState { position: p.spool_rate(u.voltage, spool.position) },
         };
         let supply = SupplyOutput { flow: flow.supply, power: p.supply.pressure * flow.supply };
-        let force = self.force(now.parameters, now.derived, now.state, memory, now.tick);
+        let pressed = Pressed { pressure, flow: flow.load };
+        let force = load.force(&p, now.derived, pressed, memory, now.tick);
         (rates, Output { force, supply })
-    }
-}
-
-impl ServoHydraulicActuator {
-    /// The force now; with an estimate of the load that which is best held until the next communication point.
-    #[inline(always)]
-    fn force<R: Real>(
-        &self,
-        parameters: &Parameters<R>,
-        hydraulics: &Hydraulics<R>,
-        state: &State<R>,
-        known: &LoadMemory<R>,
-        tick: u64,
-    ) -> R {
-        let (load, cylinder, pressure) = (&parameters.load, parameters.cylinder(), state.pressure);
-        let to_come = || {
-            let flow = cylinder.flow(self.law, hydraulics, state.spool.position, pressure).load;
-            let velocity = load.expected(known, tick);
-            load.mean_force(&cylinder, hydraulics, Pressed { pressure, flow }, velocity, known.acceleration)
-        };
-        load.choose(to_come, cylinder.force(pressure))
     }
 }
 

@@ -47,14 +47,31 @@ impl<R: Real> Load<R> {
         self.interval * 0.5 * (memory.force * self.mobility() + memory.acceleration)
     }
 
+    /// The cylinder's force now; with an estimate that which is best held until the next communication point.
+    #[inline(always)]
+    pub fn force(
+        &self,
+        cylinder: &ServoCylinder<R>,
+        hydraulics: &Hydraulics<R>,
+        now: Pressed<R>,
+        known: &LoadMemory<R>,
+        tick: u64,
+    ) -> R {
+        let to_come = || {
+            let velocity = self.expected(known, tick);
+            self.mean_force(cylinder, hydraulics, now, velocity, known.acceleration)
+        };
+        self.choose(to_come, cylinder.force(now.pressure))
+    }
+
     /// The velocity at the end of this interval; before the first one that at the start.
-    pub fn expected(&self, memory: &LoadMemory<R>, tick: u64) -> R {
+    fn expected(&self, memory: &LoadMemory<R>, tick: u64) -> R {
         if tick == 0 { memory.velocity } else { memory.velocity + self.gain(memory) * 2.0 }
     }
 
     /// The mean force of the interval that begins with this velocity, by the implicit midpoint rule: P and v at its
     /// middle follow from each other's rates there.
-    pub fn mean_force(
+    fn mean_force(
         &self,
         cylinder: &ServoCylinder<R>,
         hydraulics: &Hydraulics<R>,
