@@ -108,10 +108,10 @@ fn wanted(rig: &Rig) -> Vec<Wanted> {
         .chain(outputs)
         .map(|declared| {
             let aliases = rig.kind.aliases.iter().filter(|(name, _)| *name == declared.name);
+            let aliases = aliases.flat_map(|(_, aliases)| *aliases);
             let columns = driven.filter(|it| it.input == declared.name).map_or(&[][..], |it| it.columns);
             // A column that drives the rig is not what it did, too.
-            let aliases =
-                aliases.map(|(_, alias)| alias).filter(|it| !rig.taken.iter().any(|taken| taken == *it));
+            let aliases = aliases.filter(|it| !rig.taken.iter().any(|taken| taken == *it));
             let aliases = aliases.chain(columns);
             Wanted {
                 name: declared.name.clone(),

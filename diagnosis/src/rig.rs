@@ -34,6 +34,9 @@ pub struct Rig {
     pub kind: &'static Kind,
 }
 
+/// A signal, and the other names that records have for it; `-name` is the negative.
+pub type Aliases = (&'static str, &'static [&'static str]);
+
 /// What the diagnosis has to know of a model.
 #[derive(Debug)]
 pub struct Kind {
@@ -43,8 +46,8 @@ pub struct Kind {
     pub base: &'static [&'static str],
     /// Where its elements' forces and motions are found.
     pub elements: &'static [ElementSignals],
-    /// Other names of its signals in records; `-name` is the negative.
-    pub aliases: &'static [(&'static str, &'static str)],
+    /// Other names of its signals in records.
+    pub aliases: &'static [Aliases],
     /// Outputs that follow from the inputs alone and show nothing.
     pub trivial: &'static [&'static str],
     /// A column in whose sense a signal is recorded if the column is there: of opposite sign to the model's.

@@ -6,7 +6,7 @@ use strut_physics::rigs::LinearDrive;
 use crate::catalogue::Element;
 use crate::plant::Plant;
 
-use super::{DrivenBy, ElementSignals, Excitation, ForceOf, Kind, Missing};
+use super::{Aliases, DrivenBy, ElementSignals, Excitation, ForceOf, Kind, Missing};
 
 const MISSING: &[Missing] = &[Missing {
     quantity: "force missing on the moving mass",
@@ -14,6 +14,11 @@ const MISSING: &[Missing] = &[Missing {
     factor: Some(("moving_mass", -1.0)),
     over: &[Element::Guide],
 }];
+
+const POSITION: Aliases = ("position", &["displacement", "x", "q", "measured.position", "motor.position"]);
+const VELOCITY: Aliases = ("velocity", &["speed", "v", "measured.velocity"]);
+const ACCELERATION: Aliases = ("acceleration", &["a"]);
+const LOAD: Aliases = ("load.force", &["external.force"]);
 
 const FORCES: &[&str] = &["force.command", "commanded.force", "control.force", "force", "motor.force"];
 const VOLTAGES: &[&str] = &["voltage.command", "control.voltage", "voltage", "motor.voltage", "u"];
@@ -29,18 +34,7 @@ pub(super) const LINEAR_DRIVE: Kind = Kind {
         velocity: Some("velocity"),
         force: ForceOf::Moment("acceleration", "moving_mass"),
     }],
-    aliases: &[
-        ("position", "displacement"),
-        ("position", "x"),
-        ("position", "q"),
-        ("position", "measured.position"),
-        ("position", "motor.position"),
-        ("velocity", "speed"),
-        ("velocity", "v"),
-        ("velocity", "measured.velocity"),
-        ("acceleration", "a"),
-        ("load.force", "external.force"),
-    ],
+    aliases: &[POSITION, VELOCITY, ACCELERATION, LOAD],
     trivial: &["resistance"],
     opposed: None,
     missing: MISSING,
@@ -67,19 +61,12 @@ pub(super) const EXCITATION_MOTOR: Kind = Kind {
         force: ForceOf::Output("force"),
     }],
     aliases: &[
-        ("position", "displacement"),
-        ("position", "x"),
-        ("position", "q"),
-        ("position", "measured.position"),
-        ("position", "motor.position"),
-        ("velocity", "speed"),
-        ("velocity", "v"),
-        ("velocity", "measured.velocity"),
-        ("acceleration", "a"),
-        ("current", "i"),
-        ("current", "motor.current"),
-        ("force", "motor.force"),
-        ("load.force", "external.force"),
+        POSITION,
+        VELOCITY,
+        ACCELERATION,
+        ("current", &["i", "motor.current"]),
+        ("force", &["motor.force"]),
+        LOAD,
     ],
     trivial: &["following_error", "stroke.reserve", "speed.reserve", "power"],
     opposed: None,

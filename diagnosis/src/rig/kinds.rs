@@ -52,7 +52,7 @@ pub(super) const KINDS: &[Kind] = &[
                 force: ForceOf::Output("wheel.force"),
             },
         ],
-        aliases: &[("road.position", "road"), ("actuator.force", "force")],
+        aliases: &[("road.position", &["road"]), ("actuator.force", &["force"])],
         trivial: &[],
         opposed: None,
         missing: &[
@@ -83,7 +83,7 @@ pub(super) const KINDS: &[Kind] = &[
             velocity: None,
             force: ForceOf::Output("force"),
         }],
-        aliases: &[("motion.position", "-deflection"), ("motion.velocity", "-velocity")],
+        aliases: &[("motion.position", &["-deflection"]), ("motion.velocity", &["-velocity"])],
         trivial: &["deflection"],
         // A force that is recorded beside a deflection resists it.
         opposed: Some(("deflection", "force")),
