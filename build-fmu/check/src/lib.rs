@@ -5,7 +5,6 @@
 //! sentences, with what to do.
 
 mod behaviour;
-pub mod binary;
 mod description;
 mod finding;
 mod fmpy;

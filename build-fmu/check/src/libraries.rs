@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::binary::Binary;
+use strut_binary::{Binary, Glibc};
+
 use crate::description::{Description, Kind};
 use crate::finding::{Finding, names};
 use crate::functions;
@@ -24,7 +25,7 @@ pub const HOST: Option<&str> = if cfg!(all(target_os = "linux", target_arch = "x
 };
 
 /// Version of glibc that every Linux since 2012 has (CentOS 7): what many tools still run on.
-const OLD_ENOUGH: (u32, u32) = (2, 17);
+const OLD_ENOUGH: Glibc = Glibc { major: 2, minor: 17 };
 
 /// What a platform's libraries are called.
 pub fn ending(platform: &str) -> &'static str {
@@ -126,11 +127,10 @@ fn library(platform: &str, path: &str, bytes: &[u8], kinds: &[Kind], beside: &[S
                 .help("a function of a missing capability returns fmi2Error"),
         );
     }
-    if let Some((major, minor)) = binary.glibc.filter(|version| *version > OLD_ENOUGH) {
-        let (old, older) = OLD_ENOUGH;
-        let message = format!("the library loads only where glibc is {major}.{minor} or newer");
+    if let Some(oldest) = binary.glibc.filter(|version| *version > OLD_ENOUGH) {
+        let message = format!("the library loads only where glibc is {oldest} or newer");
         findings.push(Finding::note("binary.glibc", message).at(path).help(format!(
-            "link it against an old glibc ({old}.{older} runs everywhere), e.g. with zig or in a manylinux container"
+            "link it against an old glibc ({OLD_ENOUGH} runs everywhere), e.g. with zig or in a manylinux container"
         )));
     }
     let beside = |name: &str| beside.iter().any(|file| file.rsplit('/').next() == Some(name));

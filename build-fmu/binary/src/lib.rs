@@ -1,7 +1,38 @@
-//! What a shared library is and needs, read from its file: nothing is loaded.
+//! What a shared library is, exports and needs of the machine that loads it, read from its file: nothing is loaded.
 
-use object::read::elf::FileHeader;
-use object::{Architecture, BinaryFormat, Endianness, Object, elf};
+use std::fmt::{self, Display, Formatter};
+use std::str::FromStr;
+
+use object::read::ImportFlags;
+use object::{Architecture, BinaryFormat, Object};
+
+/// A version of glibc, by its first two numbers: functions are added with these only.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Glibc {
+    /// 2 of 2.17.
+    pub major: u32,
+    /// 17 of 2.17.
+    pub minor: u32,
+}
+
+impl Display for Glibc {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}", self.major, self.minor)
+    }
+}
+
+/// `2.17`, or `2.2.5`.
+impl FromStr for Glibc {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers: Option<Vec<u32>> = text.split('.').map(|part| part.parse().ok()).collect();
+        match numbers.as_deref() {
+            Some([major, minor, ..]) => Ok(Self { major: *major, minor: *minor }),
+            _ => Err(format!("`{text}` is no version of glibc; one is written like 2.17")),
+        }
+    }
+}
 
 /// A shared library.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -12,8 +43,8 @@ pub struct Binary {
     pub exports: Vec<String>,
     /// Shared libraries that it needs.
     pub needs: Vec<String>,
-    /// Newest version of glibc that a function of it needs, on Linux.
-    pub glibc: Option<(u32, u32)>,
+    /// The oldest glibc that has every function that is called; none where there is no glibc.
+    pub glibc: Option<Glibc>,
 }
 
 impl Binary {
@@ -49,13 +80,12 @@ impl Binary {
         for library in file.import_libraries().map_err(damaged)? {
             needs.push(text(library.map_err(damaged)?.name()));
         }
-        let glibc = match file.format() {
-            BinaryFormat::Elf if file.is_64() => {
-                glibc::<elf::FileHeader64<Endianness>>(bytes).map_err(damaged)?
+        let mut glibc = None;
+        for import in file.imports().map_err(damaged)? {
+            if let ImportFlags::Elf { version: Some(version), .. } = import.map_err(damaged)?.flags() {
+                glibc = glibc.max(glibc_of(version));
             }
-            BinaryFormat::Elf => glibc::<elf::FileHeader32<Endianness>>(bytes).map_err(damaged)?,
-            _ => None,
-        };
+        }
         needs.sort();
         needs.dedup();
         Ok(Self { platform, exports, needs, glibc })
@@ -98,29 +128,9 @@ fn is_system_library(name: &str) -> bool {
     linux.iter().chain(&windows).any(|known| lower.starts_with(known)) || lower.contains("libsystem")
 }
 
-/// The newest version of glibc among the versions that symbols are bound to.
-fn glibc<E: FileHeader<Endian = Endianness>>(bytes: &[u8]) -> object::Result<Option<(u32, u32)>> {
-    let header = E::parse(bytes)?;
-    let endian = header.endian()?;
-    let sections = header.sections(endian, bytes)?;
-    let mut glibc = None;
-    if let Some((mut list, strings)) = sections.gnu_verneed(endian, bytes)? {
-        let strings = sections.strings(endian, bytes, strings)?;
-        while let Some((_, mut versions)) = list.next()? {
-            while let Some(version) = versions.next()? {
-                let name = version.name(endian, strings)?;
-                glibc = glibc.max(glibc_version(&String::from_utf8_lossy(name)));
-            }
-        }
-    }
-    Ok(glibc)
-}
-
-/// `GLIBC_2.17` is (2, 17).
-fn glibc_version(name: &str) -> Option<(u32, u32)> {
-    let (major, rest) = name.strip_prefix("GLIBC_")?.split_once('.')?;
-    let minor = rest.split('.').next()?;
-    Some((major.parse().ok()?, minor.parse().ok()?))
+/// The version in a symbol's: `GLIBC_2.17`; others are not glibc's.
+fn glibc_of(version: &[u8]) -> Option<Glibc> {
+    str::from_utf8(version).ok()?.strip_prefix("GLIBC_")?.parse().ok()
 }
 
 #[cfg(test)]
@@ -128,10 +138,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn versions_of_glibc_are_numbers() {
-        assert_eq!(glibc_version("GLIBC_2.2.5"), Some((2, 2)));
-        assert_eq!(glibc_version("GLIBC_2.33"), Some((2, 33)));
-        assert_eq!(glibc_version("GCC_3.0"), None);
+    fn versions_count_part_by_part() {
+        let version = |major, minor| Some(Glibc { major, minor });
+        assert_eq!(glibc_of(b"GLIBC_2.2.5"), version(2, 2));
+        assert_eq!(glibc_of(b"GLIBC_2.33"), version(2, 33));
+        assert!(glibc_of(b"GLIBC_2.4") < glibc_of(b"GLIBC_2.17"));
+        assert_eq!((glibc_of(b"GLIBC_PRIVATE"), glibc_of(b"GCC_3.0")), (None, None));
+        assert!("two".parse::<Glibc>().unwrap_err().contains("like 2.17"));
     }
 
     #[test]
@@ -141,7 +154,7 @@ mod tests {
         if cfg!(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu")) {
             assert_eq!(binary.platform, Some("linux64"));
             assert!(binary.needs.iter().any(|name| name.starts_with("libc.so")), "{binary:?}");
-            assert!(binary.glibc >= Some((2, 2)), "{binary:?}");
+            assert!(binary.glibc >= "2.2.5".parse().ok(), "{binary:?}");
         }
         assert!(Binary::parse(b"no library").unwrap_err().contains("no shared library"));
     }
