@@ -21,6 +21,9 @@ const TIMING: f64 = 4e-4;
 /// Time over which the velocity at a section's start is guessed from a measured position, in seconds.
 const RATE: f64 = 0.02;
 
+/// A parameter that must not be zero is looked for within this factor of the data sheet's.
+const AROUND: f64 = 20.0;
+
 /// Something that is added to the starting model.
 #[derive(Clone, Copy, Debug)]
 pub enum Term {
@@ -173,7 +176,11 @@ impl World<'_> {
         let mut coordinates: Vec<Coordinate> = Vec::new();
         for index in self.rig.base() {
             let (declared, value) = (&plant.parameters[index], self.rig.parameters[index]);
-            let bounds = (declared.min.unwrap_or(f64::NEG_INFINITY), declared.max.unwrap_or(f64::INFINITY));
+            let (low, high) =
+                (declared.min.unwrap_or(f64::NEG_INFINITY), declared.max.unwrap_or(f64::INFINITY));
+            // Near zero, what must not be zero makes equations that nothing can integrate.
+            let bounds =
+                if low > 0.0 { (low.max(value / AROUND), high.min(value * AROUND)) } else { (low, high) };
             let known = self.known.iter().find(|(of, _, _)| *of == index);
             if self.held.contains(&index) {
                 continue;

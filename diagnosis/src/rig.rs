@@ -241,18 +241,16 @@ impl Rig {
         ["position", "height"].into_iter().find_map(|of| self.plant.input(&format!("{group}{of}")))
     }
 
-    /// Indices of the parameters that are fitted first: those of the data sheet, and how much there is of each effect
-    /// that the rig has already.
+    /// Indices of the parameters that are fitted first: those of the data sheet, and all of each effect that the rig has
+    /// already. How wide its friction's transition is counts among them: who holds it finds its error elsewhere.
     pub fn base(&self) -> Vec<usize> {
         let names = self.kind.base.iter().chain(self.driven().map_or(&[][..], |it| it.base));
         let mut base: Vec<usize> = names.filter_map(|name| self.plant.parameter(name)).collect();
         for cause in catalogue::causes(&self.plant) {
-            if let Some(part) = cause.parts.first()
-                && let Some(index) = self.plant.parameter(part.parameter)
-                && self.parameters[index] != 0.0
-                && !base.contains(&index)
-            {
-                base.push(index);
+            let parts = || cause.parts.iter().filter_map(|part| self.plant.parameter(part.parameter));
+            if parts().next().is_some_and(|amount| self.parameters[amount] != 0.0) {
+                let more: Vec<usize> = parts().filter(|index| !base.contains(index)).collect();
+                base.extend(more);
             }
         }
         base
