@@ -3,7 +3,6 @@
 use std::fmt::Write;
 use std::io::Write as _;
 use std::process::ExitCode;
-use std::time::Duration;
 
 use serde_json::{Value, json};
 use strut_check::{Finding, Fmpy, Level, Options, Report};
@@ -25,7 +24,7 @@ pub fn check(arguments: &CheckArguments) -> ExitCode {
             None => Fmpy::Found,
         },
         run: !arguments.no_run,
-        timeout: Duration::try_from_secs_f64(arguments.timeout).unwrap_or(Duration::from_secs(30)),
+        timeout: arguments.timeout,
         program,
     };
     let (mut code, mut list) = (0, Vec::new());

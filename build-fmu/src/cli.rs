@@ -1,6 +1,8 @@
 //! The command line.
 
 use std::path::PathBuf;
+#[cfg(feature = "tools")]
+use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
 
@@ -169,12 +171,19 @@ pub struct CheckArguments {
     pub strict: bool,
 
     /// Seconds that each run may take
-    #[arg(long, value_name = "SECONDS", default_value_t = 30.0)]
-    pub timeout: f64,
+    #[arg(long, value_name = "SECONDS", default_value = "30", value_parser = seconds)]
+    pub timeout: Duration,
 
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+}
+
+#[cfg(feature = "tools")]
+fn seconds(text: &str) -> Result<Duration, String> {
+    let number: f64 = text.parse().map_err(|_| "it is no number".to_owned())?;
+    let some = Duration::try_from_secs_f64(number).ok().filter(|it| !it.is_zero());
+    some.ok_or_else(|| "a run takes some seconds: give a number above zero".to_owned())
 }
 
 /// Models, sets and systems besides those that come along.

@@ -40,6 +40,7 @@ impl Theirs {
         let mut archive = ZipArchive::new(Cursor::new(&bytes)).map_err(|error| no_fmu(&error))?;
         let mut platforms: Vec<String> =
             archive.file_names().filter_map(|name| platform_of(&name.ok()?)).collect();
+        platforms.sort();
         platforms.dedup();
         let mut xml = String::new();
         archive
