@@ -180,6 +180,9 @@ pub struct Truth {
     pub base: Vec<Value>,
     /// Deviation of each column's noise.
     pub noise: Vec<Value>,
+    /// Root mean square of what is left of each column of the held-out records by who knows the parameters, the effects
+    /// and what drove the rig, but nothing of the clutter.
+    pub oracle: Vec<Value>,
 }
 
 /// A case's data.

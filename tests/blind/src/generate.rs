@@ -27,7 +27,7 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
     let base = true_base(&start, case.nominal_off, &mut Random::new(case.seed, "base"));
     let plain = Rig::new(case.plant, &base);
     let (train, test) = excitations(case, &plain);
-    let mut rig = plain.clone();
+    let (mut rig, mut oracle) = (plain.clone(), plain.clone());
     let sizing = Sizing::new(case, &plain, &train);
     if case.clutter > 0 {
         let level = f64::from(case.clutter);
@@ -37,15 +37,44 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
     let mut effects = vec![];
     for number in 0..case.effects.len() {
         let (present, values) = sizing.present(number)?;
-        rig.put_in(Entry::find(&present.id)?, &values, &present.signal)?;
+        for rig in [&mut rig, &mut oracle] {
+            rig.put_in(Entry::find(&present.id)?, &values, &present.signal)?;
+        }
         effects.push(present);
     }
     let noise = set_noise(case, &mut rig, &train);
     let tables = |all: &[Excitation], purpose: &str| {
         all.iter().map(|excitation| table(case, &rig, excitation, purpose)).collect()
     };
-    let (train, test) = (tables(&train, "train"), tables(&test, "test"));
-    Ok(Generated { train, test, start, truth: Truth { case: case.clone(), effects, base, noise } })
+    let foreseen: Vec<Columns> = test.iter().map(|it| foreseen(case, &oracle, it)).collect();
+    let (train, test): (Vec<Table>, Vec<Table>) = (tables(&train, "train"), tables(&test, "test"));
+    let oracle = left(&test, &foreseen);
+    Ok(Generated { train, test, start, truth: Truth { case: case.clone(), effects, base, noise, oracle } })
+}
+
+/// What a rig shows.
+fn foreseen(case: &Case, rig: &Rig, excitation: &Excitation) -> Columns {
+    let motion = rig.run(&excitation.road, &excitation.force, case.duration);
+    rig.measured(case, &motion, "oracle")
+}
+
+/// Root mean square of what was not foreseen of each column, over all records.
+fn left(records: &[Table], foreseen: &[Columns]) -> Vec<Value> {
+    let columns = foreseen.first().map_or(&[][..], |it| it.as_slice()).iter().enumerate();
+    let of = |number: usize, name: &str| -> Vec<f64> {
+        let both = records
+            .iter()
+            .zip(foreseen)
+            .filter_map(|(table, all)| Some((table.column(name)?, &all[number].2)));
+        both.flat_map(|(seen, foreseen)| seen.iter().zip(foreseen).map(|(a, b)| a - b)).collect()
+    };
+    columns
+        .map(|(number, (name, unit, _))| Value {
+            name: name.clone(),
+            unit: unit.clone(),
+            value: rms(&of(number, name)),
+        })
+        .collect()
 }
 
 fn check(case: &Case) -> Result<(), String> {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use serde::Deserialize;
 
-use crate::case::{Present, Truth};
+use crate::case::{Present, Truth, Value};
 use crate::catalogue::Place;
 
 /// What of `report.json` is judged.
@@ -19,6 +19,9 @@ pub struct Report {
     /// Parameters of the starting model.
     #[serde(default)]
     pub base_parameters: Vec<Fitted>,
+    /// Errors on the held-out data.
+    #[serde(default)]
+    pub signals: Vec<Signal>,
     /// A cause without a name.
     #[serde(default)]
     pub unnamed: Option<Unnamed>,
@@ -46,25 +49,39 @@ pub struct Named {
     pub ambiguous_with: Vec<String>,
 }
 
-/// A parameter's interval.
+/// A parameter's interval; an end that could not be determined is none.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Interval {
     /// As in the FMU, or `signal.gain`.
     pub name: String,
     /// Lower end.
-    pub low: f64,
+    pub low: Option<f64>,
     /// Upper end.
-    pub high: f64,
+    pub high: Option<f64>,
 }
 
 /// A parameter of the starting model.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Fitted {
-    /// As in the FMU.
-    pub name: String,
+    /// With its interval.
+    #[serde(flatten)]
+    pub interval: Interval,
     /// Whether it is said to be another one.
     #[serde(default)]
     pub mismatch: bool,
+}
+
+/// The error of one signal on the held-out data; what could not be determined is none.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Signal {
+    /// As in the FMU.
+    pub name: String,
+    /// 1 − rms(e)/rms(z) of the extended model.
+    pub phi_after: Option<f64>,
+    /// Root mean square of the error of the starting model with fitted parameters.
+    pub rms_fitted: Option<f64>,
+    /// The same of the extended model.
+    pub rms_after: Option<f64>,
 }
 
 /// A cause without a name.
@@ -135,6 +152,11 @@ pub struct Score {
     pub sensor_or_plant: Option<bool>,
     /// How many 95 % intervals of rightly named effects cover the truth, of how many.
     pub covered: (usize, usize),
+    /// How many of the base parameters' cover it, where all that is there is named.
+    pub base_covered: (usize, usize),
+    /// The rise of Φ on the held-out data, summed over the signals, and that of an oracle which knows parameters and
+    /// effects; none if there are no effects with a name.
+    pub gained: Option<(f64, f64)>,
     /// How long the diagnosis took.
     pub seconds: f64,
 }
@@ -173,6 +195,8 @@ pub fn score(truth: &Truth, report: &str) -> Result<Score, String> {
         variable_right: variable.map(|name| effects.iter().any(|effect| effect.variable == *name)),
         sensor_or_plant: found.map(|_| sensors.contains(&said_sensor)),
         covered: coverage(&report, effects),
+        base_covered: if outcome == Outcome::Correct { base_coverage(&report, truth) } else { (0, 0) },
+        gained: (!effects.is_empty() && !out_of_catalogue).then(|| gained(&report, truth)),
         seconds: report.seconds,
     })
 }
@@ -214,7 +238,10 @@ fn is_named(effect: &Present, named: &Named) -> bool {
 /// and steps, flat tops and holes in a signal are found before any model is fitted.
 fn is_known_otherwise(effect: &Present, report: &Report) -> bool {
     match number(&effect.id) {
-        "21" => report.base_parameters.iter().any(|fitted| fitted.name == "tire.damping" && fitted.mismatch),
+        "21" => report
+            .base_parameters
+            .iter()
+            .any(|fitted| fitted.interval.name == "tire.damping" && fitted.mismatch),
         "37" | "38" => report.data_problems.iter().any(|problem| problem.signal == effect.signal),
         _ => false,
     }
@@ -283,14 +310,42 @@ fn coverage(report: &Report, effects: &[Present]) -> (usize, usize) {
     let mut covered = (0, 0);
     for effect in effects {
         let Some(named) = report.effects.iter().find(|named| is_named(effect, named)) else { continue };
-        for value in &effect.parameters {
-            if let Some(interval) = named.parameters.iter().find(|interval| interval.name == value.name) {
-                covered.1 += 1;
-                covered.0 += usize::from((interval.low..=interval.high).contains(&value.value));
-            }
-        }
+        count(&mut covered, &named.parameters, &effect.parameters);
     }
     covered
+}
+
+fn base_coverage(report: &Report, truth: &Truth) -> (usize, usize) {
+    let intervals: Vec<Interval> = report.base_parameters.iter().map(|it| it.interval.clone()).collect();
+    let mut covered = (0, 0);
+    count(&mut covered, &intervals, &truth.base);
+    covered
+}
+
+/// Counts the intervals that cover, and all.
+fn count(covered: &mut (usize, usize), intervals: &[Interval], truth: &[Value]) {
+    for value in truth {
+        let interval = intervals.iter().find(|interval| interval.name == value.name);
+        if let Some((low, high)) = interval.and_then(|it| it.low.zip(it.high)) {
+            covered.1 += 1;
+            covered.0 += usize::from((low..=high).contains(&value.value));
+        }
+    }
+}
+
+/// The rise of Φ that the extended model brings, and the oracle's.
+fn gained(report: &Report, truth: &Truth) -> (f64, f64) {
+    let mut gained = (0.0, 0.0);
+    for signal in &report.signals {
+        let oracle = truth.oracle.iter().find(|value| value.name == signal.name);
+        let known = signal.phi_after.zip(signal.rms_fitted.zip(signal.rms_after));
+        if let (Some(oracle), Some((phi, (fitted, after)))) = (oracle, known) {
+            let size = after / (1.0 - phi);
+            gained.0 += (fitted - after) / size;
+            gained.1 += (fitted - oracle.value) / size;
+        }
+    }
+    gained
 }
 
 /// Wilson's 95 % interval of a share.
@@ -338,8 +393,21 @@ pub fn markdown(scores: &[Score]) -> String {
     let place = |score: &Score| score.location_right == Some(true) && score.variable_right == Some(true);
     row("out of catalogue: location and variable right", "≥ 85 %", &mut unnamed().map(place));
     row("sensor or plant", "≥ 95 %", &mut scores.iter().filter_map(|score| score.sensor_or_plant));
-    let intervals = scores.iter().flat_map(|score| (0..score.covered.1).map(|k| k < score.covered.0));
-    row("95 % intervals that cover", "90–98 %", &mut intervals.collect::<Vec<_>>().into_iter());
+    let each = |(hits, of): (usize, usize)| (0..of).map(move |k| k < hits);
+    row("95 % intervals that cover", "90–98 %", &mut scores.iter().flat_map(|score| each(score.covered)));
+    let base = scores.iter().flat_map(|score| each(score.base_covered));
+    row("the same of base parameters", "90–98 %", &mut { base });
+    let gains: Vec<(f64, f64)> = scores.iter().filter_map(|score| score.gained).collect();
+    let (gained, oracle) = gains.iter().fold((0.0, 0.0), |sum, it| (sum.0 + it.0, sum.1 + it.1));
+    if oracle > 0.0 {
+        let percent = 100.0 * gained / oracle;
+        writeln!(
+            text,
+            "| Φ gained on held-out data, of an oracle's | ≥ 90 % | {percent:.1} % | {} | – |",
+            gains.len()
+        )
+        .expect("a string takes everything");
+    }
     if !scores.is_empty() {
         let mean = scores.iter().map(|score| score.seconds).sum::<f64>() / scores.len() as f64;
         writeln!(text, "\nMean time of a diagnosis: {mean:.1} s.").expect("a string takes everything");

@@ -51,6 +51,24 @@ fn the_sum_of_the_forces_is_in_the_record() {
     }
 }
 
+/// Who knows all but the clutter misses the noise, and with clutter more.
+#[test]
+fn an_oracle_leaves_the_noise_and_the_clutter() {
+    let oracle = |clutter| {
+        let truth = generate(&Case { clutter, ..short(vec![Hidden::new("01")]) }).unwrap().truth;
+        truth
+            .oracle
+            .iter()
+            .zip(&truth.noise)
+            .map(|(left, noise)| left.value / noise.value)
+            .collect::<Vec<f64>>()
+    };
+    let (without, with) = (oracle(0), oracle(1));
+    assert!(without.iter().all(|ratio| (ratio - 1.0).abs() < 0.05), "{without:?}");
+    // The deflection, and not the road.
+    assert!(with[4] > 3.0 && with[0] < 1.05, "{with:?}");
+}
+
 #[test]
 fn the_standstill_shows_the_noise_that_was_asked_for() {
     let made = generate(&Case { duration: 20.0, ..short(vec![]) }).unwrap();

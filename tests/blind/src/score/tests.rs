@@ -12,7 +12,14 @@ fn truth(effects: &[(&str, Place, &str)]) -> Truth {
         ratio: None,
     };
     let case = Case::standard("test", vec![], 1);
-    Truth { case, effects: effects.iter().map(present).collect(), base: vec![], noise: vec![] }
+    let value = |name: &str, unit: &str, value| Value { name: name.into(), unit: unit.into(), value };
+    Truth {
+        case,
+        effects: effects.iter().map(present).collect(),
+        base: vec![value("sprung_mass", "kg", 95.0), value("unsprung_mass", "kg", 24.0)],
+        noise: vec![],
+        oracle: vec![value("wheel.force", "N", 10.0)],
+    }
 }
 
 fn named(effects: &[(&str, &str, &[&str])]) -> String {
@@ -91,6 +98,29 @@ fn intervals_are_counted_for_rightly_named_effects() {
     let covered = |report: &str| score(&truth(&[FRICTION]), report).unwrap().covered;
     assert_eq!(covered(&named(&[("01", "strut", &[])])), (1, 1));
     assert_eq!(covered(&named(&[("16", "guide", &[])])), (0, 0));
+}
+
+#[test]
+fn base_parameters_are_judged_where_the_causes_are_right() {
+    let report = |id: &str| {
+        let mass = |name: &str| serde_json::json!({"name": name, "low": 94.0, "high": 96.0});
+        let force = serde_json::json!({"name": "wheel.force", "phi_after": 0.8, "rms_fitted": 50.0, "rms_after": 20.0});
+        serde_json::json!({
+            "verdict": "named", "effects": [{"id": id, "element": "strut"}], "signals": [force],
+            "base_parameters": [mass("sprung_mass"), mass("unsprung_mass")],
+        })
+        .to_string()
+    };
+    let right = score(&truth(&[FRICTION]), &report("01")).unwrap();
+    assert_eq!(right.base_covered, (1, 2));
+    // Of a signal of 100 N, 50 N were left, then 20 N; the oracle leaves 10 N.
+    let (gained, oracle) = right.gained.unwrap();
+    assert!((gained - 0.3).abs() < 1e-12 && (oracle - 0.4).abs() < 1e-12, "{gained} {oracle}");
+    assert!(
+        markdown(&[right])
+            .contains("| Φ gained on held-out data, of an oracle's | ≥ 90 % | 75.0 % | 1 | – |")
+    );
+    assert_eq!(score(&truth(&[FRICTION]), &report("16")).unwrap().base_covered, (0, 0));
 }
 
 /// Newcombe (1998), table I: 81 of 263 and 0 of 20.
