@@ -1,106 +1,15 @@
 //! What a diagnosis made of a case.
 
-use std::collections::BTreeMap;
-use std::fmt::Write;
-
-use serde::Deserialize;
+mod report;
+mod table;
+#[cfg(test)]
+mod tests;
 
 use crate::case::{Present, Truth, Value};
 use crate::catalogue::Place;
 
-/// What of `report.json` is judged.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Report {
-    /// `no_effect`, `named`, …
-    pub verdict: String,
-    /// In the order of their gain.
-    #[serde(default)]
-    pub effects: Vec<Named>,
-    /// Parameters of the starting model.
-    #[serde(default)]
-    pub base_parameters: Vec<Fitted>,
-    /// Errors on the held-out data.
-    #[serde(default)]
-    pub signals: Vec<Signal>,
-    /// A cause without a name.
-    #[serde(default)]
-    pub unnamed: Option<Unnamed>,
-    /// What is wrong with the data.
-    #[serde(default)]
-    pub data_problems: Vec<Problem>,
-    /// How long it took.
-    #[serde(default)]
-    pub seconds: f64,
-}
-
-/// A cause that was named.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Named {
-    /// Number in the catalogue.
-    pub id: String,
-    /// Where it sits: an element or a signal.
-    #[serde(default)]
-    pub element: String,
-    /// With intervals.
-    #[serde(default)]
-    pub parameters: Vec<Interval>,
-    /// Numbers, each perhaps with a place.
-    #[serde(default)]
-    pub ambiguous_with: Vec<String>,
-}
-
-/// A parameter's interval; an end that could not be determined is none.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Interval {
-    /// As in the FMU, or `signal.gain`.
-    pub name: String,
-    /// Lower end.
-    pub low: Option<f64>,
-    /// Upper end.
-    pub high: Option<f64>,
-}
-
-/// A parameter of the starting model.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Fitted {
-    /// With its interval.
-    #[serde(flatten)]
-    pub interval: Interval,
-    /// Whether it is said to be another one.
-    #[serde(default)]
-    pub mismatch: bool,
-}
-
-/// The error of one signal on the held-out data; what could not be determined is none.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Signal {
-    /// As in the FMU.
-    pub name: String,
-    /// 1 − rms(e)/rms(z) of the extended model.
-    pub phi_after: Option<f64>,
-    /// Root mean square of the error of the starting model with fitted parameters.
-    pub rms_fitted: Option<f64>,
-    /// The same of the extended model.
-    pub rms_after: Option<f64>,
-}
-
-/// A cause without a name.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Unnamed {
-    /// Where it acts.
-    pub location: String,
-    /// Over which variable.
-    #[serde(default)]
-    pub variable: String,
-}
-
-/// Something wrong with the data.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Problem {
-    /// The signal.
-    #[serde(default)]
-    pub signal: String,
-}
+pub use report::{Fitted, Interval, Named, Problem, Report, Signal, Unnamed};
+pub use table::{confusion, markdown, wilson};
 
 /// How a case came out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -292,7 +201,7 @@ fn outcome(report: &Report, effects: &[Present]) -> Outcome {
             .iter()
             .any(|e| is_named(e, named) || named.ambiguous_with.iter().any(|text| is_meant(e, text)))
     };
-    let strangers = !report.effects.iter().all(belongs);
+    let strangers = report.unnamed.is_some() || !report.effects.iter().all(belongs);
     match choices.iter().max() {
         None if report.unnamed.is_some() && report.effects.is_empty() => Outcome::Unnamed,
         None if report.effects.is_empty() => Outcome::Missed,
@@ -347,89 +256,3 @@ fn gained(report: &Report, truth: &Truth) -> (f64, f64) {
     }
     gained
 }
-
-/// Wilson's 95 % interval of a share.
-pub fn wilson(hits: usize, of: usize) -> (f64, f64) {
-    if of == 0 {
-        return (0.0, 1.0);
-    }
-    let (n, z) = (of as f64, 1.959_963_985);
-    let share = hits as f64 / n;
-    let middle = share + z * z / (2.0 * n);
-    let half = z * (share * (1.0 - share) / n + z * z / (4.0 * n * n)).sqrt();
-    let scale = 1.0 + z * z / n;
-    (((middle - half) / scale).max(0.0), ((middle + half) / scale).min(1.0))
-}
-
-/// The table of targets and the confusion matrix, as Markdown.
-pub fn markdown(scores: &[Score]) -> String {
-    let mut text = "| figure | wanted | seen | cases | 95 % interval |\n|---|---|---|---|---|\n".to_owned();
-    let mut row = |name: &str, wanted: &str, judged: &mut dyn Iterator<Item = bool>| {
-        let all: Vec<bool> = judged.collect();
-        let hits = all.iter().filter(|hit| **hit).count();
-        let (low, high) = wilson(hits, all.len());
-        let (seen, interval) = if all.is_empty() {
-            ("–".to_owned(), "–".to_owned())
-        } else {
-            let percent = 100.0 * hits as f64 / all.len() as f64;
-            (format!("{percent:.1} %"), format!("{:.1}–{:.1} %", 100.0 * low, 100.0 * high))
-        };
-        writeln!(text, "| {name} | {wanted} | {seen} | {hits}/{} | {interval} |", all.len())
-            .expect("a string takes everything");
-    };
-    let single = || scores.iter().filter(|score| score.effects == 1 && !score.out_of_catalogue);
-    let without = |clutter| scores.iter().filter(move |score| score.effects == 0 && score.clutter == clutter);
-    let unnamed = || scores.iter().filter(|score| score.out_of_catalogue);
-    let good = |score: &Score| matches!(score.outcome, Outcome::Correct | Outcome::OneOfTwo);
-    let alarm = |score: &Score| score.outcome == Outcome::FalseAlarm;
-    row("correct, or one of two", "≥ 95 %", &mut single().map(good));
-    row("first name right", "≥ 95 %", &mut single().filter_map(|score| score.first_right));
-    row("false alarms without clutter", "≤ 1 %", &mut without(false).map(alarm));
-    row("false alarms with clutter", "≤ 5 %", &mut without(true).map(alarm));
-    let pairs = scores.iter().filter(|score| score.effects == 2);
-    row("pairs: exact set", "≥ 80 %", &mut pairs.map(good));
-    let wrong = |score: &Score| score.outcome == Outcome::WrongName;
-    row("out of catalogue: falsely named", "≤ 5 %", &mut unnamed().map(wrong));
-    let place = |score: &Score| score.location_right == Some(true) && score.variable_right == Some(true);
-    row("out of catalogue: location and variable right", "≥ 85 %", &mut unnamed().map(place));
-    row("sensor or plant", "≥ 95 %", &mut scores.iter().filter_map(|score| score.sensor_or_plant));
-    let each = |(hits, of): (usize, usize)| (0..of).map(move |k| k < hits);
-    row("95 % intervals that cover", "90–98 %", &mut scores.iter().flat_map(|score| each(score.covered)));
-    let base = scores.iter().flat_map(|score| each(score.base_covered));
-    row("the same of base parameters", "90–98 %", &mut { base });
-    let gains: Vec<(f64, f64)> = scores.iter().filter_map(|score| score.gained).collect();
-    let (gained, oracle) = gains.iter().fold((0.0, 0.0), |sum, it| (sum.0 + it.0, sum.1 + it.1));
-    if oracle > 0.0 {
-        let percent = 100.0 * gained / oracle;
-        writeln!(
-            text,
-            "| Φ gained on held-out data, of an oracle's | ≥ 90 % | {percent:.1} % | {} | – |",
-            gains.len()
-        )
-        .expect("a string takes everything");
-    }
-    if !scores.is_empty() {
-        let mean = scores.iter().map(|score| score.seconds).sum::<f64>() / scores.len() as f64;
-        writeln!(text, "\nMean time of a diagnosis: {mean:.1} s.").expect("a string takes everything");
-    }
-    text + "\n" + &confusion(scores)
-}
-
-/// Which truth was called what, most frequent names first.
-pub fn confusion(scores: &[Score]) -> String {
-    let mut table: BTreeMap<&str, BTreeMap<&str, usize>> = BTreeMap::new();
-    for score in scores {
-        *table.entry(&score.truth).or_default().entry(&score.first).or_default() += 1;
-    }
-    let mut text = "| truth | called first (times) |\n|---|---|\n".to_owned();
-    for (truth, called) in table {
-        let mut called: Vec<(&str, usize)> = called.into_iter().collect();
-        called.sort_by_key(|(_, times)| std::cmp::Reverse(*times));
-        let called: Vec<String> = called.iter().map(|(name, times)| format!("{name} ({times})")).collect();
-        writeln!(text, "| {truth} | {} |", called.join(", ")).expect("a string takes everything");
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests;

@@ -75,6 +75,19 @@ fn a_sensor_is_told_by_its_signal() {
 }
 
 #[test]
+fn a_curve_beside_what_is_there_is_too_much() {
+    let damping = ("21", Place::Tire, "");
+    let report = |unnamed: &str| {
+        format!(
+            r#"{{"verdict": "parameter_mismatch", {unnamed}
+            "base_parameters": [{{"name": "tire.damping", "low": 60, "high": null, "mismatch": true}}]}}"#
+        )
+    };
+    assert_eq!(came_out(&[damping], &report("")), Outcome::Correct);
+    assert_eq!(came_out(&[damping], &report(r#""unnamed": {"location": "strut"},"#)), Outcome::TooMany);
+}
+
+#[test]
 fn nothing_is_there() {
     assert_eq!(came_out(&[], r#"{"verdict": "no_effect"}"#), Outcome::Correct);
     assert_eq!(came_out(&[], r#"{"verdict": "parameter_mismatch"}"#), Outcome::Correct);
