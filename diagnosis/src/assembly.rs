@@ -23,6 +23,10 @@ const MISMATCH: f64 = 0.03;
 const SAME: f64 = 0.05;
 /// Φ of the best signal on held-out data below which nothing is to be believed.
 const INADEQUATE: f64 = 0.2;
+/// Share of a signal's error power on held-out data that the causes have to explain of one signal, to be told by name …
+const EXPLAINED: f64 = 0.6;
+/// … unless so much of Φ is reached all the same, as a mean over the signals.
+const ADEQUATE: f64 = 0.8;
 
 impl Diagnosis<'_> {
     /// Everything that is told.
@@ -30,21 +34,27 @@ impl Diagnosis<'_> {
         let world = &self.world;
         let (signals, starts) = self.signals();
         let base_parameters = self.base_parameters();
-        let named: Vec<&Accepted> =
-            self.found.accepted.iter().filter(|it| !matches!(it.term, Term::Table(_))).collect();
-        let unnamed = self.found.accepted.iter().find_map(|it| match it.term {
+        let accepted = self.found.accepted.iter().chain(&self.rooted);
+        let named: Vec<&Accepted> = accepted.filter(|it| !matches!(it.term, Term::Table(_))).collect();
+        let mut unnamed = self.found.accepted.iter().find_map(|it| match it.term {
             Term::Table(table) => Some(self.curve(table)),
             Term::Cause(_) | Term::Fault(_) => None,
         });
         let mut effects: Vec<Effect> = named.iter().map(|it| self.effect(it)).collect();
-        effects.extend(self.rooted.iter().map(|(cause, evidence)| {
-            self.effect(&Accepted { term: Term::Cause(cause), evidence: *evidence, rivals: Vec::new() })
-        }));
+        let mut nearest = Vec::new();
+        if let Some(first) = named.first()
+            && unnamed.is_none()
+            && self.rooted.is_empty()
+            && explains_too_little(&signals)
+        {
+            unnamed = Some(self.place(first.term));
+            nearest = std::mem::take(&mut effects);
+        }
         let sensors = named.iter().filter(|it| name(it.term, &world.rig.plant).sensor).count();
         let best = signals.iter().map(|signal| signal.phi_after).fold(f64::NEG_INFINITY, f64::max);
         let verdict = if best < INADEQUATE {
             Verdict::ModelInadequate
-        } else if matches!(self.found.accepted.first().map(|it| it.term), Some(Term::Table(_))) {
+        } else if unnamed.is_some() && effects.is_empty() {
             Verdict::Unnamed
         } else if effects.iter().any(|effect| !effect.ambiguous_with.is_empty()) {
             Verdict::Ambiguous
@@ -64,13 +74,14 @@ impl Diagnosis<'_> {
             train: world.train.iter().map(|record| record.name.clone()).collect(),
             test: world.test.iter().map(|record| record.name.clone()).collect(),
             verdict,
-            summary: summary(verdict, &effects, &base_parameters, unnamed.as_ref(), &signals),
+            summary: summary(verdict, &effects, &base_parameters, unnamed.as_ref(), &nearest, &signals),
             effects,
             base_parameters,
             pictures: self.pictures(),
             signals,
             starts,
             unnamed,
+            nearest,
             experiment,
             data_problems,
             candidates: self.candidates(),
@@ -136,10 +147,12 @@ impl Diagnosis<'_> {
     fn signals(&self) -> (Vec<Signal>, Vec<Start>) {
         let world = &self.world;
         let extended = &self.found.extended;
+        let hidden = self.rooted.iter().map(|it| it.term);
+        let terms: Vec<Term> = extended.terms.iter().copied().chain(hidden).collect();
         let all = (
             self.measured(&[], &self.before),
             self.measured(&[], &self.found.base.point),
-            self.measured(&extended.terms, &extended.point),
+            self.measured(&terms, &extended.point),
         );
         let (Some((_, before)), Some((_, fitted)), Some((point, after))) = all else {
             return (Vec::new(), Vec::new());
@@ -204,30 +217,38 @@ impl Diagnosis<'_> {
         }
     }
 
-    /// What a table is over, by the FMU's name where the FMU has it.
-    fn variable(&self, table: &Table) -> String {
-        let signals = self.world.rig.kind.elements.iter().find(|it| it.element == table.element);
-        let signal = signals.and_then(|it| match table.variable {
-            "velocity" => it.velocity,
-            _ => Some(it.deflection),
-        });
-        signal.unwrap_or(table.variable).to_owned()
+    /// An element's velocity or deflection, by the FMU's name where the FMU has it.
+    fn variable(&self, element: Element, over_velocity: bool) -> String {
+        let signals = self.world.rig.kind.elements.iter().find(|it| it.element == element);
+        let signal = signals.and_then(|it| if over_velocity { it.velocity } else { Some(it.deflection) });
+        signal.unwrap_or(if over_velocity { "velocity" } else { "deflection" }).to_owned()
     }
 
-    fn curve(&self, table: &Table) -> Curve {
+    /// Where something acts, and over what, if no more is known of it than a law that comes near.
+    fn place(&self, term: Term) -> Curve {
+        let (location, over_velocity) = match term {
+            Term::Cause(cause) => (Some(cause.element), cause.is_over_velocity()),
+            Term::Table(table) => (Some(table.element), table.is_over_velocity()),
+            Term::Fault(_) => (None, false),
+        };
+        let Some(element) = location else {
+            let signal = name(term, &self.world.rig.plant).element;
+            return Curve { location: signal.clone(), variable: signal, ..Curve::default() };
+        };
+        Curve {
+            location: element.name().into(),
+            variable: self.variable(element, over_velocity),
+            variable_unit: if over_velocity { "m/s" } else { "m" }.into(),
+            unit: "N".into(),
+            ..Curve::default()
+        }
+    }
+
+    fn curve(&self, table: &'static Table) -> Curve {
         let plant = &self.world.rig.plant;
         let fitted: &Fitted = &self.found.extended;
         let range = plant.parameter(table.range).map_or(0.0, |index| fitted.point.parameters[index]);
-        let mut curve = Curve {
-            location: table.element.name().into(),
-            variable: self.variable(table),
-            variable_unit: if table.variable == "velocity" { "m/s" } else { "m" }.into(),
-            unit: "N".into(),
-            x: Vec::new(),
-            y: Vec::new(),
-            low: Vec::new(),
-            high: Vec::new(),
-        };
+        let mut curve = self.place(Term::Table(table));
         for number in 1..=POINTS {
             let index = plant.parameter(&format!("{}[{number}]", table.points));
             let found = self.intervals.iter().find(|it| index.map(Handle::Parameter) == Some(it.handle));
@@ -281,6 +302,19 @@ impl Diagnosis<'_> {
     }
 }
 
+/// Whether the causes leave much of every signal's error: then they only come near to what is there.
+fn explains_too_little(signals: &[Signal]) -> bool {
+    let beyond_noise = |rms: f64, signal: &Signal| (rms.powi(2) - signal.noise_floor.powi(2)).max(0.0);
+    let left = |signal: &Signal| {
+        let (before, after) =
+            (beyond_noise(signal.rms_fitted, signal), beyond_noise(signal.rms_after, signal));
+        if before > 0.0 { after / before } else { 0.0 }
+    };
+    let least = signals.iter().map(left).fold(f64::INFINITY, f64::min);
+    let mean = signals.iter().map(|signal| signal.phi_after).sum::<f64>() / signals.len().max(1) as f64;
+    least > 1.0 - EXPLAINED && mean < ADEQUATE
+}
+
 /// Root mean square of the difference of the first two records with the same excitation, over √2: no model can do
 /// better than a repetition does.
 fn repeatability(records: &[Recorded], row: usize) -> Option<f64> {
@@ -312,6 +346,7 @@ fn summary(
     effects: &[Effect],
     base: &[BaseParameter],
     unnamed: Option<&Curve>,
+    nearest: &[Effect],
     signals: &[Signal],
 ) -> String {
     let changed: Vec<String> = base
@@ -353,8 +388,11 @@ fn summary(
             let place = unnamed.map_or_else(String::new, |curve| {
                 format!(" in the {} over {}", curve.location, curve.variable)
             });
-            let others = if effects.is_empty() { String::new() } else { format!(" Besides: {}.", list(effects)) };
-            format!("The model lacks a force{place} that has no name in the catalogue; its curve is given.{others}")
+            let known = match unnamed {
+                Some(curve) if curve.x.is_empty() => format!("nearest comes {}", list(nearest)),
+                _ => "its curve is given".to_owned(),
+            };
+            format!("The model lacks a force{place} that has no name in the catalogue; {known}.")
         }
         Verdict::ModelInadequate => {
             "The model explains too little of the held-out data for a cause to be looked for: check the rig, the \

@@ -27,6 +27,13 @@ pub struct Cause {
     pub experiment: &'static str,
 }
 
+impl Cause {
+    /// Whether its law is over the velocity of its element, not the deflection alone.
+    pub fn is_over_velocity(&self) -> bool {
+        self.parts.iter().any(|part| part.scale.velocity != 0)
+    }
+}
+
 /// Where a cause acts; its parameters are measured in that element's own forces and motions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Element {
@@ -142,6 +149,13 @@ pub struct Table {
     pub points: &'static str,
     /// Whether the variable is a deflection or a velocity.
     pub scale: Scale,
+}
+
+impl Table {
+    /// Whether it is over the velocity of its element.
+    pub fn is_over_velocity(&self) -> bool {
+        self.scale == Scale::VELOCITY
+    }
 }
 
 /// Every named cause that acts through a plant's parameters.

@@ -66,9 +66,10 @@ impl Errors<'_> {
     }
 }
 
-/// Number of independent samples: the sum of correlations ends where they first change their sign.
+/// Number of independent samples: the sum of correlations ends where they first change their sign. They are those of what
+/// varies about a straight line: an offset is as certain as the samples are many.
 fn effective_count(values: &[f64]) -> f64 {
-    let known: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    let known = about_a_line(values);
     let n = known.len();
     let variance: f64 = known.iter().map(|value| value * value).sum();
     if n < 4 || variance == 0.0 {
@@ -83,6 +84,23 @@ fn effective_count(values: &[f64]) -> f64 {
         sum += products / variance;
     }
     n as f64 / (1.0 + 2.0 * sum)
+}
+
+/// The known values about the straight line through them.
+fn about_a_line(values: &[f64]) -> Vec<f64> {
+    let known: Vec<(f64, f64)> = values
+        .iter()
+        .enumerate()
+        .filter(|(_, y)| y.is_finite())
+        .map(|(index, y)| (index as f64, *y))
+        .collect();
+    let n = known.len().max(1) as f64;
+    let (x_mean, y_mean) = known.iter().fold((0.0, 0.0), |sum, (x, y)| (sum.0 + x / n, sum.1 + y / n));
+    let (xx, xy) = known
+        .iter()
+        .fold((0.0, 0.0), |sum, (x, y)| (sum.0 + (x - x_mean).powi(2), sum.1 + (x - x_mean) * (y - y_mean)));
+    let slope = if xx > 0.0 { xy / xx } else { 0.0 };
+    known.iter().map(|(x, y)| y - y_mean - slope * (x - x_mean)).collect()
 }
 
 /// Student's t of the mean of values.
@@ -111,6 +129,8 @@ mod tests {
         let held: Vec<f64> = white.iter().take(2000).flat_map(|value| [*value; 10]).collect();
         assert!(effective_count(&white) > 15_000.0);
         assert!((effective_count(&held) / 2000.0 - 1.0).abs() < 0.2);
+        let drifting: Vec<f64> = white.iter().zip(0..).map(|(y, k)| y + 3.0 - 1e-4 * f64::from(k)).collect();
+        assert!((effective_count(&drifting) / effective_count(&white) - 1.0).abs() < 0.01);
     }
 
     #[test]

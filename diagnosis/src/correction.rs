@@ -7,7 +7,7 @@ pub enum Fault {
     Gain,
     /// Constant, in the signal's unit.
     Offset,
-    /// Growing constant, in the signal's unit per second.
+    /// How fast the offset grows, in the signal's unit per second.
     Drift,
     /// Time constant of a first-order lag in seconds.
     Lag,

@@ -2,9 +2,7 @@
 
 use std::ops::Range;
 
-use crate::catalogue::{self, Cause};
 use crate::correction::Fault;
-use crate::findings::Evidence;
 use crate::fit::{Handle, Point, Residuals};
 use crate::hypothesis::{Fitted, World};
 use crate::intervals::Interval;
@@ -13,7 +11,7 @@ use crate::plant::Drive;
 use crate::recorded::{Recorded, Source};
 use crate::rig::Rig;
 use crate::screening::{rms, typical};
-use crate::search::{Criterion, Found};
+use crate::search::{Accepted, Criterion, Found};
 
 /// Length of a short stretch of data in seconds, over which no model goes far astray.
 const SHOT: f64 = 1.0;
@@ -28,8 +26,8 @@ pub struct Diagnosis<'a> {
     pub before: Point,
     /// What was found.
     pub found: Found,
-    /// Causes that the starting model has already, in quite another size.
-    pub rooted: Vec<(&'static Cause, Evidence)>,
+    /// Causes that hide among the parameters that are fitted first.
+    pub rooted: Vec<Accepted>,
     /// How sure each coordinate of the extended model is.
     pub intervals: Vec<Interval>,
     /// Signals that had to be turned over before anything fitted.
@@ -112,37 +110,14 @@ pub fn diagnose<'a>(
         let all = outputs(&world, &base);
         typical(rig, train, &all)
     };
-    let found = world.search(base, progress)?;
-    let rooted = rooted(&mut world, &found)?;
+    let mut found = world.search(base, progress)?;
+    let mut rooted = world.rooted(&found)?;
+    if world.dwarfed(&mut found, &rooted)? {
+        rooted = world.rooted(&found)?;
+    }
     progress("comparing what each excitation says");
     let intervals = world.intervals(&found.extended)?;
     Ok(Diagnosis { world, measured, before, found, rooted, intervals, reversed })
-}
-
-/// Causes among the base parameters whose size differs from the starting model's by more than half, with what speaks
-/// for the difference.
-fn rooted(world: &mut World<'_>, found: &Found) -> Result<Vec<(&'static Cause, Evidence)>, String> {
-    let rig = world.rig;
-    let base = rig.base();
-    let mut rooted = Vec::new();
-    for cause in catalogue::causes(&rig.plant) {
-        let amount = cause.parts.first().and_then(|part| rig.plant.parameter(part.parameter));
-        let Some(index) = amount.filter(|index| base.contains(index)) else { continue };
-        let (before, after) = (rig.parameters[index], found.extended.point.parameters[index]);
-        if (after - before).abs() <= 0.5 * before.abs() {
-            continue;
-        }
-        world.held = vec![index];
-        let mut start = found.extended.point.clone();
-        start.parameters[index] = before;
-        let held = world.fitted(&found.extended.terms, &[start], Stop::NOISY);
-        world.held.clear();
-        let evidence = world.evidence(&found.base, &held?, &found.extended);
-        if evidence.refusal().is_none() {
-            rooted.push((cause, evidence));
-        }
-    }
-    Ok(rooted)
 }
 
 /// The base fit from where many short stretches lead, each with states of its own at the start: over a long stretch, a
@@ -159,18 +134,7 @@ fn shot(world: &World<'_>, start: &Point) -> Option<Fitted> {
         Recorded { sections: record.sections.iter().flat_map(pieces).collect(), ..record.clone() }
     };
     let train: Vec<Recorded> = world.train.iter().map(cut).collect();
-    let short = World {
-        train: &train,
-        test: &[],
-        typical: Vec::new(),
-        known: world.known.clone(),
-        held: Vec::new(),
-        only: Vec::new(),
-        criterion: world.criterion,
-        sigma: world.sigma.clone(),
-        floor: world.floor.clone(),
-        rig: world.rig,
-    };
+    let short = World { train: &train, test: &[], ..world.clone() };
     let starts = short.origin().starts;
     let near = short.fitted(&[], &[Point { starts, ..start.clone() }], Stop::NOISY).ok()?;
     let point = Point { starts: start.starts.clone(), ..near.point };

@@ -32,6 +32,8 @@ pub struct Findings {
     pub starts: Vec<Start>,
     /// A cause without a name.
     pub unnamed: Option<Curve>,
+    /// Laws that come nearest to a cause without a name, and explain too little to be it; the extended model holds them.
+    pub nearest: Vec<Effect>,
     /// What would settle doubts.
     pub experiment: Option<String>,
     /// What is wrong with the data.
@@ -61,6 +63,7 @@ impl Findings {
             signals: Vec::new(),
             starts: Vec::new(),
             unnamed: None,
+            nearest: Vec::new(),
             experiment: None,
             data_problems: problems,
             candidates: Vec::new(),
@@ -149,26 +152,29 @@ pub struct Evidence {
 /// Share of the error's power on held-out data that does not go by chance, however few the blocks are.
 const BY_FAR: f64 = 0.25;
 
-/// Student's t over the training data's blocks that is enough for what takes most of the error away: its gains are as
-/// uneven as the errors were, and t is small for all their size.
+/// Share of the error's power that no mixture of small effects takes away …
+const BULK: f64 = 0.7;
+
+/// … so that this Student's t over the training data's blocks is enough for it: its gains are as uneven as the errors
+/// were, and t is small for all their size.
 const STEADY: f64 = 2.0;
 
 impl Evidence {
     /// What has to be exceeded, in every gate. The information criterion alone is never the verdict: small unmodelled
     /// effects pass it on every record.
     ///
-    /// Of `phi_gain` and `taken`, one is enough: what takes most of the error away is no mixture of small effects.
+    /// Of `phi_gain` and `taken`, one is enough: what is large, or more than half of what is missing.
     pub const REQUIRED: Self =
-        Self { delta_bic: 20.0, block_t: 3.5, held_out_t: 3.0, explained: 0.01, phi_gain: 0.015, taken: 0.7 };
+        Self { delta_bic: 20.0, block_t: 3.5, held_out_t: 3.0, explained: 0.01, phi_gain: 0.05, taken: 0.55 };
 
     /// Whether it takes most of the error away, however small that is.
     pub fn takes_the_bulk(&self) -> bool {
-        self.taken > Self::REQUIRED.taken
+        self.taken > BULK
     }
 
     /// The first gate that is not passed, in words.
     pub fn refusal(&self) -> Option<String> {
-        let Self { delta_bic, block_t, held_out_t, explained, phi_gain, .. } = *self;
+        let Self { delta_bic, block_t, held_out_t, explained, phi_gain, taken } = *self;
         let passed = |found: f64, required: f64| found > required;
         let by_far = passed(explained, BY_FAR) && held_out_t > 0.0;
         if !passed(delta_bic, Self::REQUIRED.delta_bic) {
@@ -181,8 +187,11 @@ impl Evidence {
             Some(format!("no gain on held-out data (t = {held_out_t:.1})"))
         } else if !passed(explained, Self::REQUIRED.explained) {
             Some(format!("too small to matter ({:.1} % of the error)", 100.0 * explained))
-        } else if !(passed(phi_gain, Self::REQUIRED.phi_gain) || self.takes_the_bulk()) {
-            Some(format!("too small to matter (Φ rises by {phi_gain:.3})"))
+        } else if !(passed(phi_gain, Self::REQUIRED.phi_gain) || passed(taken, Self::REQUIRED.taken)) {
+            Some(format!(
+                "too small to matter (Φ rises by {phi_gain:.3}, {:.0} % of what was left goes)",
+                100.0 * taken
+            ))
         } else {
             None
         }
@@ -246,8 +255,8 @@ pub struct Start {
     pub states: BTreeMap<String, f64>,
 }
 
-/// A force, or another quantity, over a variable.
-#[derive(Clone, Debug, Serialize)]
+/// A force, or another quantity, over a variable; without points where it is only known to be there.
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Curve {
     /// Where it acts.
     pub location: String,

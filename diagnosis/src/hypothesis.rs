@@ -16,7 +16,7 @@ pub const POINTS: usize = 11;
 
 /// Standard deviation of a channel's timing in seconds: filters and multiplexers of any measurement make such delays,
 /// and they are no fault.
-const TIMING: f64 = 4e-4;
+pub const TIMING: f64 = 4e-4;
 
 /// Time over which the velocity at a section's start is guessed from a measured position, in seconds.
 const RATE: f64 = 0.02;
@@ -47,6 +47,7 @@ impl PartialEq for Term {
 }
 
 /// The world that hypotheses are about.
+#[derive(Clone)]
 pub struct World<'a> {
     /// The rig.
     pub rig: &'a Rig,
@@ -58,8 +59,8 @@ pub struct World<'a> {
     pub typical: Vec<(Element, Typical)>,
     /// What was known of parameters before: index, value, standard deviation.
     pub known: Vec<(usize, f64, f64)>,
-    /// Base parameters that are not fitted, to see what they are worth.
-    pub held: Vec<usize>,
+    /// What of the base fit is not fitted, to see what it is worth.
+    pub held: Vec<Handle>,
     /// Numbers of the causes that are looked at; none: all.
     pub only: Vec<String>,
     /// What decides whether a cause is named.
@@ -182,9 +183,6 @@ impl World<'_> {
             let bounds =
                 if low > 0.0 { (low.max(value / AROUND), high.min(value * AROUND)) } else { (low, high) };
             let known = self.known.iter().find(|(of, _, _)| *of == index);
-            if self.held.contains(&index) {
-                continue;
-            }
             // A data sheet is right within a factor of two or so, where the data do not know better; of what it does
             // not know it says zero.
             let sheet = (value != 0.0).then_some((value, value.abs()));
@@ -199,6 +197,7 @@ impl World<'_> {
                 prior: Some((0.0, TIMING)),
             });
         }
+        coordinates.retain(|coordinate| !self.held.contains(&coordinate.handle));
         for term in terms {
             for coordinate in self.own_coordinates(*term) {
                 match coordinates.iter_mut().find(|other| other.handle == coordinate.handle) {
@@ -239,7 +238,12 @@ impl World<'_> {
                     .collect()
             }
             Term::Fault(handle) => {
-                vec![Coordinate { handle, bounds: self.fault_bounds(handle), prior: None }]
+                let drift = match handle {
+                    Handle::Output(output, Fault::Offset) => Some(Handle::Output(output, Fault::Drift)),
+                    _ => None,
+                };
+                let of = |handle| Coordinate { handle, bounds: self.fault_bounds(handle), prior: None };
+                std::iter::once(handle).chain(drift).map(of).collect()
             }
         }
     }

@@ -89,8 +89,10 @@ fn of_fault(handle: Handle, plant: &Plant) -> Name {
     };
     let (what, equation, experiment) = match fault {
         Fault::Gain => ("gain", "(1 + gain) y", "weigh the masses, or turn the sensor over"),
-        Fault::Offset => ("offset", "y + offset", "record a standstill"),
-        Fault::Drift => ("drift", "y + drift t", "record a standstill of the same length"),
+        Fault::Offset | Fault::Drift if input => ("offset", "y + offset", "record a standstill"),
+        Fault::Offset | Fault::Drift => {
+            ("offset", "y + offset + drift t", "record a standstill of the same length")
+        }
         Fault::Lag => ("lag", "lag y' + y = y_true", "sweep to high frequencies"),
         Fault::Delay => ("delay", "y(t - delay)", "strike once and compare the signals' onsets"),
         Fault::Quadratic => ("curvature", "y + quadratic y^2", "calibrate with gauge blocks"),

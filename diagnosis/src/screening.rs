@@ -50,7 +50,8 @@ impl World<'_> {
         let Some(record) = self.train.first() else { return terms };
         for measured in &record.measured {
             let name = &plant.outputs[measured.output].name;
-            for fault in Fault::ALL {
+            // A drift is looked for with the offset that it starts from.
+            for fault in Fault::ALL.into_iter().filter(|fault| *fault != Fault::Drift) {
                 let bends = matches!(fault, Fault::Quadratic | Fault::Cubic);
                 if !bends || name.ends_with("deflection") {
                     terms.push(Term::Fault(Handle::Output(measured.output, fault)));

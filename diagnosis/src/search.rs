@@ -2,6 +2,7 @@
 
 mod bic;
 mod revise;
+mod rooted;
 mod weighing;
 
 use std::collections::BTreeSet;
@@ -9,7 +10,7 @@ use std::collections::BTreeSet;
 use rayon::prelude::*;
 
 use crate::findings::Evidence;
-use crate::fit::Handle;
+use crate::fit::{Handle, Point};
 use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
 use crate::screening::Screened;
@@ -88,12 +89,34 @@ impl World<'_> {
     fn tried(&self, base: &Fitted, null: &Fitted, screened: &Screened) -> Tried {
         let mut terms = null.terms.clone();
         terms.push(screened.term);
-        let fitted = self.fitted(&terms, &screened.starts, Stop::ROUGH);
+        let mut starts = screened.starts.clone();
+        starts.extend(self.with_the_sheet(null, screened));
+        let fitted = self.fitted(&terms, &starts, Stop::ROUGH);
         let (evidence, score) = match &fitted {
             Ok(fitted) => (self.evidence(base, null, fitted), self.score(null, fitted)),
             Err(_) => (Evidence::default(), f64::NEG_INFINITY),
         };
         Tried { term: screened.term, fitted, evidence, score }
+    }
+
+    /// Another start, with the data sheet's parameters, where those of the fit without the term have strayed: they have done
+    /// the missing cause's work as well as they could, and the way back from there is long.
+    fn with_the_sheet(&self, null: &Fitted, screened: &Screened) -> Option<Point> {
+        let sheet = null.coordinates.iter().filter_map(|it| match (it.handle, it.prior) {
+            (Handle::Parameter(_), Some((mean, deviation))) => Some((it.handle, mean, deviation)),
+            _ => None,
+        });
+        let strayed =
+            |(handle, mean, deviation): (Handle, f64, f64)| (null.point.get(handle) - mean).abs() > deviation;
+        if !sheet.clone().any(strayed) {
+            return None;
+        }
+        let own = self.own_coordinates(screened.term);
+        let mut point = screened.starts.first()?.clone();
+        for (handle, mean, _) in sheet.filter(|(handle, ..)| !own.iter().any(|it| it.handle == *handle)) {
+            point.set(handle, mean);
+        }
+        Some(point)
     }
 
     /// Those of the screened terms with a name that are worth a fit: what screens far below the best, or below what
@@ -147,8 +170,7 @@ impl World<'_> {
             let largest = found.accepted.iter().map(|it| it.evidence.phi_gain).fold(0.0, f64::max);
             let passes = |it: &Tried| {
                 let evidence = &it.evidence;
-                let beside = evidence.phi_gain > BESIDE * largest || evidence.takes_the_bulk();
-                evidence.refusal().is_none() && beside
+                evidence.refusal().is_none() && matters_beside(it.term, evidence, largest)
             };
             if !tried.iter().any(passes) {
                 let curves = self.curves(&found.base, &screened, 0.0);
@@ -214,6 +236,13 @@ impl World<'_> {
         };
         passing.iter().filter(rival).map(|it| it.term).collect()
     }
+}
+
+/// Whether a cause is told from the small effects that every real rig has, where another one raises Φ by so much. What has
+/// no name has to raise it by as much as what has one.
+fn matters_beside(term: Term, evidence: &Evidence, largest: f64) -> bool {
+    let share = if is_table(term) { 1.0 } else { BESIDE };
+    evidence.phi_gain > share * largest || evidence.takes_the_bulk()
 }
 
 fn is_table(term: Term) -> bool {

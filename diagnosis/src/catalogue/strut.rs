@@ -66,7 +66,8 @@ pub(super) const CAUSES: &[Cause] = &[
         setting: None,
         parts: &[
             part("strut.knee.ratio", Scale::ONE, (-0.95, 5.0), &[-0.4]),
-            part("strut.knee.velocity", Scale::VELOCITY, (0.05, 3.0), &[0.3, 1.0]),
+            // A knee far below the usual velocities would be friction.
+            part("strut.knee.velocity", Scale::VELOCITY, (0.2, 3.0), &[0.3, 1.0]),
         ],
         experiment: "sweep the velocity",
     },
@@ -85,7 +86,7 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "Maxwell branch",
         equation: "F = k_1 xi, xi' = v - xi/tau",
-        contains: &[],
+        contains: &["13"],
         setting: None,
         parts: &[
             part("hysteresis.maxwell.stiffness", Scale::STIFFNESS, (0.0, 100.0), &[0.1]),

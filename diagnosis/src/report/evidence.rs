@@ -57,7 +57,7 @@ pub fn gates(evidence: &Evidence) -> [Gate; 5] {
             REQUIRED.explained,
             percent,
         ),
-        if evidence.phi_gain <= REQUIRED.phi_gain && evidence.takes_the_bulk() {
+        if evidence.phi_gain <= REQUIRED.phi_gain && evidence.taken > REQUIRED.taken {
             let what = "share that it takes away of the error that was left";
             gate("Relevance", what, evidence.taken, REQUIRED.taken, percent)
         } else {

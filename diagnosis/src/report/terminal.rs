@@ -31,9 +31,8 @@ pub fn terminal(findings: &Findings) -> String {
     lines.detectable(findings);
     if let Some(curve) = &findings.unnamed {
         lines.blank();
-        let text =
-            format!("Unnamed: a curve {} over {}, see report.html", place(&curve.location), curve.variable);
-        lines.wrapped("", &text);
+        let what = if curve.x.is_empty() { "something" } else { "a curve, see report.html," };
+        lines.wrapped("", &format!("Unnamed: {what} {} over {}", place(&curve.location), curve.variable));
     }
     if let Some(experiment) = &findings.experiment {
         lines.blank();

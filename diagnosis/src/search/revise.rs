@@ -3,11 +3,11 @@
 use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
 
-use super::{Accepted, Found, is_table, merge};
+use super::{Accepted, Found, is_table, matters_beside, merge};
 
 impl World<'_> {
     /// The found terms without one of them, fitted.
-    fn without(&self, found: &Found, index: usize) -> Result<Fitted, String> {
+    pub(super) fn without(&self, found: &Found, index: usize) -> Result<Fitted, String> {
         let mut terms = found.extended.terms.clone();
         terms.retain(|term| *term != found.accepted[index].term);
         let mut start = found.extended.point.clone();
@@ -68,7 +68,10 @@ impl World<'_> {
         while index < found.accepted.len() && found.accepted.len() > 1 {
             let without = self.without(found, index)?;
             let evidence = self.evidence(&found.base, &without, &found.extended);
-            if evidence.refusal().is_some() {
+            let others = found.accepted.iter().enumerate().filter(|(other, _)| *other != index);
+            let largest = others.map(|(_, it)| it.evidence.phi_gain).fold(0.0, f64::max);
+            if evidence.refusal().is_some() || !matters_beside(found.accepted[index].term, &evidence, largest)
+            {
                 found.accepted.remove(index);
                 found.extended = without;
             } else {

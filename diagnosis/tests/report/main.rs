@@ -157,6 +157,22 @@ fn a_gate_that_is_not_passed_is_marked() {
 }
 
 #[test]
+fn without_a_curve_the_nearest_law_is_told_as_such() {
+    let mut findings = sample(Verdict::Unnamed);
+    findings.nearest = sample(Verdict::Named).effects;
+    let curve = findings.unnamed.as_mut().unwrap();
+    for list in [&mut curve.x, &mut curve.y, &mut curve.low, &mut curve.high] {
+        list.clear();
+    }
+    check(&findings).unwrap();
+    let page = report::html(&findings);
+    assert!(page.contains("Nearest comes") && page.contains(&findings.nearest[0].name), "{page}");
+    assert!(!page.contains("with its 95 % band"));
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report-Nearest");
+    report::write(&findings, &folder).unwrap();
+}
+
+#[test]
 fn a_folder_that_cannot_be_made_is_an_error_with_advice() {
     let file = tempfile::NamedTempFile::new().unwrap();
     let error = report::write(&empty(Verdict::NoEffect), &file.path().join("report")).unwrap_err();

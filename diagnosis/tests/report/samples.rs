@@ -34,6 +34,7 @@ pub fn empty(verdict: Verdict) -> Findings {
         signals: vec![],
         starts: vec![],
         unnamed: None,
+        nearest: Vec::new(),
         experiment: None,
         data_problems: vec![],
         candidates: vec![],
@@ -205,7 +206,7 @@ pub fn sample(verdict: Verdict) -> Findings {
                 block_t: 4.6,
                 held_out_t: 3.4,
                 explained: 0.062,
-                phi_gain: 0.04,
+                phi_gain: 0.08,
                 taken: 0.35,
             };
             findings.effects = vec![friction(), cogging];

@@ -8,8 +8,8 @@ mod tables;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::words::{badge, cause, count, digits, headline, labelled, number, place, unit};
-use crate::findings::{Curve, Findings, Verdict};
+use super::words::{badge, cause, count, digits, headline, labelled, list, number, place, unit};
+use crate::findings::{Findings, Verdict};
 
 const STYLE: &str = include_str!("style.css");
 
@@ -33,7 +33,7 @@ pub fn html(findings: &Findings) -> String {
                     (tables::fatal_problems(findings))
                     @if parameters_first { (tables::base_parameters(findings)) }
                     (effects::section(findings))
-                    (unnamed(findings.unnamed.as_ref()))
+                    (unnamed(findings))
                     (experiment(findings))
                     (tables::detectable(findings))
                     (gain::section(findings))
@@ -86,10 +86,27 @@ fn extended(findings: &Findings) -> bool {
 }
 
 /// What is known of a cause without a name.
-fn unnamed(curve: Option<&Curve>) -> Markup {
-    let Some(curve) = curve else {
+fn unnamed(findings: &Findings) -> Markup {
+    let Some(curve) = &findings.unnamed else {
         return html! {};
     };
+    if curve.x.is_empty() {
+        let nearest: Vec<String> =
+            findings.nearest.iter().map(|it| format!("{} {}", it.name, place(&it.element))).collect();
+        return html! {
+            section {
+                h2 { "The cause without a name" }
+                p {
+                    "None of the catalogue’s laws fits. What is missing acts " (place(&curve.location)) ", most likely over "
+                    (curve.variable) ". "
+                    @if !nearest.is_empty() {
+                        "Nearest comes " (list(&nearest, "and")) ", which the extended model holds: it explains a part, and \
+                         leaves too much to be the cause."
+                    }
+                }
+            }
+        };
+    }
     let finite = curve.x.iter().copied().filter(|x| x.is_finite());
     let range = finite.fold(None, |range: Option<(f64, f64)>, x| {
         Some(range.map_or((x, x), |(low, high)| (low.min(x), high.max(x))))
