@@ -147,6 +147,8 @@ pub struct Evidence {
     /// Share that it takes away of the error's power that was left without it, on the training or the held-out data,
     /// whichever is less.
     pub taken: f64,
+    /// Whether every rig has a little of it, so that more of it is asked for.
+    pub usual: bool,
 }
 
 /// Share of the error's power on held-out data that does not go by chance, however few the blocks are.
@@ -164,8 +166,23 @@ impl Evidence {
     /// effects pass it on every record.
     ///
     /// Of `phi_gain` and `taken`, one is enough: what is large, or more than half of what is missing.
-    pub const REQUIRED: Self =
-        Self { delta_bic: 20.0, block_t: 3.5, held_out_t: 3.0, explained: 0.01, phi_gain: 0.05, taken: 0.55 };
+    pub const REQUIRED: Self = Self {
+        delta_bic: 20.0,
+        block_t: 3.5,
+        held_out_t: 3.0,
+        explained: 0.01,
+        phi_gain: 0.02,
+        taken: 0.55,
+        usual: false,
+    };
+
+    /// The same of what every rig has a little of.
+    pub const REQUIRED_OF_USUAL: Self = Self { phi_gain: 0.05, taken: 0.6, usual: true, ..Self::REQUIRED };
+
+    /// What has to be exceeded here.
+    pub fn required(&self) -> Self {
+        if self.usual { Self::REQUIRED_OF_USUAL } else { Self::REQUIRED }
+    }
 
     /// Whether it takes most of the error away, however small that is.
     pub fn takes_the_bulk(&self) -> bool {
@@ -174,20 +191,19 @@ impl Evidence {
 
     /// The first gate that is not passed, in words.
     pub fn refusal(&self) -> Option<String> {
-        let Self { delta_bic, block_t, held_out_t, explained, phi_gain, taken } = *self;
+        let Self { delta_bic, block_t, held_out_t, explained, phi_gain, taken, .. } = *self;
+        let required = self.required();
         let passed = |found: f64, required: f64| found > required;
         let by_far = passed(explained, BY_FAR) && held_out_t > 0.0;
-        if !passed(delta_bic, Self::REQUIRED.delta_bic) {
+        if !passed(delta_bic, required.delta_bic) {
             Some(format!("explains too little for its parameters (BIC falls by {delta_bic:.0})"))
-        } else if !(passed(block_t, Self::REQUIRED.block_t)
-            || self.takes_the_bulk() && passed(block_t, STEADY))
-        {
+        } else if !(passed(block_t, required.block_t) || self.takes_the_bulk() && passed(block_t, STEADY)) {
             Some(format!("no steady gain over the training data (t = {block_t:.1})"))
-        } else if !(passed(held_out_t, Self::REQUIRED.held_out_t) || by_far) {
+        } else if !(passed(held_out_t, required.held_out_t) || by_far) {
             Some(format!("no gain on held-out data (t = {held_out_t:.1})"))
-        } else if !passed(explained, Self::REQUIRED.explained) {
+        } else if !passed(explained, required.explained) {
             Some(format!("too small to matter ({:.1} % of the error)", 100.0 * explained))
-        } else if !(passed(phi_gain, Self::REQUIRED.phi_gain) || passed(taken, Self::REQUIRED.taken)) {
+        } else if !(passed(phi_gain, required.phi_gain) || passed(taken, required.taken)) {
             Some(format!(
                 "too small to matter (Φ rises by {phi_gain:.3}, {:.0} % of what was left goes)",
                 100.0 * taken

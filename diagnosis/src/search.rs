@@ -93,7 +93,7 @@ impl World<'_> {
         starts.extend(self.with_the_sheet(null, screened));
         let fitted = self.fitted(&terms, &starts, Stop::ROUGH);
         let (evidence, score) = match &fitted {
-            Ok(fitted) => (self.evidence(base, null, fitted), self.score(null, fitted)),
+            Ok(fitted) => (self.evidence(screened.term, base, null, fitted), self.score(null, fitted)),
             Err(_) => (Evidence::default(), f64::NEG_INFINITY),
         };
         Tried { term: screened.term, fitted, evidence, score }

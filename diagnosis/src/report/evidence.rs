@@ -3,8 +3,6 @@
 use super::words::{number, percent};
 use crate::findings::Evidence;
 
-const REQUIRED: Evidence = Evidence::REQUIRED;
-
 /// One gate.
 pub struct Gate {
     /// What is looked at.
@@ -21,6 +19,7 @@ pub struct Gate {
 
 /// All gates.
 pub fn gates(evidence: &Evidence) -> [Gate; 5] {
+    let limits = evidence.required();
     let gate = |name, meaning, found: f64, required: f64, print: fn(f64) -> String| Gate {
         name,
         meaning,
@@ -33,36 +32,36 @@ pub fn gates(evidence: &Evidence) -> [Gate; 5] {
             "Held-out data",
             "t of the gain over blocks of another excitation",
             evidence.held_out_t,
-            REQUIRED.held_out_t,
+            limits.held_out_t,
             number,
         ),
         gate(
             "Training data",
             "t of the gain over blocks of what was learnt from",
             evidence.block_t,
-            REQUIRED.block_t,
+            limits.block_t,
             number,
         ),
         gate(
             "Parsimony",
             "fall of the Bayesian information criterion",
             evidence.delta_bic,
-            REQUIRED.delta_bic,
+            limits.delta_bic,
             number,
         ),
         gate(
             "Size",
             "share of the starting model’s error power it explains",
             evidence.explained,
-            REQUIRED.explained,
+            limits.explained,
             percent,
         ),
-        if evidence.phi_gain <= REQUIRED.phi_gain && evidence.taken > REQUIRED.taken {
+        if evidence.phi_gain <= limits.phi_gain && evidence.taken > limits.taken {
             let what = "share that it takes away of the error that was left";
-            gate("Relevance", what, evidence.taken, REQUIRED.taken, percent)
+            gate("Relevance", what, evidence.taken, limits.taken, percent)
         } else {
             let what = "largest rise of Φ among the signals, on either data";
-            gate("Relevance", what, evidence.phi_gain, REQUIRED.phi_gain, number)
+            gate("Relevance", what, evidence.phi_gain, limits.phi_gain, number)
         },
     ]
 }
@@ -73,7 +72,7 @@ pub fn sentences(evidence: &Evidence) -> Vec<String> {
         t if t.is_nan() => "which could not be determined",
         t if t > 5.0 => "far beyond chance",
         t if t > 3.0 => "clearly beyond chance",
-        t if t > REQUIRED.held_out_t => "beyond chance",
+        t if t > Evidence::REQUIRED.held_out_t => "beyond chance",
         _ => "which chance can do as well",
     };
     let t = |t: f64| format!("t\u{a0}=\u{a0}{}, {}", number(t), strength(t));

@@ -67,7 +67,7 @@ impl World<'_> {
         let mut index = 0;
         while index < found.accepted.len() && found.accepted.len() > 1 {
             let without = self.without(found, index)?;
-            let evidence = self.evidence(&found.base, &without, &found.extended);
+            let evidence = self.evidence(found.accepted[index].term, &found.base, &without, &found.extended);
             let others = found.accepted.iter().enumerate().filter(|(other, _)| *other != index);
             let largest = others.map(|(_, it)| it.evidence.phi_gain).fold(0.0, f64::max);
             if evidence.refusal().is_some() || !matters_beside(found.accepted[index].term, &evidence, largest)
@@ -116,6 +116,6 @@ impl World<'_> {
             start.set(coordinate.handle, found.extended.point.get(coordinate.handle));
         }
         let both = self.fitted(&terms, &[start], Stop::ROUGH);
-        both.is_ok_and(|both| self.evidence(&found.base, table, &both).refusal().is_none())
+        both.is_ok_and(|both| self.evidence(term, &found.base, table, &both).refusal().is_none())
     }
 }

@@ -34,7 +34,7 @@ impl World<'_> {
             start.set(handle, before);
             let without = World { held: vec![handle], ..self.clone() };
             let held = without.fitted(&found.extended.terms, &[start], Stop::NOISY)?;
-            let evidence = self.evidence(&held, &held, &found.extended);
+            let evidence = self.evidence(term, &held, &held, &found.extended);
             if evidence.refusal().is_some() {
                 continue;
             }

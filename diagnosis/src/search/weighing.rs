@@ -3,9 +3,16 @@
 use crate::comparison::{Errors, student};
 use crate::findings::Evidence;
 use crate::fit::Residuals;
-use crate::hypothesis::{Fitted, World};
+use crate::hypothesis::{Fitted, Term, World};
+use crate::naming::name;
 use crate::recorded::Recorded;
 use crate::screening::rms;
+
+use super::is_table;
+
+/// Numbers of what every rig has a little of: memory in its rubber, springs that are not quite straight, a motor's cogging,
+/// sensors' filters and timing. What has no name is as common.
+const USUAL: &[&str] = &["07", "08", "09", "27", "35", "36"];
 
 impl World<'_> {
     fn block(&self) -> usize {
@@ -22,9 +29,9 @@ impl World<'_> {
         student(&null.gains(&other, self.block(), &other.mean_squares()))
     }
 
-    /// What speaks for one fit over another, of which it is an extension; how much it explains is counted in the errors
+    /// What speaks for a term by which one fit extends another; how much it explains is counted in the errors
     /// of the starting model.
-    pub fn evidence(&self, base: &Fitted, null: &Fitted, fitted: &Fitted) -> Evidence {
+    pub fn evidence(&self, term: Term, base: &Fitted, null: &Fitted, fitted: &Fitted) -> Evidence {
         let more = fitted.coordinates.len().saturating_sub(null.coordinates.len());
         let counts = self.errors(&null.train).effective_counts();
         let (before, after) =
@@ -43,6 +50,7 @@ impl World<'_> {
             explained: shares.sum::<f64>() / unit.len().max(1) as f64,
             phi_gain: self.phi_gain(null, fitted),
             taken: 1.0 - self.remaining(null, fitted),
+            usual: is_table(term) || USUAL.contains(&name(term, &self.rig.plant).id.as_str()),
         }
     }
 

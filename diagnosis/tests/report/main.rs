@@ -233,6 +233,9 @@ fn every_field_and_verdict_is_described_in_the_readme() {
     ] {
         assert!(section.contains(&format!("| `{gate}` | 1 | {limit} |")), "the limit of {gate}");
     }
+    let usual = Evidence::REQUIRED_OF_USUAL;
+    let more = format!("`phi_gain` has to exceed {} or `taken` {}", usual.phi_gain, usual.taken);
+    assert!(section.contains(&more), "{more}");
     assert!(found.len() > 60, "{found:?}");
     for key in found {
         assert!(section.contains(&format!("`{key}`")), "{key} is not described");

@@ -60,6 +60,7 @@ fn friction() -> Effect {
             explained: 0.943,
             phi_gain: 0.21,
             taken: 0.35,
+            usual: false,
         },
         ambiguous_with: vec![],
         experiment: None,
@@ -108,6 +109,7 @@ fn candidates() -> Vec<Candidate> {
             explained: 0.004,
             phi_gain: 0.002,
             taken: 0.35,
+            usual: false,
         };
         Candidate {
             id: id.into(),
@@ -208,6 +210,7 @@ pub fn sample(verdict: Verdict) -> Findings {
                 explained: 0.062,
                 phi_gain: 0.08,
                 taken: 0.35,
+                usual: true,
             };
             findings.effects = vec![friction(), cogging];
             findings.summary =
