@@ -171,7 +171,7 @@ impl Evidence {
         block_t: 3.5,
         held_out_t: 3.0,
         explained: 0.01,
-        phi_gain: 0.02,
+        phi_gain: 0.015,
         taken: 0.55,
         usual: false,
     };
