@@ -63,6 +63,20 @@ fn a_hidden_friction_is_found_and_the_extended_model_has_the_errors_that_are_tol
     assert!(number("low") <= 60.0 && 60.0 <= number("high"), "{force}");
     assert!((number("value") / 60.0 - 1.0).abs() < 0.02, "{force}");
     print!("{}", strut::python("tests/masters/diagnosed.py", [&out, &records]));
+    looked_at(&out.join("report.html"));
+}
+
+/// Opens a page in a browser: nothing sticks out of a desk's or a phone's window, and there is something to be seen.
+fn looked_at(page: &Path) {
+    let Some(browser) = strut::Browser::installed() else { return };
+    for window in [1280, 390] {
+        assert_eq!(browser.width(page, window), window, "{} sticks out", page.display());
+    }
+    let picture = page.with_extension("png");
+    browser.picture(page, (1280, 2400), &picture);
+    let bytes = fs::read(&picture).expect("the picture can be read");
+    // Of an empty page there are a few kilobytes.
+    assert!(bytes.starts_with(b"\x89PNG") && bytes.len() > 50_000, "{} bytes", bytes.len());
 }
 
 /// What a record is to be like to be refused, and what the refusal has to say.

@@ -3,12 +3,16 @@
 //! Nothing has to be installed by hand: the environment is made under `target/` at first use, with
 //! pinned packages.
 
+mod browser;
+
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
+
+pub use browser::Browser;
 
 /// Lists of packages, and what each says: a changed one makes a new environment.
 const MASTERS: (&str, &str) = ("requirements.txt", include_str!("../masters/requirements.txt"));
