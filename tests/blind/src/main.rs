@@ -1,9 +1,10 @@
 //! Makes the blind benchmark's cases, and scores reports.
 
+use std::fmt::{self, Display, Formatter};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
 use strut_blind::run::{self, Run};
 use strut_blind::{Case, cases, files, generate, score};
 
@@ -19,18 +20,16 @@ struct Arguments {
 enum Command {
     /// Show the cases' numbers and names
     List {
-        /// The whole benchmark with so many seeds, not the compact list
-        #[arg(long)]
-        full: Option<u64>,
+        #[command(flatten)]
+        list: List,
     },
     /// Write the data of cases, and their truth in a folder `sealed` of its own
     Generate {
         /// The case's number or name; several if given several times, all if not given
         #[arg(long = "case")]
         cases: Vec<String>,
-        /// The whole benchmark with so many seeds, not the compact list
-        #[arg(long)]
-        full: Option<u64>,
+        #[command(flatten)]
+        list: List,
         /// Where to: each case gets a folder there
         #[arg(long)]
         out: PathBuf,
@@ -43,9 +42,8 @@ enum Command {
         /// Only cases whose name contains one of these
         #[arg(long = "only")]
         only: Vec<String>,
-        /// The whole benchmark with so many seeds, not the compact list
-        #[arg(long)]
-        full: Option<u64>,
+        #[command(flatten)]
+        list: List,
         /// Where to: each case gets a folder there
         #[arg(long)]
         out: PathBuf,
@@ -64,6 +62,33 @@ enum Command {
     },
 }
 
+/// Which list of cases.
+#[derive(Args)]
+struct List {
+    /// The whole benchmark with so many seeds, not the compact list
+    #[arg(long)]
+    full: Option<u64>,
+    /// The first of these seeds
+    #[arg(long, requires = "full", default_value_t = 1000)]
+    seed: u64,
+}
+
+impl List {
+    fn cases(&self) -> Vec<Case> {
+        self.full.map_or_else(cases::compact, |seeds| cases::full(self.seed..self.seed + seeds))
+    }
+}
+
+/// As it is given on the command line.
+impl Display for List {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self.full {
+            Some(seeds) => write!(f, " --full {seeds} --seed {}", self.seed),
+            None => Ok(()),
+        }
+    }
+}
+
 fn main() -> ExitCode {
     match execute(Arguments::parse().command) {
         Ok(()) => ExitCode::SUCCESS,
@@ -75,15 +100,14 @@ fn main() -> ExitCode {
 }
 
 fn execute(command: Command) -> Result<(), String> {
-    let list = |full: Option<u64>| full.map_or_else(cases::compact, cases::full);
     match command {
-        Command::List { full } => {
-            for (number, case) in list(full).iter().enumerate() {
+        Command::List { list } => {
+            for (number, case) in list.cases().iter().enumerate() {
                 println!("{number:4} {}", case.name);
             }
         }
-        Command::Generate { cases, full, out } => {
-            let all = list(full);
+        Command::Generate { cases, list, out } => {
+            let all = list.cases();
             let wanted: Vec<&Case> = if cases.is_empty() {
                 all.iter().collect()
             } else {
@@ -93,12 +117,12 @@ fn execute(command: Command) -> Result<(), String> {
                 println!("{}", files::write(&generate(case)?, &out)?.display());
             }
         }
-        Command::Run { program, only, full, out, page, arguments } => {
+        Command::Run { program, only, list, out, page, arguments } => {
             let wanted =
                 |case: &&Case| only.is_empty() || only.iter().any(|part| case.name.contains(part.as_str()));
             let others =
                 if arguments.is_empty() { String::new() } else { format!(" -- {}", arguments.join(" ")) };
-            let (all, run) = (list(full), Run { program, arguments, out });
+            let (all, run) = (list.cases(), Run { program, arguments, out });
             let mut scores = vec![];
             let mut failed = vec![];
             for case in all.iter().filter(wanted) {
@@ -114,8 +138,8 @@ fn execute(command: Command) -> Result<(), String> {
                 }
             }
             let parts: Vec<String> = only.iter().map(|part| format!(" --only {part}")).collect();
-            let many = full.map_or_else(String::new, |full| format!(" --full {full}"));
-            let command = format!("blind run --program diagnose{many}{}{others}", parts.concat());
+            let name = run.program.file_stem().unwrap_or_default().to_string_lossy();
+            let command = format!("blind run --program {name}{list}{}{others}", parts.concat());
             std::fs::write(&page, run::page(&command, &scores))
                 .map_err(|error| format!("{} cannot be written: {error}", page.display()))?;
             if !failed.is_empty() {
