@@ -21,7 +21,7 @@ enum Command {
     /// Show the cases' numbers and names
     List {
         #[command(flatten)]
-        list: List,
+        list: Selection,
     },
     /// Write the data of cases, and their truth in a folder `sealed` of its own
     Generate {
@@ -29,7 +29,7 @@ enum Command {
         #[arg(long = "case")]
         cases: Vec<String>,
         #[command(flatten)]
-        list: List,
+        list: Selection,
         /// Where to: each case gets a folder there
         #[arg(long)]
         out: PathBuf,
@@ -43,7 +43,7 @@ enum Command {
         #[arg(long = "only")]
         only: Vec<String>,
         #[command(flatten)]
-        list: List,
+        list: Selection,
         /// Where to: each case gets a folder there
         #[arg(long)]
         out: PathBuf,
@@ -64,7 +64,7 @@ enum Command {
 
 /// Which list of cases.
 #[derive(Args)]
-struct List {
+struct Selection {
     /// The whole benchmark with so many seeds, not the compact list
     #[arg(long)]
     full: Option<u64>,
@@ -73,14 +73,14 @@ struct List {
     seed: u64,
 }
 
-impl List {
+impl Selection {
     fn cases(&self) -> Vec<Case> {
         self.full.map_or_else(cases::compact, |seeds| cases::full(self.seed..self.seed + seeds))
     }
 }
 
 /// As it is given on the command line.
-impl Display for List {
+impl Display for Selection {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self.full {
             Some(seeds) => write!(f, " --full {seeds} --seed {}", self.seed),
@@ -165,4 +165,23 @@ fn find<'a>(all: &'a [Case], wanted: &str) -> Result<&'a Case, String> {
     number.or_else(|| all.iter().find(|case| case.name == wanted)).ok_or_else(|| {
         format!("there is no case {wanted}: take a name or a number below {}, see `blind list`", all.len())
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_sound_and_tells_of_its_list() {
+        Arguments::command().debug_assert();
+        let parsed = |line: &str| Arguments::try_parse_from(line.split(' ')).map(|it| it.command);
+        let Ok(Command::List { list }) = parsed("blind list --full 2 --seed 1001") else { panic!("a list") };
+        assert_eq!(list.to_string(), " --full 2 --seed 1001");
+        assert!(list.cases().iter().any(|case| case.name == "single-01-1002"));
+        let Ok(Command::List { list }) = parsed("blind list") else { panic!("a list") };
+        assert_eq!((list.to_string().as_str(), list.cases().len()), ("", cases::compact().len()));
+        assert!(parsed("blind list --seed 1001").is_err(), "of the compact list there is one");
+    }
 }
