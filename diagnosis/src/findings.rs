@@ -195,7 +195,9 @@ impl Evidence {
         let required = self.required();
         let passed = |found: f64, required: f64| found > required;
         let by_far = passed(explained, BY_FAR) && held_out_t > 0.0;
-        if !passed(delta_bic, required.delta_bic) {
+        if !explained.is_finite() {
+            Some("diverges on the held-out data".to_owned())
+        } else if !passed(delta_bic, required.delta_bic) {
             Some(format!("explains too little for its parameters (BIC falls by {delta_bic:.0})"))
         } else if !(passed(block_t, required.block_t) || self.takes_the_bulk() && passed(block_t, STEADY)) {
             Some(format!("no steady gain over the training data (t = {block_t:.1})"))

@@ -225,6 +225,15 @@ impl<'a> Fit<'a> {
     }
 }
 
+/// Half the squared distance of a point from what was known of the coordinates before, in its standard deviations.
+pub fn strain(coordinates: &[Coordinate], point: &Point) -> f64 {
+    let each = coordinates.iter().filter_map(|coordinate| {
+        let (mean, deviation) = coordinate.prior?;
+        Some(0.5 * ((point.get(coordinate.handle) - mean) / deviation).powi(2))
+    });
+    each.sum()
+}
+
 impl Problem for Fit<'_> {
     type Point = Point;
     type Trace = Trace;
@@ -238,12 +247,7 @@ impl Problem for Fit<'_> {
             .par_iter()
             .map(|(index, record, section)| self.section_cost(point, &point.starts[*index], record, section));
         let parts: Vec<f64> = parts.collect();
-        let prior = self.coordinates.iter().filter_map(|coordinate| {
-            coordinate
-                .prior
-                .map(|(mean, deviation)| 0.5 * ((point.get(coordinate.handle) - mean) / deviation).powi(2))
-        });
-        parts.iter().sum::<f64>() + prior.sum::<f64>()
+        parts.iter().sum::<f64>() + strain(&self.coordinates, point)
     }
 
     fn linearise(&self, point: &Point) -> (Linear, Trace) {

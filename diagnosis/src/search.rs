@@ -128,10 +128,16 @@ impl World<'_> {
         let mut chosen: Vec<&Screened> =
             named.iter().copied().filter(|it| it.gain > least).take(FITTED).collect();
         // What has no derivative where it is absent may screen badly: it is tried all the same.
-        let hidden = named.into_iter().filter(|it| {
+        let hidden = named.iter().copied().filter(|it| {
             matches!(it.term, Term::Cause(cause) if HIDDEN.contains(&cause.id)) && it.gain > 0.2 * worth(base)
         });
-        for it in hidden {
+        // And the limit cases of the others, which are preferred where they explain nearly as much.
+        let limits = named
+            .iter()
+            .copied()
+            .filter(|it| chosen.iter().any(|other| contains_by_name(other.term, it.term)));
+        let further: Vec<&Screened> = hidden.chain(limits).collect();
+        for it in further {
             if !chosen.iter().any(|other| other.term == it.term) {
                 chosen.push(it);
             }
@@ -170,7 +176,9 @@ impl World<'_> {
             let largest = found.accepted.iter().map(|it| it.evidence.phi_gain).fold(0.0, f64::max);
             let passes = |it: &Tried| {
                 let evidence = &it.evidence;
-                evidence.refusal().is_none() && matters_beside(it.term, evidence, largest)
+                // A richer law of what was found takes its place.
+                let refines = found.accepted.iter().any(|other| contains_by_name(it.term, other.term));
+                evidence.refusal().is_none() && (refines || matters_beside(it.term, evidence, largest))
             };
             if !tried.iter().any(passes) {
                 let curves = self.curves(&found.base, &screened, 0.0);
@@ -241,8 +249,10 @@ impl World<'_> {
 /// Whether a cause is told from the small effects that every real rig has, where another one raises Φ by so much. What has
 /// no name has to raise it by as much as what has one.
 fn matters_beside(term: Term, evidence: &Evidence, largest: f64) -> bool {
-    let share = if is_table(term) { 1.0 } else { BESIDE };
-    evidence.phi_gain > share * largest || evidence.takes_the_bulk()
+    if is_table(term) {
+        return evidence.phi_gain > largest;
+    }
+    evidence.phi_gain > BESIDE * largest || evidence.takes_the_bulk()
 }
 
 fn is_table(term: Term) -> bool {
@@ -251,13 +261,17 @@ fn is_table(term: Term) -> bool {
 
 /// Whether a term can do all that another one can: by what it changes, or as the catalogue says.
 fn contains(larger: Term, smaller: Term, more: &BTreeSet<Handle>, fewer: &BTreeSet<Handle>) -> bool {
-    let by_name = match (larger, smaller) {
+    contains_by_name(larger, smaller) || fewer.is_subset(more)
+}
+
+/// Whether the catalogue says that a term has another one as a limit.
+fn contains_by_name(larger: Term, smaller: Term) -> bool {
+    match (larger, smaller) {
         (Term::Cause(larger), Term::Cause(smaller)) => {
             larger.element == smaller.element && larger.contains.contains(&smaller.id)
         }
         _ => false,
-    };
-    by_name || fewer.is_subset(more)
+    }
 }
 
 /// What a fit has changed.

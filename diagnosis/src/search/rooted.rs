@@ -3,6 +3,7 @@
 
 use crate::catalogue;
 use crate::correction::Fault;
+use crate::findings::Evidence;
 use crate::fit::Handle;
 use crate::hypothesis::{TIMING, Term, World};
 use crate::lsq::Stop;
@@ -11,8 +12,9 @@ use super::{Accepted, Found, is_table, matters_beside};
 
 /// Relative change of an effect's size beyond which it is another one.
 const RESIZED: f64 = 0.5;
-/// Standard deviations of a channel's timing beyond which it is a fault.
-const LATE: f64 = 3.0;
+/// Standard deviations of a channel's timing beyond which it is a fault. An accelerometer's own filter takes two, a
+/// multiplexer one.
+const LATE: f64 = 5.0;
 
 /// What may have been fitted away: the cause, what it is fitted by, and the value without it.
 struct Suspect {
@@ -34,7 +36,8 @@ impl World<'_> {
             start.set(handle, before);
             let without = World { held: vec![handle], ..self.clone() };
             let held = without.fitted(&found.extended.terms, &[start], Stop::NOISY)?;
-            let evidence = self.evidence(term, &held, &held, &found.extended);
+            // More than the usual amount of it is what made it suspect.
+            let evidence = Evidence { usual: false, ..self.evidence(term, &held, &held, &found.extended) };
             if evidence.refusal().is_some() {
                 continue;
             }

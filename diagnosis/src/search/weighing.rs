@@ -2,7 +2,7 @@
 
 use crate::comparison::{Errors, student};
 use crate::findings::Evidence;
-use crate::fit::Residuals;
+use crate::fit::{Residuals, strain};
 use crate::hypothesis::{Fitted, Term, World};
 use crate::naming::name;
 use crate::recorded::Recorded;
@@ -68,7 +68,8 @@ impl World<'_> {
         of(self.train, &null.train, &fitted.train).min(of(self.test, &null.test, &fitted.test))
     }
 
-    /// Rank of a fit among those on top of the same: half its fall of the information criterion, over all data.
+    /// Rank of a fit among those on top of the same: half its fall of the information criterion, over all data, and what it
+    /// relieves of the strain on what was known before.
     pub(super) fn score(&self, null: &Fitted, fitted: &Fitted) -> f64 {
         let part = |null: &Residuals, fitted: &Residuals| -> (f64, f64) {
             let counts = self.errors(null).effective_counts();
@@ -77,7 +78,8 @@ impl World<'_> {
             (counts.iter().zip(squares).map(|(n, (b, a))| 0.5 * n * (b / a).ln()).sum(), counts.iter().sum())
         };
         let ((train, n), (test, m)) = (part(&null.train, &fitted.train), part(&null.test, &fitted.test));
-        train + test - 0.5 * fitted.coordinates.len() as f64 * (n + m).max(1.0).ln()
+        let relieved = strain(&null.coordinates, &null.point) - strain(&fitted.coordinates, &fitted.point);
+        train + test + relieved - 0.5 * fitted.coordinates.len() as f64 * (n + m).max(1.0).ln()
     }
 
     /// Student's t of how much smaller one fit's errors are than another's, over all data.
