@@ -1,8 +1,8 @@
 //! Findings from a diagnosis: verdict, words, tables and pictures.
 
 mod pictures;
+mod unnamed;
 
-use crate::catalogue::{Element, Table};
 use crate::correction::Fault;
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::findings::{
@@ -10,8 +10,7 @@ use crate::findings::{
     Verdict,
 };
 use crate::fit::{Handle, Point, Residuals};
-use crate::hypothesis::{Fitted, POINTS, Term};
-use crate::intervals::Interval;
+use crate::hypothesis::Term;
 use crate::naming::{self, name};
 use crate::recorded::{Recorded, Source};
 use crate::screening::rms;
@@ -23,10 +22,6 @@ const MISMATCH: f64 = 0.03;
 const SAME: f64 = 0.05;
 /// Φ of the best signal on held-out data below which nothing is to be believed.
 const INADEQUATE: f64 = 0.2;
-/// Share of a signal's error power on held-out data that the causes have to explain of one signal, to be told by name …
-const EXPLAINED: f64 = 0.6;
-/// … unless so much of Φ is reached all the same, as a mean over the signals.
-const ADEQUATE: f64 = 0.8;
 
 impl Diagnosis<'_> {
     /// Everything that is told.
@@ -45,7 +40,7 @@ impl Diagnosis<'_> {
         if let Some(first) = named.first()
             && unnamed.is_none()
             && self.rooted.is_empty()
-            && explains_too_little(&signals)
+            && unnamed::explains_too_little(&signals)
         {
             unnamed = Some(self.place(first.term));
             nearest = std::mem::take(&mut effects);
@@ -217,60 +212,6 @@ impl Diagnosis<'_> {
         }
     }
 
-    /// An element's velocity or deflection, by the FMU's name where the FMU has it.
-    fn variable(&self, element: Element, over_velocity: bool) -> String {
-        let signals = self.world.rig.kind.elements.iter().find(|it| it.element == element);
-        let signal = signals.and_then(|it| if over_velocity { it.velocity } else { Some(it.deflection) });
-        signal.unwrap_or(if over_velocity { "velocity" } else { "deflection" }).to_owned()
-    }
-
-    /// Where something acts, and over what, if no more is known of it than a law that comes near.
-    fn place(&self, term: Term) -> Curve {
-        let (location, over_velocity) = match term {
-            Term::Cause(cause) => (Some(cause.element), cause.is_over_velocity()),
-            Term::Table(table) => (Some(table.element), table.is_over_velocity()),
-            Term::Fault(_) => (None, false),
-        };
-        let Some(element) = location else {
-            let signal = name(term, &self.world.rig.plant).element;
-            return Curve { location: signal.clone(), variable: signal, ..Curve::default() };
-        };
-        Curve {
-            location: element.name().into(),
-            variable: self.variable(element, over_velocity),
-            variable_unit: if over_velocity { "m/s" } else { "m" }.into(),
-            unit: "N".into(),
-            ..Curve::default()
-        }
-    }
-
-    fn curve(&self, table: &'static Table) -> Curve {
-        let plant = &self.world.rig.plant;
-        let fitted: &Fitted = &self.found.extended;
-        let range = plant.parameter(table.range).map_or(0.0, |index| fitted.point.parameters[index]);
-        let mut curve = self.place(Term::Table(table));
-        for number in 1..=POINTS {
-            let index = plant.parameter(&format!("{}[{number}]", table.points));
-            let found = self.intervals.iter().find(|it| index.map(Handle::Parameter) == Some(it.handle));
-            let Some(Interval { value, half, .. }) = found else { continue };
-            // A point whose force is not determined is not covered by the data.
-            if *half < self.world.typical(table.element).force {
-                curve.x.push(range * (2.0 * (number - 1) as f64 / (POINTS - 1) as f64 - 1.0));
-                curve.y.push(*value);
-                curve.low.push(value - half);
-                curve.high.push(value + half);
-            }
-        }
-        if table.element == Element::Tire {
-            // The plant's table is over the compression, the FMU's output counts the other way.
-            curve.x.iter_mut().for_each(|x| *x = -*x);
-            for list in [&mut curve.x, &mut curve.y, &mut curve.low, &mut curve.high] {
-                list.reverse();
-            }
-        }
-        curve
-    }
-
     fn candidates(&self) -> Vec<Candidate> {
         let plant = &self.world.rig.plant;
         let accepted = |term: Term| self.found.accepted.iter().any(|it| it.term == term);
@@ -300,19 +241,6 @@ impl Diagnosis<'_> {
         });
         screened.collect()
     }
-}
-
-/// Whether the causes leave much of every signal's error: then they only come near to what is there.
-fn explains_too_little(signals: &[Signal]) -> bool {
-    let beyond_noise = |rms: f64, signal: &Signal| (rms.powi(2) - signal.noise_floor.powi(2)).max(0.0);
-    let left = |signal: &Signal| {
-        let (before, after) =
-            (beyond_noise(signal.rms_fitted, signal), beyond_noise(signal.rms_after, signal));
-        if before > 0.0 { after / before } else { 0.0 }
-    };
-    let least = signals.iter().map(left).fold(f64::INFINITY, f64::min);
-    let mean = signals.iter().map(|signal| signal.phi_after).sum::<f64>() / signals.len().max(1) as f64;
-    least > 1.0 - EXPLAINED && mean < ADEQUATE
 }
 
 /// Root mean square of the difference of the first two records with the same excitation, over √2: no model can do

@@ -52,6 +52,9 @@ named! {
     a_bump_stop: "single-09";
     an_actuator_delay: "single-23";
     friction_and_a_nonlinear_spring: "pair-01-08";
+    an_offset_that_drifts: "sensor-33";
+    a_clock_that_is_off: "sensor-36";
+    friction_on_a_dyno: "dyno-01";
 }
 
 /// Nothing is there, or nothing that matters: no cause is claimed.

@@ -28,14 +28,15 @@ impl World<'_> {
     /// that explain it as well.
     ///
     /// # Errors
-    /// If the model diverges without one of them.
+    /// If the model refuses its settings.
     pub fn rooted(&self, found: &Found) -> Result<Vec<Accepted>, String> {
         let mut rooted = Vec::new();
         for Suspect { term, handle, before } in self.suspects(found) {
             let mut start = found.extended.point.clone();
             start.set(handle, before);
             let without = World { held: vec![handle], ..self.clone() };
-            let held = without.fitted(&found.extended.terms, &[start], Stop::NOISY)?;
+            // Without a fit to compare to there is nothing to be told.
+            let Ok(held) = without.fitted(&found.extended.terms, &[start], Stop::NOISY) else { continue };
             // More than the usual amount of it is what made it suspect.
             let evidence = Evidence { usual: false, ..self.evidence(term, &held, &held, &found.extended) };
             if evidence.refusal().is_some() {

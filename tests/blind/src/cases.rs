@@ -33,7 +33,7 @@ fn standard(name: impl AsRef<str>, effects: Vec<Hidden>, seed: u64) -> Case {
     Case::standard(name.as_ref(), effects, seed)
 }
 
-/// A few cases that a test can run each time: single effects, a pair, a cause without a name, a sensor's fault,
+/// A few cases that a test can run each time: single effects, a pair, a cause without a name, sensors' faults, a dyno,
 /// nothing at all, wrong parameters.
 pub fn compact() -> Vec<Case> {
     let single = ["01", "04", "05", "06", "07", "08", "09", "12", "16", "17", "23", "25"];
@@ -44,6 +44,9 @@ pub fn compact() -> Vec<Case> {
     all.push(standard("pair-01-08", vec![Hidden::new("01"), Hidden::new("08")], 21));
     all.push(standard("unnamed-U1", vec![Hidden::new("U1")], 22));
     all.push(standard("sensor-34", vec![Hidden::at("34", "wheel.force")], 23));
+    all.push(standard("sensor-33", vec![Hidden::at("33", "wheel.acceleration")], 27));
+    all.push(standard("sensor-36", vec![Hidden::at("36", "body.acceleration")], 28));
+    all.push(Case { plant: Plant::StrutDyno, ..standard("dyno-01", vec![Hidden::new("01")], 29) });
     all.push(Case { clutter: 0, ..standard("none", vec![], 24) });
     all.push(standard("none-cluttered", vec![], 25));
     all.push(Case { clutter: 0, nominal_off: 0.1, ..standard("mismatch", vec![], 26) });
