@@ -26,8 +26,12 @@ const MOST: usize = 4;
 /// Share of the largest cause's rise of Φ below which a further one is not told from the small effects that every real
 /// rig has.
 const BESIDE: f64 = 0.35;
+/// Student's t of the difference of two fits' errors beyond which they are told apart.
+const APART: f64 = 2.5;
 /// Errors that are larger by less than this factor are nearly the same.
 const NEARLY: f64 = 1.02;
+/// Errors that are larger by less than this factor tell nothing apart, however steady the difference is.
+const SAME: f64 = 1.005;
 
 /// What decides whether a cause is named.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -189,7 +193,7 @@ impl World<'_> {
             }
             let passing: Vec<&Tried> = tried.iter().filter(|it| passes(it)).collect();
             let chosen = self.chosen(&found.base, &passing).cloned();
-            let rivals = chosen.as_ref().map_or_else(Vec::new, |chosen| self.rivals(chosen, &passing));
+            let rivals = chosen.as_ref().map_or_else(Vec::new, |it| self.rivals(&found.base, it, &passing));
             merge(&mut found.tried, tried);
             let Some(chosen) = chosen else { break };
             let Ok(fitted) = chosen.fitted else { break };
@@ -224,7 +228,7 @@ impl World<'_> {
             if let (Ok(fitted), Ok(simpler)) = (&chosen.fitted, &other.fitted)
                 && contains(chosen.term, other.term, &parts(fitted), &parts(simpler))
                 && simpler.coordinates.len() < fitted.coordinates.len()
-                && (self.apart(fitted, simpler) < 2.5
+                && (self.as_good(base, fitted, simpler)
                     || self.left(base, simpler) < NEARLY * self.left(base, fitted))
             {
                 chosen = other;
@@ -233,14 +237,19 @@ impl World<'_> {
         chosen
     }
 
+    /// Whether a fit explains the data as well as the best one.
+    fn as_good(&self, base: &Fitted, best: &Fitted, other: &Fitted) -> bool {
+        self.apart(best, other) < APART || self.left(base, other) < SAME * self.left(base, best)
+    }
+
     /// Those that explain the data as well as the chosen one, and are not the same with something more.
-    fn rivals(&self, chosen: &Tried, passing: &[&Tried]) -> Vec<Term> {
+    fn rivals(&self, base: &Fitted, chosen: &Tried, passing: &[&Tried]) -> Vec<Term> {
         let Ok(best) = &chosen.fitted else { return Vec::new() };
         let own = parts(best);
         let rival = |other: &&&Tried| {
             let Ok(fitted) = &other.fitted else { return false };
             let more = contains(other.term, chosen.term, &parts(fitted), &own);
-            other.term != chosen.term && !is_table(other.term) && !more && self.apart(best, fitted) < 2.5
+            other.term != chosen.term && !is_table(other.term) && !more && self.as_good(base, best, fitted)
         };
         passing.iter().filter(rival).map(|it| it.term).collect()
     }
@@ -252,7 +261,7 @@ fn matters_beside(term: Term, evidence: &Evidence, largest: f64) -> bool {
     if is_table(term) {
         return evidence.phi_gain > largest;
     }
-    evidence.phi_gain > BESIDE * largest || evidence.takes_the_bulk()
+    evidence.phi_gain > BESIDE * largest || (evidence.takes_the_bulk() && !evidence.usual)
 }
 
 fn is_table(term: Term) -> bool {

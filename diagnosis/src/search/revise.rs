@@ -3,7 +3,7 @@
 use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
 
-use super::{Accepted, Found, is_table, matters_beside, merge};
+use super::{APART, Accepted, Found, is_table, matters_beside, merge};
 
 impl World<'_> {
     /// The found terms without one of them, fitted.
@@ -47,11 +47,11 @@ impl World<'_> {
                 }
                 let behind = self.apart(&found.extended, fitted);
                 let here = &mut found.accepted[index];
-                if behind < -2.5 {
+                if behind < -APART {
                     here.rivals.clear();
                     (here.term, here.evidence) = (tried.term, tried.evidence);
                     found.extended = fitted.clone();
-                } else if behind < 2.5 {
+                } else if self.as_good(&found.base, &found.extended, fitted) {
                     here.rivals.push(tried.term);
                 }
             }

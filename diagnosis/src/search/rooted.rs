@@ -46,7 +46,8 @@ impl World<'_> {
             let promising: Vec<_> =
                 without.promising(&held, &screened).into_iter().filter(|it| it.term != term).collect();
             let rivals = without.try_all(&held, &held, &promising).into_iter().filter(|it| {
-                let alike = it.fitted.as_ref().is_ok_and(|fitted| self.apart(&found.extended, fitted) < 2.5);
+                let fitted = it.fitted.as_ref();
+                let alike = fitted.is_ok_and(|fitted| self.as_good(&held, &found.extended, fitted));
                 alike && !is_table(it.term) && it.evidence.refusal().is_none()
             });
             rooted.push(Accepted { term, evidence, rivals: rivals.map(|it| it.term).collect() });
