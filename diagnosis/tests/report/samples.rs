@@ -208,7 +208,7 @@ pub fn sample(verdict: Verdict) -> Findings {
                 block_t: 4.6,
                 held_out_t: 3.4,
                 explained: 0.062,
-                phi_gain: 0.08,
+                phi_gain: 0.12,
                 taken: 0.35,
                 usual: true,
             };
