@@ -37,16 +37,17 @@ impl Diagnosis<'_> {
         });
         let mut effects: Vec<Effect> = named.iter().map(|it| self.effect(it)).collect();
         let mut nearest = Vec::new();
+        let left = self.left();
         if let Some(first) = named.first()
             && unnamed.is_none()
             && self.rooted.is_empty()
-            && unnamed::explains_too_little(&signals)
+            && unnamed::explains_too_little(&left)
         {
             unnamed = Some(self.place(first.term));
             nearest = std::mem::take(&mut effects);
         }
         let sensors = named.iter().filter(|it| name(it.term, &world.rig.plant).sensor).count();
-        let best = signals.iter().map(|signal| signal.phi_after).fold(f64::NEG_INFINITY, f64::max);
+        let best = left.iter().map(unnamed::Left::phi).fold(f64::NEG_INFINITY, f64::max);
         let verdict = if best < INADEQUATE {
             Verdict::ModelInadequate
         } else if unnamed.is_some() && effects.is_empty() {

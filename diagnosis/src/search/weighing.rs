@@ -19,7 +19,7 @@ impl World<'_> {
         self.train.first().map_or(1, Recorded::block)
     }
 
-    pub(super) fn errors<'b>(&'b self, residuals: &'b Residuals) -> Errors<'b> {
+    pub(crate) fn errors<'b>(&'b self, residuals: &'b Residuals) -> Errors<'b> {
         Errors { residuals, floor: &self.floor }
     }
 

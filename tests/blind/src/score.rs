@@ -140,7 +140,9 @@ fn first_cause(report: &Report) -> String {
 
 fn is_named(effect: &Present, named: &Named) -> bool {
     let at_place = effect.signal.is_empty() || named.element == effect.signal;
-    named.id == number(&effect.id) && at_place
+    // The laws of actuators' own share a number, with a letter each.
+    let of_family = effect.id == "32" && named.id.trim_end_matches(|c: char| c.is_ascii_lowercase()) == "32";
+    (named.id == number(&effect.id) || of_family) && at_place
 }
 
 /// Whether the report says so in another way than by an effect: the tyre's damping is a parameter of the model,
