@@ -300,7 +300,7 @@ fn a_record_that_is_too_short_is_refused_with_a_report() {
 fn real(folder: &str) -> Option<PathBuf> {
     let folder = strut::root().join("../shared/data").join(folder);
     if !folder.is_dir() {
-        eprintln!("skipped: the records of {} are not here", folder.display());
+        strut::tell(&format!("skipped: the records of {} are not here", folder.display()));
         return None;
     }
     Some(folder)

@@ -6,7 +6,6 @@
 
 use std::ffi::OsString;
 use std::fs;
-use std::io::Write;
 use std::path::Path;
 use std::process::Command;
 
@@ -52,7 +51,7 @@ impl Platform {
 #[test]
 fn every_platform_in_one_file_gives_the_same_bits() {
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
-        return skip("every platform: they are emulated on Linux on an Intel processor only");
+        return strut::skip("every platform: they are emulated on Linux on an Intel processor only");
     }
     let mut folders = vec!["linux64"];
     let mut targets = vec!["x86_64-unknown-linux-gnu.2.17"];
@@ -62,7 +61,7 @@ fn every_platform_in_one_file_gives_the_same_bits() {
             folders.push(platform.folder);
             targets.push(platform.target);
         } else {
-            skip(&format!("{}: for want of {}", platform.folder, missing.join(" and ")));
+            strut::skip(&format!("{}: for want of {}", platform.folder, missing.join(" and ")));
         }
     }
     let work = strut::target().join("tested-platforms");
@@ -90,19 +89,6 @@ fn every_platform_in_one_file_gives_the_same_bits() {
     let output = strut::python("tests/masters/platforms.py", &arguments);
     print!("{output}");
     assert_eq!(output.lines().count(), FMUS.len() * folders.len(), "every library is to be run");
-}
-
-/// Told even though the test passes: a test that did not run has not passed.
-///
-/// # Panics
-/// Where `CI` is set: there everything is installed.
-fn skip(what: &str) {
-    assert!(
-        std::env::var_os("CI").is_none(),
-        "{what}: nothing is left out in CI, where .ci/install brings it all"
-    );
-    // Past the test runner, which keeps what a passing test prints.
-    let _ = writeln!(std::io::stderr(), "skipped: {what}; .ci/install brings what is missing");
 }
 
 /// Whether the compiler has a target of its own.

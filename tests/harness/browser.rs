@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::run;
+use crate::{run, skip};
 
 const PROGRAMS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
@@ -16,15 +16,16 @@ pub struct Browser {
 
 impl Browser {
     /// The one that is installed. Without any, that is said.
+    ///
+    /// # Panics
+    /// If there is none where `CI` is set.
     pub fn installed() -> Option<Self> {
         let answers = |program: &&&str| {
             Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success())
         };
         let program = PROGRAMS.iter().find(answers).copied();
         if program.is_none() {
-            eprintln!(
-                "skipped: pages in a browser, for want of chromium; .ci/install brings what is missing"
-            );
+            skip("pages in a browser, for want of chromium");
         }
         program.map(|program| Self { program })
     }

@@ -8,6 +8,7 @@ mod browser;
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::hash::{DefaultHasher, Hash, Hasher};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
@@ -42,6 +43,23 @@ pub fn fmus() -> &'static Path {
         run(build_fmu().arg("--out").arg(&out));
         out
     })
+}
+
+/// Tells that a test leaves something out that `.ci/install` would bring: what did not run has not passed.
+///
+/// # Panics
+/// Where `CI` is set: there everything is installed.
+pub fn skip(what: &str) {
+    assert!(
+        std::env::var_os("CI").is_none(),
+        "{what}: nothing is left out in CI, where .ci/install brings it all"
+    );
+    tell(&format!("skipped: {what}; .ci/install brings what is missing"));
+}
+
+/// Prints past the test runner, which keeps what a passing test prints.
+pub fn tell(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{text}");
 }
 
 /// The packager, as the first page runs it, compiled as the tests are.

@@ -52,8 +52,8 @@ pub fn markdown(scores: &[Score]) -> String {
     row("sensor or plant", "≥ 95 %", &mut scores.iter().filter_map(|score| score.sensor_or_plant));
     let each = |(hits, of): (usize, usize)| (0..of).map(move |k| k < hits);
     row("95 % intervals that cover", "90–98 %", &mut scores.iter().flat_map(|score| each(score.covered)));
-    let base = scores.iter().flat_map(|score| each(score.base_covered));
-    row("the same of base parameters", "90–98 %", &mut { base });
+    let mut base = scores.iter().flat_map(|score| each(score.base_covered));
+    row("the same of base parameters", "90–98 %", &mut base);
     let gains: Vec<(f64, f64)> = scores.iter().filter_map(|score| score.gained).collect();
     let (gained, oracle) = gains.iter().fold((0.0, 0.0), |sum, it| (sum.0 + it.0, sum.1 + it.1));
     if oracle > 0.0 {
