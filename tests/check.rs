@@ -1,107 +1,18 @@
 //! `build-fmu check`: nothing on our own FMUs and on one without fault, and each rule on one that breaks it.
 
-use std::io::{Cursor, Write};
-use std::path::{Path, PathBuf};
-use std::process::Command;
-use std::sync::OnceLock;
+#[path = "check/subject.rs"]
+mod subject;
 
-use serde_json::Value;
-use zip::{CompressionMethod, ZipWriter, write::SimpleFileOptions};
+use std::path::PathBuf;
 
-const XML: &str = include_str!("check/modelDescription.xml");
+use subject::{Parts, check, described, parts, problems};
+use zip::CompressionMethod;
 
-/// What an FMU is made of.
-struct Parts {
-    xml: String,
-    library: Option<Vec<u8>>,
-    files: Vec<(String, Vec<u8>, CompressionMethod)>,
-}
-
-/// The small FMU of `check/faulty.c`, with a fault of its code.
-fn parts(fault: &str) -> Parts {
-    static FAULTLESS: OnceLock<Vec<u8>> = OnceLock::new();
-    let library =
-        if fault.is_empty() { FAULTLESS.get_or_init(|| compiled("")).clone() } else { compiled(fault) };
-    let data = ("resources/data.txt".into(), b"data".to_vec(), CompressionMethod::Deflated);
-    Parts { xml: XML.into(), library: Some(library), files: vec![data] }
-}
-
-fn compiled(fault: &str) -> Vec<u8> {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("Faulty.so");
-    let source = strut::root().join("tests/check/faulty.c");
-    let mut cc = Command::new("cc");
-    cc.args(["-shared", "-fPIC", "-O1", "-w", "-ffp-contract=off", "-o"]).arg(&out).arg(source).arg("-lm");
-    if !fault.is_empty() {
-        cc.arg(format!("-DFAULT_{fault}"));
-    }
-    strut::run(&mut cc);
-    std::fs::read(out).unwrap()
-}
-
-/// The same with another text in its description.
-fn described(from: &str, to: &str) -> Parts {
-    let mut parts = parts("");
-    assert!(parts.xml.contains(from), "{from}");
-    parts.xml = parts.xml.replace(from, to);
-    parts
-}
-
-impl Parts {
-    fn write(&self, path: &Path) {
-        let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
-        let mut add = |name: &str, contents: &[u8], method| {
-            zip.start_file(name, SimpleFileOptions::default().compression_method(method)).unwrap();
-            zip.write_all(contents).unwrap();
-        };
-        add("modelDescription.xml", self.xml.as_bytes(), CompressionMethod::Deflated);
-        if let Some(library) = &self.library {
-            add("binaries/linux64/Faulty.so", library, CompressionMethod::Deflated);
-        }
-        for (name, contents, method) in &self.files {
-            add(name, contents, *method);
-        }
-        std::fs::write(path, zip.finish().unwrap().into_inner()).unwrap();
-    }
-}
-
-/// Exit code and answer of `check --json`.
-fn check(files: &[PathBuf], options: &[&str]) -> (i32, Value) {
-    let mut command = strut::build_fmu();
-    let output = command.arg("check").args(files).arg("--json").args(options).output().unwrap();
-    let text = String::from_utf8_lossy(&output.stdout);
-    let answer = serde_json::from_str(&text)
-        .unwrap_or_else(|error| panic!("{error}: {text}{}", String::from_utf8_lossy(&output.stderr)));
-    (output.status.code().unwrap(), answer)
-}
-
-/// Findings above notes, as `rule: message`.
-fn problems(answer: &Value) -> Vec<String> {
-    let findings = answer["report"]["findings"].as_array().unwrap_or_else(|| panic!("{answer}"));
-    let problems = findings.iter().filter(|finding| finding["level"] != "note");
-    problems
-        .map(|it| format!("{}: {}", it["rule"].as_str().unwrap(), it["message"].as_str().unwrap()))
-        .collect()
-}
-
-/// Checks many FMUs in one run of the program, by our own rules alone: each has problems of its rule, and no others.
+/// Checks FMUs: each has problems of its rule, and no others.
 fn each_has_its_problem(cases: &[(&str, Parts, &str, &str)], options: &[&str]) {
-    let folder = tempfile::tempdir().unwrap();
-    let files: Vec<PathBuf> = (0..)
-        .zip(cases)
-        .map(|(index, (name, parts, ..))| {
-            let path = folder.path().join(format!("{index}-{name}.fmu"));
-            parts.write(&path);
-            path
-        })
-        .collect();
-    let (code, answers) = check(&files, &[&["--no-fmpy"], options].concat());
-    assert_eq!(code, 1);
-    for ((name, _, rule, message), answer) in cases.iter().zip(answers.as_array().unwrap()) {
-        let found = problems(answer);
-        assert!(found.iter().any(|problem| problem.contains(message)), "{name}: {found:#?}");
-        assert!(found.iter().all(|problem| problem.starts_with(&format!("{rule}: "))), "{name}: {found:#?}");
-    }
+    let packed: Vec<_> =
+        cases.iter().map(|(name, parts, rule, message)| (*name, parts.bytes(), *rule, *message)).collect();
+    subject::each_has_its_problem(&packed, "fmu", options);
 }
 
 /// Description, archive and files of libraries.
@@ -300,7 +211,7 @@ fn each_fault_of_behaviour_is_found() {
 fn there_is_nothing_to_find_where_there_is_no_fault() {
     let folder = tempfile::tempdir().unwrap();
     let faultless = folder.path().join("faultless.fmu");
-    parts("").write(&faultless);
+    std::fs::write(&faultless, parts("").bytes()).unwrap();
     // A rig, a sampled controller, one with a file in its resources, one with other types of parameters.
     let ours = ["TumQuarterVehicle", "QuanserLqrController", "RecordedRoad", "KogutSasRig"];
     let mut files: Vec<PathBuf> = ours.iter().map(|name| strut::fmus().join(format!("{name}.fmu"))).collect();
@@ -328,7 +239,7 @@ fn what_is_legal_but_narrow_is_noted() {
     let path = folder.path().join("fixed.fmu");
     let mut noted = parts("FIXED");
     noted.xml = noted.xml.replace(" unit=\"m\"", "").replace("description=\"Output\" ", "");
-    noted.write(&path);
+    std::fs::write(&path, noted.bytes()).unwrap();
     let (code, answers) = check(std::slice::from_ref(&path), &["--no-fmpy"]);
     let findings = answers[0]["report"]["findings"].as_array().unwrap();
     let rules: Vec<&str> = findings.iter().map(|finding| finding["rule"].as_str().unwrap()).collect();
@@ -345,7 +256,7 @@ fn fmpy_is_heard_and_missed() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("unknown.fmu");
     // Known to the schema alone.
-    described("<ModelVariables>", "<ModelVariables colour=\"red\">").write(&path);
+    std::fs::write(&path, described("<ModelVariables>", "<ModelVariables colour=\"red\">").bytes()).unwrap();
     let python = strut::interpreter();
     let (code, answers) =
         check(std::slice::from_ref(&path), &["--no-run", "--fmpy", python.to_str().unwrap()]);
@@ -369,9 +280,9 @@ fn what_cannot_be_read_is_told_with_exit_code_2() {
     let text = folder.path().join("text.fmu");
     std::fs::write(&text, "no archive").unwrap();
     let broken = folder.path().join("broken.fmu");
-    described("</fmiModelDescription>", "").write(&broken);
+    std::fs::write(&broken, described("</fmiModelDescription>", "").bytes()).unwrap();
     let third = folder.path().join("fmi3.fmu");
-    described("fmiVersion=\"2.0\"", "fmiVersion=\"3.0\"").write(&third);
+    std::fs::write(&third, described("fmiVersion=\"2.0\"", "fmiVersion=\"3.0\"").bytes()).unwrap();
     let files = [text, broken, third, folder.path().join("missing.fmu")];
     let (code, answers) = check(&files, &["--no-fmpy"]);
     assert_eq!(code, 2);

@@ -46,8 +46,8 @@ pub fn check(arguments: &CheckArguments) -> ExitCode {
                 list.push(json!({"file": name, "unreadable": error}));
                 let mut failure = Failure::new(format!("`{name}` cannot be checked: {error}"));
                 if !file.exists() {
-                    failure =
-                        failure.help("give the path of an .fmu file; `build-fmu NAME` makes one in `fmus/`");
+                    failure = failure
+                        .help("give the path of an .fmu or .ssp file; `build-fmu NAME` makes one in `fmus/`");
                 }
                 anstream::eprintln!("{failure:#}");
             }

@@ -45,6 +45,7 @@ Examples:
 const CHECK_EXAMPLES: &str = "\
 Examples:
   build-fmu check fmus/TumQuarterVehicle.fmu    one
+  build-fmu check fmus/quanser-lqr.ssp          a system, and each FMU in it
   build-fmu check *.fmu --strict                several; notes on portability count too
   build-fmu check unknown.fmu --no-run          without running code of others
   build-fmu check X.fmu --fmpy ~/venv/bin/python
@@ -95,7 +96,7 @@ pub enum Command {
     /// Shows an FMU's variables, equations and sources, or a system's components and connections
     #[command(after_help = DESCRIBE_EXAMPLES)]
     Describe(DescribeArguments),
-    /// Checks an FMU, anyone's: description, libraries, behaviour; says what is wrong and what to do
+    /// Checks an FMU or SSP, anyone's: description, libraries, behaviour; says what is wrong and what to do
     #[cfg(feature = "tools")]
     #[command(after_help = CHECK_EXAMPLES)]
     Check(CheckArguments),
@@ -150,7 +151,7 @@ pub struct DescribeArguments {
 #[cfg(feature = "tools")]
 #[derive(Args, Debug)]
 pub struct CheckArguments {
-    /// FMUs to check
+    /// FMUs and SSPs to check
     #[arg(value_name = "FMU", required = true, value_hint = clap::ValueHint::FilePath)]
     pub files: Vec<PathBuf>,
 

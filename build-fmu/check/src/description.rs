@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use roxmltree::{Document, Node};
 
+use crate::unit::Unit;
+
 /// What stands in `modelDescription.xml`.
 #[derive(Clone, Debug, Default)]
 pub struct Description {
@@ -17,8 +19,8 @@ pub struct Description {
     pub event_indicators: usize,
     /// Co-simulation and model exchange, as far as they are there.
     pub interfaces: Vec<Interface>,
-    /// Names of the declared units.
-    pub units: Vec<String>,
+    /// The declared units.
+    pub units: Vec<Unit>,
     /// Declared types by name: element and unit.
     pub types: BTreeMap<String, (String, Option<String>)>,
     /// Default experiment: start, stop, tolerance, step.
@@ -172,7 +174,9 @@ impl Description {
             }));
         }
         for unit in child("UnitDefinitions").into_iter().flat_map(|node| elements(node, "Unit")) {
-            description.units.extend(text(unit, "name"));
+            // What its numbers are the schema tells; the unit is declared all the same.
+            let named = || Unit::named(unit.attribute("name").unwrap_or_default());
+            description.units.push(Unit::parse(unit).unwrap_or_else(|_| named()));
         }
         for ty in child("TypeDefinitions").into_iter().flat_map(|node| elements(node, "SimpleType")) {
             let kind = ty.children().find(Node::is_element);

@@ -8,12 +8,33 @@ use serde::Deserialize;
 use crate::finding::{Finding, Report};
 
 /// Prints version and problems. FMPy warns on stdout about some files: the answer is the last line.
-const SCRIPT: &str = "\
+const FMU: &str = "\
 import json, sys
 import fmpy, fmpy.validation
 problems = [str(problem) for problem in fmpy.validation.validate_fmu(sys.argv[1])]
 print(json.dumps({'version': fmpy.__version__, 'problems': problems}))
 ";
+
+/// The same of a system, whose parameter sets are read along. The first problem ends it.
+const SYSTEM: &str = "\
+import json, sys
+import fmpy, fmpy.ssp.ssd
+problems = []
+try:
+    fmpy.ssp.ssd.read_ssd(sys.argv[1], validate=True)
+except Exception as problem:
+    problems = [str(problem)]
+print(json.dumps({'version': fmpy.__version__, 'problems': problems}))
+";
+
+/// What is to be validated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum What {
+    /// An FMU.
+    Fmu,
+    /// A system (SSP 1.0).
+    System,
+}
 
 #[derive(Deserialize)]
 struct Answer {
@@ -36,7 +57,7 @@ pub enum Fmpy {
 ///
 /// # Errors
 /// If the Python that the user has named has none.
-pub fn validate(file: &Path, fmpy: &Fmpy, report: &mut Report) -> Result<bool, String> {
+pub fn validate(file: &Path, what: What, fmpy: &Fmpy, report: &mut Report) -> Result<bool, String> {
     let candidates = match fmpy {
         Fmpy::In(python) => vec![python.clone()],
         Fmpy::Found => vec![PathBuf::from("python3"), PathBuf::from("python")],
@@ -47,7 +68,7 @@ pub fn validate(file: &Path, fmpy: &Fmpy, report: &mut Report) -> Result<bool, S
     };
     let mut why = "there is no python3 in the path".to_owned();
     for candidate in candidates {
-        match ask(&candidate, file) {
+        match ask(&candidate, what, file) {
             Ok(answer) => {
                 for problem in &answer.problems {
                     // What follows an empty line is its parser's view of the matter.
@@ -73,10 +94,14 @@ pub fn validate(file: &Path, fmpy: &Fmpy, report: &mut Report) -> Result<bool, S
     Ok(false)
 }
 
-fn ask(python: &Path, file: &Path) -> Result<Answer, String> {
+fn ask(python: &Path, what: What, file: &Path) -> Result<Answer, String> {
     let shown = python.display();
+    let script = match what {
+        What::Fmu => FMU,
+        What::System => SYSTEM,
+    };
     let output = Command::new(python)
-        .args(["-c", SCRIPT])
+        .args(["-c", script])
         .arg(file)
         .output()
         .map_err(|error| format!("`{shown}` cannot be run: {error}"))?;

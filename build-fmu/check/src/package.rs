@@ -8,7 +8,7 @@ use zip::{CompressionMethod, ZipArchive};
 
 use crate::finding::{Finding, names};
 
-/// An FMU's files.
+/// The files of an FMU or an SSP.
 pub struct Package {
     archive: ZipArchive<File>,
     names: Vec<String>,
@@ -22,7 +22,7 @@ impl Package {
     /// If there is no such file or it is no zip archive.
     pub fn open(path: &Path) -> Result<Self, String> {
         let file = File::open(path).map_err(|error| format!("cannot open it: {error}"))?;
-        let no_zip = |error| format!("it is no zip archive, as an FMU is: {error}");
+        let no_zip = |error| format!("it is no zip archive, as FMUs and SSPs are: {error}");
         let mut archive = ZipArchive::new(file).map_err(no_zip)?;
         let (mut names, mut methods) = (Vec::new(), Vec::new());
         for index in 0..archive.len() {
@@ -50,6 +50,17 @@ impl Package {
         let mut contents = Vec::new();
         entry.read_to_end(&mut contents).map_err(|error| damaged(&error))?;
         Ok(Some(contents))
+    }
+
+    /// The contents of a text; none if it is missing.
+    ///
+    /// # Errors
+    /// If it cannot be unpacked, or is not encoded in UTF-8.
+    pub fn text(&mut self, name: &str) -> Result<Option<String>, String> {
+        let Some(bytes) = self.read(name)? else { return Ok(None) };
+        let text = String::from_utf8(bytes).map_err(|_| format!("{name} is not encoded in UTF-8"))?;
+        // A mark of the byte order is no part of the text.
+        Ok(Some(text.trim_start_matches('\u{feff}').to_owned()))
     }
 
     /// Unpacks all of it into a folder, which files cannot climb out of.
@@ -82,7 +93,7 @@ impl Package {
             let message = format!("paths lead out of the archive: {}", names(&outside));
             findings.push(
                 Finding::error("archive.path", message)
-                    .help("name files relative to the FMU's root, without `..`"),
+                    .help("name files relative to the archive's root, without `..`"),
             );
         }
         let others: Vec<&str> = self
@@ -98,7 +109,7 @@ impl Package {
             let message = format!("files are compressed in another way than `deflate`: {}", names(&others));
             findings.push(
                 Finding::error("archive.compression", message)
-                    .help("FMI 2.0 wants `deflate`, the one that every tool can read"),
+                    .help("FMI and SSP want `deflate`, the one that every tool can read"),
             );
         }
         findings

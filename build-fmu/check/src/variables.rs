@@ -178,13 +178,7 @@ fn start(variable: &Variable) -> Vec<Finding> {
         _ => {}
     }
     let text = variable.start.as_deref().map(str::trim);
-    let readable = match (variable.kind.as_str(), text) {
-        (_, None) | ("String", _) => true,
-        ("Real", Some(text)) => text.parse::<f64>().is_ok_and(f64::is_finite),
-        ("Integer" | "Enumeration", Some(text)) => text.parse::<i32>().is_ok(),
-        ("Boolean", Some(text)) => matches!(text, "true" | "false" | "0" | "1"),
-        _ => true,
-    };
+    let readable = text.is_none_or(|text| is_value(&variable.kind, text));
     if !readable {
         let value = text.unwrap_or_default();
         let message =
@@ -206,6 +200,16 @@ fn start(variable: &Variable) -> Vec<Finding> {
         findings.push(Finding::error("variables.nominal", message).line(*line));
     }
     findings
+}
+
+/// Whether a text is a value of a type.
+pub fn is_value(kind: &str, text: &str) -> bool {
+    match kind {
+        "Real" => text.trim().parse::<f64>().is_ok_and(f64::is_finite),
+        "Integer" | "Enumeration" => text.trim().parse::<i32>().is_ok(),
+        "Boolean" => matches!(text.trim(), "true" | "false" | "0" | "1"),
+        _ => true,
+    }
 }
 
 fn type_and_unit(variable: &Variable, description: &Description) -> Vec<Finding> {
@@ -246,7 +250,7 @@ fn type_and_unit(variable: &Variable, description: &Description) -> Vec<Finding>
         findings.push(Finding::error("variables.type", message).line(*line));
     }
     if let Some(unit) = &variable.unit
-        && !description.units.contains(unit)
+        && !description.units.iter().any(|declared| declared.symbol == *unit)
     {
         let message = format!("the unit `{unit}` of `{name}` is not declared in <UnitDefinitions>");
         findings.push(

@@ -1,9 +1,10 @@
 //! Whether a system fits its components.
 
+use strut_check::unit::Fit;
 use strut_model::{Causality, Value};
 
 use super::adapter::{Adaptation, Adapter, Operation};
-use super::face::{Face, Fit, Kind};
+use super::face::{Face, Kind};
 use super::wire::{End, Sink, Source, Way, Wire};
 use super::{Factors, Line, Part, Port, Setting, System};
 use crate::failure::{Failure, Result, similar};

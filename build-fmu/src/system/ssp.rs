@@ -8,11 +8,12 @@
 //! A master that converts units (OMSimulator does) must not do it again where a factor was given: such
 //! connections suppress it.
 
+use strut_check::unit::Unit;
 use strut_model::Value;
 
 use super::adapter::Adapter;
 use super::check::Checked;
-use super::face::{Kind, Unit, Variable};
+use super::face::{Kind, Variable};
 use super::wire::{End, Sink, Source, Way};
 use super::xml::Element;
 use super::{Packed, System};

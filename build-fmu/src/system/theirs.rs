@@ -4,16 +4,17 @@ use std::io::{Cursor, Read};
 use std::path::Path;
 
 use roxmltree::{Document, Node};
+use strut_check::unit::Unit;
 use strut_model::Causality;
 use zip::ZipArchive;
 
-use super::face::{BASES, Face, Kind, Unit, Variable};
+use super::face::{Face, Kind, Variable};
 use crate::failure::{Failure, Result};
 
 /// An FMU that others have made.
 #[derive(Clone, Debug)]
 pub struct Theirs {
-    /// Its file's name.
+    /// Its name in the archive.
     pub file: String,
     /// What it is, in one sentence.
     pub title: String,
@@ -65,10 +66,17 @@ impl Theirs {
         }
         let title = root.attribute("description").filter(|text| !text.trim().is_empty());
         let title = title.or_else(|| root.attribute("modelName")).unwrap_or_default().to_owned();
-        let file = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let file = path.file_name().map(|name| plain(&name.to_string_lossy())).unwrap_or_default();
         let face = face(root).map_err(|why| no_fmu(&why))?;
         Ok(Self { file, title, face, platforms, bytes })
     }
+}
+
+/// A file's name without what has a meaning in a URI, by which a component's source is given: some masters decode
+/// it and some do not.
+fn plain(name: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '_');
+    name.chars().map(|c| if is_plain(c) { c } else { '_' }).collect()
 }
 
 /// The platform's folder of a library, `binaries/win64/Truck.dll`.
@@ -88,29 +96,12 @@ fn face(root: Node) -> std::result::Result<Face, String> {
         list.into_iter().flat_map(move |list| list.children().filter(move |node| node.has_tag_name(item)))
     };
     let units: Vec<Unit> =
-        list("UnitDefinitions", "Unit").map(unit).collect::<std::result::Result<_, _>>()?;
+        list("UnitDefinitions", "Unit").map(Unit::parse).collect::<std::result::Result<_, _>>()?;
     let types: Vec<Node> = list("TypeDefinitions", "SimpleType").collect();
     let variables = list("ModelVariables", "ScalarVariable")
         .map(|node| variable(node, &units, &types))
         .collect::<std::result::Result<_, _>>()?;
     Ok(Face { variables })
-}
-
-fn unit(node: Node) -> std::result::Result<Unit, String> {
-    let symbol = node.attribute("name").unwrap_or_default().to_owned();
-    let Some(base) = child(node, "BaseUnit") else {
-        return Ok(Unit { symbol, base: None, factor: 1.0, offset: 0.0 });
-    };
-    let exponents = BASES
-        .iter()
-        .map(|name| Ok((*name, number(base, name)?.map_or(0, |exponent| exponent as i32))))
-        .collect::<std::result::Result<Vec<_>, String>>()?;
-    Ok(Unit {
-        symbol,
-        base: Some(exponents.into_iter().filter(|(_, exponent)| *exponent != 0).collect()),
-        factor: number(base, "factor")?.unwrap_or(1.0),
-        offset: number(base, "offset")?.unwrap_or(0.0),
-    })
 }
 
 fn number(node: Node, attribute: &str) -> std::result::Result<Option<f64>, String> {
@@ -143,7 +134,7 @@ fn variable(node: Node, units: &[Unit], types: &[Node]) -> std::result::Result<V
                 of_type.attribute("unit").or_else(|| declared.and_then(|node| node.attribute("unit")));
             let unit = symbol.filter(|symbol| !symbol.is_empty()).map(|symbol| {
                 let known = units.iter().find(|unit| unit.symbol == symbol).cloned();
-                known.unwrap_or(Unit { symbol: symbol.into(), base: None, factor: 1.0, offset: 0.0 })
+                known.unwrap_or_else(|| Unit::named(symbol))
             });
             Kind::Real { unit, min: number_of("min")?, max: number_of("max")? }
         }

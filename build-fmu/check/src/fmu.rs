@@ -1,0 +1,88 @@
+//! The check of an FMU.
+
+use std::path::Path;
+
+use crate::description::{Description, Kind};
+use crate::finding::{Report, count};
+use crate::package::Package;
+use crate::{Options, behaviour, fmpy, libraries, probe, structure, variables};
+
+/// The file that an FMU must have.
+pub const FILE: &str = "modelDescription.xml";
+
+/// Checks an FMU.
+///
+/// # Errors
+/// If it cannot be read, or there is nothing to check it by.
+pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Report, String> {
+    let description = description(package)?;
+    let mut report = Report { findings: package.findings(), ..Report::default() };
+    report.about = about(&description);
+    if description.version != "2.0" {
+        let version = &description.version;
+        report.skipped.push(format!("the rules for FMI 2.0 and running it: this is FMI {version}"));
+        return if fmpy::validate(file, fmpy::What::Fmu, &options.fmpy, &mut report)? {
+            Ok(report)
+        } else {
+            Err(format!(
+                "this is FMI {version}; only FMPy could check it, and there is none (name a Python with --fmpy)"
+            ))
+        };
+    }
+    report.findings.extend(variables::findings(&description));
+    report.findings.extend(structure::findings(&description));
+    report.done.push(format!(
+        "description: {}, model structure, units, start values",
+        count(description.variables.len(), "variable")
+    ));
+    let (found, platforms) = libraries::findings(package, &description)?;
+    report.findings.extend(found);
+    if !platforms.is_empty() {
+        report.about.push(platforms.join(", "));
+        report.done.push(format!("libraries: {}", platforms.join(", ")));
+    }
+    if options.run {
+        let failed = |error: std::io::Error| format!("there is no folder to unpack to: {error}");
+        let folder = tempfile::tempdir().map_err(failed)?;
+        let (plain, odd) = (folder.path().join("fmu"), folder.path().join("100 % Räder (Kopie)"));
+        for path in [&plain, &odd] {
+            std::fs::create_dir(path).map_err(failed)?;
+            package.unpack(path)?;
+        }
+        let unpacked = behaviour::Unpacked { plain: &plain, odd: &odd };
+        let probe = probe::Probe { program: options.program.clone(), timeout: options.timeout };
+        behaviour::run(&description, &unpacked, &probe, &mut report)?;
+    } else {
+        report.skipped.push("running it: not wanted".into());
+    }
+    fmpy::validate(file, fmpy::What::Fmu, &options.fmpy, &mut report)?;
+    Ok(report)
+}
+
+/// The description of an FMU.
+///
+/// # Errors
+/// If it is missing or cannot be read.
+pub fn description(package: &mut Package) -> Result<Description, String> {
+    let text = package.text(FILE)?.ok_or_else(|| format!("there is no {FILE} at the root of the archive"))?;
+    Description::parse(&text)
+}
+
+fn about(description: &Description) -> Vec<String> {
+    let kinds: Vec<&str> = description
+        .interfaces
+        .iter()
+        .map(|interface| match interface.kind {
+            Kind::CoSimulation => "co-simulation",
+            Kind::ModelExchange => "model exchange",
+        })
+        .collect();
+    let of = |causality: &str| description.variables.iter().filter(|it| it.causality == causality).count();
+    let mut about =
+        vec![format!("FMI {} {}", description.version, kinds.join(" and ")).trim_end().to_owned()];
+    // Other versions declare their variables in other ways.
+    if description.version == "2.0" {
+        about.push(format!("{}, {}", count(of("input"), "input"), count(of("output"), "output")));
+    }
+    about
+}

@@ -1,0 +1,180 @@
+//! Rules for what joins elements: both ends are there, signals flow from one to the other, types and units agree.
+
+use std::collections::BTreeMap;
+
+use super::structure::{Connection, Connector, Content, Element, End};
+use super::{System, at};
+use crate::finding::Finding;
+use crate::unit::Fit;
+
+/// An end of a connection, found.
+struct Found<'a> {
+    element: &'a Element,
+    connector: &'a Connector,
+    /// Whether it is the surrounding system's own, which is seen from within.
+    within: bool,
+}
+
+/// What a connector is to a connection.
+#[derive(Clone, Copy, PartialEq)]
+enum Role {
+    Source,
+    Sink,
+    Either,
+}
+
+impl Found<'_> {
+    /// What enters a system from outside comes from its connector, seen from within.
+    fn role(&self) -> Role {
+        match (self.connector.kind.as_str(), self.within) {
+            ("output" | "calculatedParameter", false) | ("input" | "parameter", true) => Role::Source,
+            ("input" | "parameter", false) | ("output" | "calculatedParameter", true) => Role::Sink,
+            _ => Role::Either,
+        }
+    }
+
+    /// Whether it is set once, before anything runs.
+    fn is_parameter(&self) -> bool {
+        self.connector.kind.to_lowercase().ends_with("parameter")
+    }
+
+    fn shown(&self) -> String {
+        self.element.of(&self.connector.name)
+    }
+}
+
+impl System {
+    /// What is wrong with connections.
+    pub(super) fn connections(&self) -> Vec<Finding> {
+        let mut findings = Vec::new();
+        for system in self.structure.root.all() {
+            let Content::System { elements, connections } = &system.content else { continue };
+            // What leads to each sink, with the line.
+            let mut driven: BTreeMap<String, u32> = BTreeMap::new();
+            for connection in connections {
+                let [start, end] = &connection.ends;
+                let ends = (find(system, elements, start), find(system, elements, end));
+                let (start, end) = match ends {
+                    (Ok(start), Ok(end)) => (start, end),
+                    (start, end) => {
+                        let missing = [start.err(), end.err()].into_iter().flatten();
+                        findings.extend(missing.map(|message| {
+                            Finding::error("system.connection", message).at(at(connection.line))
+                        }));
+                        continue;
+                    }
+                };
+                match directed(start, end) {
+                    Ok((source, sink)) => {
+                        if let Some(first) = driven.insert(sink.shown(), connection.line) {
+                            let message = format!(
+                                "`{}` is connected twice; the other connection is in line {first}",
+                                sink.shown()
+                            );
+                            findings.push(
+                                Finding::error("system.twice", message)
+                                    .at(at(connection.line))
+                                    .help("let a component add the signals up, or leave one of them out"),
+                            );
+                        }
+                        findings.extend(self.types(connection, &source, &sink));
+                        findings.extend(self.units(connection, &source, &sink));
+                    }
+                    Err(message) => {
+                        findings.push(
+                            Finding::error("system.connection", message).at(at(connection.line)).help(
+                                "connect an output with an input, or a system's connector with one of the same kind \
+                                 within it",
+                            ),
+                        );
+                    }
+                }
+            }
+        }
+        findings
+    }
+
+    fn types(&self, connection: &Connection, source: &Found, sink: &Found) -> Option<Finding> {
+        let from = self.type_at(source.element, source.connector)?;
+        let to = self.type_at(sink.element, sink.connector)?;
+        if from == to || connection.transformed {
+            return None;
+        }
+        let (source, sink) = (source.shown(), sink.shown());
+        let message = format!("the connection `{source}` -> `{sink}` leads from {from} to {to}");
+        Some(Finding::error("system.type", message).at(at(connection.line)).help(
+            "connect variables of the same type, or tell how the one becomes the other by a transformation",
+        ))
+    }
+
+    fn units(&self, connection: &Connection, source: &Found, sink: &Found) -> Option<Finding> {
+        let Connection { unconverted, transformed, .. } = connection;
+        let from = self.unit_at(source.element, source.connector)?;
+        let to = self.unit_at(sink.element, sink.connector)?;
+        let leads = format!(
+            "the connection `{}` -> `{}` leads from \"{}\" to \"{}\"",
+            source.shown(),
+            sink.shown(),
+            from.symbol,
+            to.symbol
+        );
+        let finding = match (from.fit(&to, 0), unconverted, transformed) {
+            // It is said what becomes of the signal, or that nothing is to.
+            (Fit::Same, ..) | (_, true, _) => return None,
+            (Fit::Linear { .. }, false, true) => Finding::warning(
+                "system.unit",
+                format!(
+                    "{leads} by a transformation of its own, which tools apply after converting the units"
+                ),
+            )
+            .help("add suppressUnitConversion=\"true\" if the transformation is the conversion"),
+            (_, false, true) => return None,
+            (Fit::Linear { factor, offset }, false, false) => {
+                let way = format!("<ssc:LinearTransformation factor=\"{factor:?}\" offset=\"{offset:?}\"/>");
+                Finding::warning("system.unit", format!("{leads}, which not every tool converts"))
+                    .help(format!("write {way} into it, with suppressUnitConversion=\"true\""))
+            }
+            (Fit::Unknown, false, false) => {
+                let message = format!("{leads}, and nothing tells how these units compare");
+                Finding::warning("system.unit", message)
+                    .help("declare both by their base units, or tell the factor by a transformation")
+            }
+            (Fit::Derivative | Fit::Integral | Fit::Different, false, false) => {
+                Finding::error("system.unit", leads)
+                    .help("connect variables of the same unit, or tell the factor by a transformation")
+            }
+        };
+        Some(finding.at(at(connection.line)))
+    }
+}
+
+/// The connector at an end.
+fn find<'a>(system: &'a Element, elements: &'a [Element], end: &End) -> Result<Found<'a>, String> {
+    let (element, within) = match &end.element {
+        None => (system, true),
+        Some(name) => {
+            let element = elements.iter().find(|element| element.name == *name).ok_or_else(|| {
+                format!("a connection ends at the element `{}`, which there is none of", system.of(name))
+            })?;
+            (element, false)
+        }
+    };
+    let connector = element.connector(&end.connector).ok_or_else(|| {
+        format!("a connection ends at `{}`, which is no connector", element.of(&end.connector))
+    })?;
+    Ok(Found { element, connector, within })
+}
+
+/// The ends in the order that the signal takes, which is not always that in which they are written.
+fn directed<'a>(start: Found<'a>, end: Found<'a>) -> Result<(Found<'a>, Found<'a>), String> {
+    let both = format!("`{}` and `{}`", start.shown(), end.shown());
+    if start.is_parameter() != end.is_parameter() {
+        return Err(format!("{both} are connected, of which one is a parameter and the other a signal"));
+    }
+    match (start.role(), end.role()) {
+        (Role::Source, Role::Source) => Err(format!("{both} are connected, and both give a value")),
+        (Role::Sink, Role::Sink) => Err(format!("{both} are connected, and both take a value")),
+        (Role::Sink, _) | (_, Role::Source) => Ok((end, start)),
+        (Role::Source | Role::Either, Role::Sink | Role::Either) => Ok((start, end)),
+    }
+}

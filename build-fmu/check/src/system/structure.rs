@@ -1,0 +1,262 @@
+//! The description of a system (SSP 1.0), read as it is: what is wrong with it is for the rules to find.
+
+use roxmltree::{Document, Node};
+
+use super::values::{Mapping, Values};
+use crate::unit::Unit;
+
+/// The file that an SSP must have.
+pub const FILE: &str = "SystemStructure.ssd";
+
+/// What stands in the description.
+#[derive(Debug)]
+pub struct Structure {
+    /// `1.0`.
+    pub version: String,
+    /// The outermost system.
+    pub root: Element,
+    /// The declared units.
+    pub units: Vec<Unit>,
+}
+
+/// A system, or what it is made of.
+#[derive(Debug)]
+pub struct Element {
+    /// Name within the system around.
+    pub name: String,
+    /// Names from the outermost system on, which is left out itself: `corner.rig`.
+    pub path: String,
+    /// What can be connected.
+    pub connectors: Vec<Connector>,
+    /// Where values for it come from.
+    pub bindings: Vec<Binding>,
+    /// What it is.
+    pub content: Content,
+    /// Line of the element.
+    pub line: u32,
+}
+
+/// What an element is.
+#[derive(Debug)]
+pub enum Content {
+    /// Made of a file.
+    Component {
+        /// Its URI.
+        source: String,
+        /// What kind of file it is.
+        media: String,
+        /// Which of an FMU's interfaces is to be used; `any` if that is not told.
+        implementation: String,
+    },
+    /// Made of elements.
+    System {
+        /// The elements.
+        elements: Vec<Element>,
+        /// What joins them.
+        connections: Vec<Connection>,
+    },
+    /// Signals without a model.
+    Dictionary,
+}
+
+/// `<Connector>`.
+#[derive(Debug)]
+pub struct Connector {
+    /// Name, which is its variable's.
+    pub name: String,
+    /// `input`, `output`, `parameter`, `calculatedParameter`, `inout`.
+    pub kind: String,
+    /// Name of its type's element, if it is given: Real, Integer and so on.
+    pub of_type: Option<String>,
+    /// Unit, if it is given.
+    pub unit: Option<String>,
+    /// Line of the element.
+    pub line: u32,
+}
+
+/// `<Connection>`.
+#[derive(Debug)]
+pub struct Connection {
+    /// Where it starts, and where it ends; neither says which way the signal flows.
+    pub ends: [End; 2],
+    /// Whether units are not to be converted.
+    pub unconverted: bool,
+    /// Whether the signal is transformed on the way.
+    pub transformed: bool,
+    /// Line of the element.
+    pub line: u32,
+}
+
+/// An end of a connection.
+#[derive(Debug)]
+pub struct End {
+    /// Name of the element; none for the system's own connectors.
+    pub element: Option<String>,
+    /// Name of the connector.
+    pub connector: String,
+}
+
+/// `<ParameterBinding>`.
+#[derive(Debug)]
+pub struct Binding {
+    /// What kind of file it is.
+    pub media: String,
+    /// URI of the file, if it is one.
+    pub source: Option<String>,
+    /// Whether the file is looked for beside the description, and not in the component.
+    pub beside: bool,
+    /// What is put before each name.
+    pub prefix: String,
+    /// The values that are given in place.
+    pub inline: Option<Values>,
+    /// How names are mapped.
+    pub mapping: Option<Mapping>,
+    /// Line of the element.
+    pub line: u32,
+}
+
+impl Structure {
+    /// Reads the document.
+    ///
+    /// # Errors
+    /// If it is no well-formed XML or describes no system.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let document =
+            Document::parse(text).map_err(|error| format!("{FILE} is no well-formed XML: {error}"))?;
+        let root = document.root_element();
+        let found = root.tag_name().name();
+        if found != "SystemStructureDescription" {
+            return Err(format!("{FILE} is a `{found}` and no `SystemStructureDescription`"));
+        }
+        let system = child(root, "System").ok_or_else(|| format!("{FILE} has no <System>"))?;
+        Ok(Self { version: text_of(root, "version"), root: element(system, ""), units: units(root) })
+    }
+}
+
+impl Element {
+    /// This element and all within it.
+    pub fn all(&self) -> Vec<&Self> {
+        let mut all = vec![self];
+        if let Content::System { elements, .. } = &self.content {
+            all.extend(elements.iter().flat_map(Self::all));
+        }
+        all
+    }
+
+    /// The connector of a name.
+    pub fn connector(&self, name: &str) -> Option<&Connector> {
+        self.connectors.iter().find(|connector| connector.name == name)
+    }
+
+    /// A name of it for messages.
+    pub fn shown(&self) -> String {
+        if self.path.is_empty() { "the system".into() } else { format!("`{}`", self.path) }
+    }
+
+    /// The name of one of its connectors or variables, for messages.
+    pub fn of(&self, name: &str) -> String {
+        if self.path.is_empty() { name.into() } else { format!("{}.{name}", self.path) }
+    }
+}
+
+/// The children of a name; prefixes of namespaces may be any.
+pub fn children<'a, 'x>(node: Node<'a, 'x>, name: &'static str) -> impl Iterator<Item = Node<'a, 'x>> {
+    node.children().filter(move |child| child.is_element() && child.tag_name().name() == name)
+}
+
+/// The first child of a name.
+pub fn child<'a, 'x>(node: Node<'a, 'x>, name: &'static str) -> Option<Node<'a, 'x>> {
+    children(node, name).next()
+}
+
+/// An attribute; nothing if it is missing.
+pub fn text_of(node: Node, name: &str) -> String {
+    node.attribute(name).unwrap_or_default().to_owned()
+}
+
+/// The units that a document declares.
+pub fn units(root: Node) -> Vec<Unit> {
+    let units = child(root, "Units").into_iter().flat_map(|list| children(list, "Unit"));
+    // What its numbers are the schema tells; the unit is declared all the same.
+    units.map(|node| Unit::parse(node).unwrap_or_else(|_| Unit::named(&text_of(node, "name")))).collect()
+}
+
+/// The line where an element begins.
+pub fn line_of(node: Node) -> u32 {
+    node.document().text_pos_at(node.range().start).row
+}
+
+fn is_true(node: Node, name: &str) -> bool {
+    matches!(node.attribute(name), Some("true" | "1"))
+}
+
+fn element(node: Node, around: &str) -> Element {
+    let name = text_of(node, "name");
+    let path = match (around, node.parent_element().is_some_and(|it| it.tag_name().name() == "Elements")) {
+        (_, false) => String::new(),
+        ("", true) => name.clone(),
+        (around, true) => format!("{around}.{name}"),
+    };
+    let list = |list, item| child(node, list).into_iter().flat_map(move |list| children(list, item));
+    let content = match node.tag_name().name() {
+        "Component" => Content::Component {
+            source: text_of(node, "source"),
+            media: node.attribute("type").unwrap_or("application/x-fmu-sharedlibrary").into(),
+            implementation: node.attribute("implementation").unwrap_or("any").into(),
+        },
+        "System" => {
+            let inner = child(node, "Elements").into_iter().flat_map(|list| list.children());
+            Content::System {
+                elements: inner.filter(Node::is_element).map(|inner| element(inner, &path)).collect(),
+                connections: list("Connections", "Connection").map(connection).collect(),
+            }
+        }
+        _ => Content::Dictionary,
+    };
+    Element {
+        connectors: list("Connectors", "Connector").map(connector).collect(),
+        bindings: list("ParameterBindings", "ParameterBinding").map(binding).collect(),
+        line: line_of(node),
+        name,
+        path,
+        content,
+    }
+}
+
+fn connector(node: Node) -> Connector {
+    const TYPES: [&str; 6] = ["Real", "Integer", "Boolean", "String", "Enumeration", "Binary"];
+    let of_type = node.children().find(|child| TYPES.contains(&child.tag_name().name()));
+    Connector {
+        name: text_of(node, "name"),
+        kind: text_of(node, "kind"),
+        of_type: of_type.map(|node| node.tag_name().name().into()),
+        unit: of_type.and_then(|node| node.attribute("unit")).map(str::to_owned),
+        line: line_of(node),
+    }
+}
+
+fn connection(node: Node) -> Connection {
+    let end = |element: &str, connector: &str| End {
+        element: node.attribute(element).map(str::to_owned),
+        connector: text_of(node, connector),
+    };
+    Connection {
+        ends: [end("startElement", "startConnector"), end("endElement", "endConnector")],
+        unconverted: is_true(node, "suppressUnitConversion"),
+        transformed: node.children().any(|child| child.tag_name().name().ends_with("Transformation")),
+        line: line_of(node),
+    }
+}
+
+fn binding(node: Node) -> Binding {
+    let inline = child(node, "ParameterValues").and_then(|values| child(values, "ParameterSet"));
+    Binding {
+        media: node.attribute("type").unwrap_or("application/x-ssp-parameter-set").into(),
+        source: node.attribute("source").map(str::to_owned),
+        beside: node.attribute("sourceBase") != Some("component"),
+        prefix: text_of(node, "prefix"),
+        inline: inline.map(Values::of),
+        mapping: child(node, "ParameterMapping").map(Mapping::of),
+        line: line_of(node),
+    }
+}

@@ -1,0 +1,114 @@
+//! Parameter sets (SSV) and mappings of their names (SSM), read as they are.
+
+use roxmltree::{Document, Node};
+
+use super::structure::{child, children, line_of, text_of, units};
+use crate::unit::Unit;
+
+/// `<ParameterSet>`.
+#[derive(Debug)]
+pub struct Values {
+    /// What it gives.
+    pub parameters: Vec<Parameter>,
+    /// The declared units.
+    pub units: Vec<Unit>,
+}
+
+/// `<Parameter>`.
+#[derive(Debug)]
+pub struct Parameter {
+    /// Name.
+    pub name: String,
+    /// Name of its value's element: Real, Integer and so on; empty if there is none.
+    pub kind: String,
+    /// Value, as it stands there.
+    pub value: String,
+    /// Unit, if it is given.
+    pub unit: Option<String>,
+    /// Line of the element.
+    pub line: u32,
+}
+
+/// `<ParameterMapping>`.
+#[derive(Debug)]
+pub struct Mapping {
+    /// URI of its file, if it is one.
+    pub source: Option<String>,
+    /// From which name to which.
+    pub entries: Vec<Entry>,
+}
+
+/// `<MappingEntry>`.
+#[derive(Debug)]
+pub struct Entry {
+    /// Name in the parameter set.
+    pub source: String,
+    /// Name of what it is given to.
+    pub target: String,
+    /// Whether the value is transformed on the way.
+    pub transformed: bool,
+}
+
+impl Values {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// If it is no well-formed XML or no parameter set.
+    pub fn parse(bytes: &[u8]) -> Result<Self, String> {
+        document(bytes, "ParameterSet", Self::of)
+    }
+
+    /// Reads an element.
+    pub fn of(node: Node) -> Self {
+        let list = child(node, "Parameters").into_iter().flat_map(|list| children(list, "Parameter"));
+        Self { parameters: list.map(parameter).collect(), units: units(node) }
+    }
+}
+
+impl Mapping {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// If it is no well-formed XML or no mapping.
+    pub fn parse(bytes: &[u8]) -> Result<Self, String> {
+        document(bytes, "ParameterMapping", Self::of)
+    }
+
+    /// Reads an element: a mapping, or what holds one or names its file.
+    pub fn of(node: Node) -> Self {
+        let inner = child(node, "ParameterMapping").unwrap_or(node);
+        let entry = |node: Node| Entry {
+            source: text_of(node, "source"),
+            target: text_of(node, "target"),
+            transformed: node.children().any(|child| child.tag_name().name().ends_with("Transformation")),
+        };
+        Self {
+            source: node.attribute("source").map(str::to_owned),
+            entries: children(inner, "MappingEntry").map(entry).collect(),
+        }
+    }
+}
+
+fn document<T>(bytes: &[u8], wanted: &str, read: impl Fn(Node) -> T) -> Result<T, String> {
+    let text = std::str::from_utf8(bytes).map_err(|_| "is not encoded in UTF-8".to_owned())?;
+    // A mark of the byte order is no part of the text.
+    let document = Document::parse(text.trim_start_matches('\u{feff}'))
+        .map_err(|error| format!("is no well-formed XML: {error}"))?;
+    let root = document.root_element();
+    match root.tag_name().name() {
+        found if found == wanted => Ok(read(root)),
+        found => Err(format!("is a `{found}` and no `{wanted}`")),
+    }
+}
+
+fn parameter(node: Node) -> Parameter {
+    let value = node.children().find(Node::is_element);
+    let text = |name: &str| value.and_then(|value| value.attribute(name)).map(str::to_owned);
+    Parameter {
+        name: text_of(node, "name"),
+        kind: value.map_or_else(String::new, |value| value.tag_name().name().into()),
+        value: text("value").unwrap_or_default(),
+        unit: text("unit"),
+        line: line_of(node),
+    }
+}
