@@ -6,15 +6,14 @@
 
 use std::ffi::OsString;
 use std::fs;
-use std::path::Path;
-use std::process::Command;
 
 /// A platform that the machine of the tests is not.
 struct Platform {
     folder: &'static str,
     target: &'static str,
     triple: &'static str,
-    programs: &'static [&'static str],
+    linker: &'static str,
+    emulator: &'static str,
 }
 
 const EMULATED: [Platform; 2] = [
@@ -22,13 +21,15 @@ const EMULATED: [Platform; 2] = [
         folder: "win64",
         target: "x86_64-pc-windows-gnu",
         triple: "x86_64-pc-windows-gnu",
-        programs: &["x86_64-w64-mingw32-gcc", "wine"],
+        linker: "x86_64-w64-mingw32-gcc",
+        emulator: "wine",
     },
     Platform {
         folder: "aarch64-linux",
         target: "aarch64-unknown-linux-gnu.2.17",
         triple: "aarch64-unknown-linux-gnu",
-        programs: &["aarch64-linux-gnu-gcc", "qemu-aarch64-static"],
+        linker: "aarch64-linux-gnu-gcc",
+        emulator: "qemu-aarch64-static",
     },
 ];
 
@@ -38,12 +39,10 @@ const FMUS: [&str; 2] = ["TumQuarterVehicle", "LinearMotor"];
 impl Platform {
     /// What is missing here for building and running its libraries.
     fn missing(&self) -> Vec<String> {
-        let mut missing: Vec<String> = Vec::new();
-        if std::env::var_os("STRUT_CROSS").is_none() && !is_installed(self.triple) {
-            missing.push(format!("the target {} (or STRUT_CROSS)", self.triple));
+        let mut missing = strut::missing_for(self.triple, self.linker);
+        if !strut::runs(self.emulator) {
+            missing.push(self.emulator.into());
         }
-        missing
-            .extend(self.programs.iter().filter(|program| !runs(program)).map(|program| (*program).into()));
         missing
     }
 }
@@ -89,18 +88,6 @@ fn every_platform_in_one_file_gives_the_same_bits() {
     let output = strut::python("tests/masters/platforms.py", &arguments);
     print!("{output}");
     assert_eq!(output.lines().count(), FMUS.len() * folders.len(), "every library is to be run");
-}
-
-/// Whether the compiler has a target of its own.
-fn is_installed(triple: &str) -> bool {
-    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let output = strut::run(Command::new(rustc).args(["--print", "sysroot"]));
-    let sysroot = String::from_utf8_lossy(&output.stdout).trim().to_owned();
-    Path::new(&sysroot).join("lib/rustlib").join(triple).is_dir()
-}
-
-fn runs(program: &str) -> bool {
-    Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success())
 }
 
 /// The path with the environment's `cargo-zigbuild` in it.

@@ -12,13 +12,16 @@ use crate::failure::{Failure, Result, similar};
 use crate::toolchain::Toolchain;
 
 /// How a library that ships is compiled, in whatever workspace it stands: as the release profile of
-/// Strut's own workspace has it.
-const SHIPPED: [&str; 5] = [
+/// Strut's own workspace has it, and so that it is the same bytes wherever and whenever that is done. The
+/// linker for Windows writes the names of its temporary files among the symbols, and the time.
+const SHIPPED: [&str; 7] = [
     "--release",
     "--config",
     "profile.release.codegen-units=1",
     "--config",
-    "profile.release.strip='debuginfo'",
+    "profile.release.strip='symbols'",
+    "--config",
+    "target.'cfg(all(windows, target_env = \"gnu\"))'.rustflags=['-Clink-arg=-Wl,--no-insert-timestamp']",
 ];
 
 /// The program that runs us, or the one in the path.

@@ -4,6 +4,7 @@
 //! pinned packages.
 
 mod browser;
+mod cross;
 
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
@@ -14,6 +15,7 @@ use std::process::{Command, Output};
 use std::sync::OnceLock;
 
 pub use browser::Browser;
+pub use cross::{missing_for, runs};
 
 /// Lists of packages, and what each says: a changed one makes a new environment.
 const MASTERS: (&str, &str) = ("requirements.txt", include_str!("../masters/requirements.txt"));
