@@ -1,13 +1,12 @@
 //! Findings from a diagnosis: verdict, words, tables and pictures.
 
 mod pictures;
+mod summary;
 mod unnamed;
 
-use crate::correction::Fault;
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::findings::{
-    BaseParameter, Candidate, Curve, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal, Start,
-    Verdict,
+    BaseParameter, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal, Start, Verdict,
 };
 use crate::fit::{Handle, Point, Residuals};
 use crate::hypothesis::Term;
@@ -46,15 +45,16 @@ impl Diagnosis<'_> {
             unnamed = Some(self.place(first.term));
             nearest = std::mem::take(&mut effects);
         }
-        let sensors = named.iter().filter(|it| name(it.term, &world.rig.plant).sensor).count();
+        let sensors = !effects.is_empty() && named.iter().all(|it| name(it.term, &world.rig.plant).sensor);
         let best = left.iter().map(unnamed::Left::phi).fold(f64::NEG_INFINITY, f64::max);
         let verdict = if best < INADEQUATE {
             Verdict::ModelInadequate
-        } else if unnamed.is_some() && effects.is_empty() {
+        } else if unnamed.is_some() && (effects.is_empty() || sensors) {
+            // A curve is about the plant, whatever is wrong with the sensors besides.
             Verdict::Unnamed
         } else if effects.iter().any(|effect| !effect.ambiguous_with.is_empty()) {
             Verdict::Ambiguous
-        } else if !effects.is_empty() && sensors == effects.len() {
+        } else if sensors {
             Verdict::SensorFault
         } else if !effects.is_empty() {
             Verdict::Named
@@ -64,13 +64,13 @@ impl Diagnosis<'_> {
             Verdict::NoEffect
         };
         let experiment = effects.iter().find_map(|effect| effect.experiment.clone());
-        Findings {
+        let mut findings = Findings {
             format: FORMAT,
             rig: world.rig.name.clone(),
             train: world.train.iter().map(|record| record.name.clone()).collect(),
             test: world.test.iter().map(|record| record.name.clone()).collect(),
             verdict,
-            summary: summary(verdict, &effects, &base_parameters, unnamed.as_ref(), &nearest, &signals),
+            summary: String::new(),
             effects,
             base_parameters,
             pictures: self.pictures(),
@@ -82,7 +82,9 @@ impl Diagnosis<'_> {
             data_problems,
             candidates: self.candidates(),
             seconds,
-        }
+        };
+        findings.summary = summary::of(&findings);
+        findings
     }
 
     fn base_parameters(&self) -> Vec<BaseParameter> {
@@ -122,16 +124,21 @@ impl Diagnosis<'_> {
         list
     }
 
+    /// All that the extended model has more than the starting model.
+    fn extended_terms(&self) -> Vec<Term> {
+        let hidden = self.rooted.iter().map(|it| it.term);
+        self.found.extended.terms.iter().copied().chain(hidden).collect()
+    }
+
     /// The point of the held-out records as they were measured, and the errors there.
     fn measured(&self, terms: &[Term], point: &Point) -> Option<(Point, Residuals)> {
         let dynamics = self.world.dynamics(terms).ok()?;
         let fit = self.world.fit(&*dynamics, self.measured, Vec::new());
         let mut point = Point { starts: self.world.starts(self.measured), ..point.clone() };
-        // What any master finds with the extended model, which knows nothing of the channels' timing.
-        for output in 0..point.outputs.len() {
-            let timing = Handle::Output(output, Fault::Delay);
-            if !terms.contains(&Term::Fault(timing)) {
-                point.set(timing, 0.0);
+        // What any master finds with the extended model, which knows nothing of what measuring did to the signals.
+        for handle in self.found.extended.coordinates.iter().map(|it| it.handle) {
+            if self.world.usual(handle).is_some() && !terms.contains(&Term::Fault(handle)) {
+                point.set(handle, 0.0);
             }
         }
         let settled = fit.settled(point);
@@ -143,8 +150,7 @@ impl Diagnosis<'_> {
     fn signals(&self) -> (Vec<Signal>, Vec<Start>) {
         let world = &self.world;
         let extended = &self.found.extended;
-        let hidden = self.rooted.iter().map(|it| it.term);
-        let terms: Vec<Term> = extended.terms.iter().copied().chain(hidden).collect();
+        let terms = self.extended_terms();
         let all = (
             self.measured(&[], &self.before),
             self.measured(&[], &self.found.base.point),
@@ -268,67 +274,4 @@ fn same_excitation(one: &Recorded, two: &Recorded) -> bool {
             }
             _ => true,
         })
-}
-
-fn summary(
-    verdict: Verdict,
-    effects: &[Effect],
-    base: &[BaseParameter],
-    unnamed: Option<&Curve>,
-    nearest: &[Effect],
-    signals: &[Signal],
-) -> String {
-    let changed: Vec<String> = base
-        .iter()
-        .filter(|it| it.mismatch)
-        .map(|it| format!("{} is {:.4} {} instead of {:.4}", it.name, it.after, it.unit, it.before))
-        .collect();
-    let list = |effects: &[Effect]| {
-        let named = effects.iter().map(|effect| match effect.parameters.first() {
-            Some(it) => {
-                format!("{} at {} ({} = {:.4} {})", effect.name, effect.element, it.name, it.value, it.unit)
-            }
-            None => format!("{} at {}", effect.name, effect.element),
-        });
-        named.collect::<Vec<_>>().join("; ")
-    };
-    let gain = |signal: &Signal| signal.phi_after - signal.phi_fitted;
-    let most = signals.iter().max_by(|a, b| gain(a).total_cmp(&gain(b)));
-    let gained = most.filter(|it| gain(it) > 0.0).map_or_else(String::new, |it| {
-        format!(" On held-out data Φ of {} rises from {:.3} to {:.3}.", it.name, it.phi_fitted, it.phi_after)
-    });
-    let first =
-        if changed.is_empty() { String::new() } else { format!("Parameters: {}. ", changed.join("; ")) };
-    let text = match verdict {
-        Verdict::NoEffect => "Nothing is wrong that these records could show.".to_owned(),
-        Verdict::ParameterMismatch => "Nothing beyond parameters is wrong.".to_owned(),
-        Verdict::Named => format!("The model lacks: {}.", list(effects)),
-        Verdict::SensorFault => format!("The measurement is wrong, not the plant: {}.", list(effects)),
-        Verdict::Ambiguous => {
-            let rivals: Vec<&str> =
-                effects.iter().flat_map(|effect| &effect.ambiguous_with).map(String::as_str).collect();
-            format!(
-                "The model lacks: {}; these records cannot tell it from {}.",
-                list(effects),
-                rivals.join(", ")
-            )
-        }
-        Verdict::Unnamed => {
-            let place = unnamed.map_or_else(String::new, |curve| {
-                format!(" in the {} over {}", curve.location, curve.variable)
-            });
-            let known = match unnamed {
-                Some(curve) if curve.x.is_empty() => format!("nearest comes {}", list(nearest)),
-                _ => "its curve is given".to_owned(),
-            };
-            format!("The model lacks a force{place} that has no name in the catalogue; {known}.")
-        }
-        Verdict::ModelInadequate => {
-            "The model explains too little of the held-out data for a cause to be looked for: check the rig, the \
-             signals' names, units and signs."
-                .to_owned()
-        }
-        Verdict::BadData => "The data cannot be used.".to_owned(),
-    };
-    format!("{first}{text}{gained}")
 }

@@ -3,20 +3,24 @@
 //! A road that is measured with noise would shake the simulated tyre with it: noise of 50 µm is 8 N at 150 N/mm. Each
 //! measured input is therefore passed through Wiener's filter without phase, made from the signal's own spectrum and
 //! the level of its noise. Above some 400 samples a second the records of suspensions hold noise only; they are thinned
-//! to that, behind a filter without phase, the same for every signal.
+//! to that, behind a filter without phase, the same for every signal. The inputs then have no frequencies near half the
+//! sampling rate, and a curve through the samples is what they were between them.
 
 use std::ops::Range;
 
-use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
 use crate::data::check::noise_floor;
+use crate::plant::Between;
 use crate::recorded::{Measured, Recorded, Source};
+use crate::spectral::{about_line, filled};
 
 /// Samples a second that are enough.
 const ENOUGH: f64 = 400.0;
 /// What is kept of the band below half the new rate.
-const KEPT: f64 = 0.8;
+pub(crate) const KEPT: f64 = 0.8;
+/// New periods over which the filter spreads a sample.
+const SPREAD: usize = 2;
 /// Bins to each side over which a spectrum is smoothed before it is compared to the noise.
 const SMOOTHING: usize = 6;
 
@@ -30,7 +34,7 @@ impl Recorded {
             sections.push(first..first + section.len().div_ceil(factor));
         }
         let through = |values: &[f64], noise: f64| -> Vec<f64> {
-            let parts = self.sections.iter().map(|section| filtered(&values[section.clone()], noise, factor));
+            let parts = self.sections.iter().map(|section| present(&values[section.clone()], noise, factor));
             parts.flatten().collect()
         };
         let inputs = self.inputs.iter().map(|source| match source {
@@ -50,10 +54,27 @@ impl Recorded {
             name: self.name.clone(),
             step: self.step * factor as f64,
             inputs: inputs.collect(),
+            between: Between::Curves,
             measured: measured.collect(),
             sections,
         }
     }
+}
+
+/// A signal through the filter, missing where it was missing or where the filter brings in what was.
+fn present(values: &[f64], noise: f64, factor: usize) -> Vec<f64> {
+    let bridged = match filled(values) {
+        Some(bridged) if values.iter().any(|it| !it.is_finite()) => bridged,
+        _ => return filtered(values, noise, factor),
+    };
+    let thin = filtered(&bridged, noise, factor).into_iter().enumerate();
+    let reach = SPREAD * (factor - 1);
+    thin.map(|(k, value)| {
+        let middle = k * factor;
+        let near = &values[middle.saturating_sub(reach)..(middle + reach + 1).min(values.len())];
+        if near.iter().all(|it| it.is_finite()) { value } else { f64::NAN }
+    })
+    .collect()
 }
 
 /// A signal through Wiener's filter for white noise of a standard deviation, and every `factor`-th sample of it.
@@ -61,24 +82,10 @@ fn filtered(values: &[f64], noise: f64, factor: usize) -> Vec<f64> {
     if (noise == 0.0 && factor == 1) || values.len() < 16 {
         return values.to_vec();
     }
-    let n = values.len();
-    // Reflected about its ends, so that it neither jumps nor bends there when it is taken as periodic.
-    let (first, last) = (values[0], values[n - 1]);
-    let trend = |k: f64| first + (last - first) * k / (n - 1) as f64;
-    let mut buffer: Vec<Complex<f64>> = Vec::with_capacity(2 * n - 2);
-    buffer.extend(values.iter().enumerate().map(|(k, value)| Complex::from(value - trend(k as f64))));
-    for k in (1..n - 1).rev() {
-        buffer.push(-buffer[k]);
-    }
-    let len = buffer.len();
-    let mut planner = FftPlanner::new();
-    planner.plan_fft_forward(len).process(&mut buffer);
-    let gains = gains(&buffer, noise, factor);
-    for (bin, gain) in buffer.iter_mut().zip(gains) {
-        *bin *= gain / len as f64;
-    }
-    planner.plan_fft_inverse(len).process(&mut buffer);
-    (0..n).step_by(factor).map(|k| buffer[k].re + trend(k as f64)).collect()
+    let (line, deviation) = about_line(values, |spectrum| {
+        gains(spectrum, noise, factor).into_iter().map(Complex::from).collect()
+    });
+    (0..values.len()).step_by(factor).map(|k| deviation[k] + line.at(k)).collect()
 }
 
 /// The gain of each bin: what of its power is no noise, and nothing above the kept band.
@@ -134,6 +141,19 @@ mod tests {
         let thin = filtered(&values, 0.0, 4);
         assert_eq!(thin.len(), 1250);
         for (k, value) in thin.iter().enumerate().skip(20).take(1210) {
+            assert!((value - signal(4 * k)).abs() < 2e-3, "{k}");
+        }
+    }
+
+    #[test]
+    fn what_is_missing_stays_missing_and_spoils_nothing_else() {
+        let mut values: Vec<f64> = (0..5000).map(signal).collect();
+        values[2000..2010].fill(f64::NAN);
+        values[0] = f64::NAN;
+        let thin = present(&values, 0.0, 4);
+        let missing: Vec<usize> = (0..thin.len()).filter(|k| thin[*k].is_nan()).collect();
+        assert_eq!(missing, [0, 1, 499, 500, 501, 502, 503]);
+        for (k, value) in thin.iter().enumerate().skip(20).take(1210).filter(|(_, value)| value.is_finite()) {
             assert!((value - signal(4 * k)).abs() < 2e-3, "{k}");
         }
     }

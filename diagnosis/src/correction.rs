@@ -1,5 +1,10 @@
 //! What a sensor or an actuator makes of a signal: gain, offset, drift, lag, delay, curvature.
 
+use crate::recorded::derivative;
+
+/// Steps in which a slightly bent line is straightened to the last digit.
+const NEWTON: usize = 6;
+
 /// A way in which a signal is changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Fault {
@@ -75,6 +80,31 @@ impl Correction {
     /// What becomes of a signal that is sampled every `step` seconds.
     pub fn applied(&self, signal: &[f64], step: f64) -> Vec<f64> {
         self.through(signal, step, true)
+    }
+
+    /// What a signal was before this became of it: the inverse of [`Self::applied`], a lag by the signal's derivative.
+    pub fn removed(&self, signal: &[f64], step: f64) -> Vec<f64> {
+        let [gain, offset, drift, lag, delay, quadratic, cubic] = self.amounts;
+        let linear = |(index, y): (usize, &f64)| (y - offset - drift * step * index as f64) / (1.0 + gain);
+        let mut result: Vec<f64> = signal.iter().enumerate().map(linear).collect();
+        if lag > 0.0 {
+            let rates = derivative(&result, step);
+            result.iter_mut().zip(rates).for_each(|(y, rate)| *y += lag * rate);
+        }
+        if delay != 0.0 {
+            result = delayed(&result, -delay / step);
+        }
+        if quadratic != 0.0 || cubic != 0.0 {
+            for bent in &mut result {
+                let mut y = *bent;
+                for _ in 0..NEWTON {
+                    let slope = 1.0 + y * (2.0 * quadratic + 3.0 * cubic * y);
+                    y -= (y * (1.0 + y * (quadratic + y * cubic)) - *bent) / slope;
+                }
+                *bent = y;
+            }
+        }
+        result
     }
 
     /// What becomes of a small change of a signal.
@@ -184,6 +214,18 @@ mod tests {
             let delayed = correction.applied(&sine(1000, 1e-3, y), 1e-3);
             for (k, value) in delayed.iter().enumerate().skip(30).take(940) {
                 prop_assert!((value - y(k as f64 * 1e-3 - delay)).abs() < 1e-4);
+            }
+        }
+
+        #[test]
+        fn what_is_removed_is_what_was_applied(amounts in prop::array::uniform7(-0.1..0.1_f64)) {
+            let mut correction = Correction { amounts };
+            correction.set(Fault::Lag, 0.05 * amounts[3].abs());
+            correction.set(Fault::Delay, 0.1 * amounts[4]);
+            let signal = sine(2000, 1e-3, |t| (20.0 * t).sin() + 0.3 * (55.0 * t).cos());
+            let found = correction.removed(&correction.applied(&signal, 1e-3), 1e-3);
+            for (found, value) in found.iter().zip(&signal).skip(60).take(1880) {
+                prop_assert!((found - value).abs() < 2e-3, "{found} {value}");
             }
         }
 

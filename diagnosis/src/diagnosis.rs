@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::correction::Fault;
 use crate::fit::{Handle, Point, Residuals};
-use crate::hypothesis::{Fitted, World};
+use crate::hypothesis::{Fitted, Term, World};
 use crate::intervals::Interval;
 use crate::lsq::Stop;
 use crate::plant::Drive;
@@ -107,13 +107,13 @@ pub fn diagnose<'a>(
         base = world.fitted(&[], &[base.point.clone()], Stop::NOISY)?;
     }
     world.typical = {
-        let all = outputs(&world, &base);
+        let all = outputs(&world, &base.terms, &base.point, train);
         typical(rig, train, &all)
     };
     let mut found = world.search(base, progress)?;
-    let mut rooted = world.rooted(&found)?;
+    let mut rooted = world.rooted(&mut found)?;
     if world.dwarfed(&mut found, &rooted)? {
-        rooted = world.rooted(&found)?;
+        rooted = world.rooted(&mut found)?;
     }
     progress("comparing what each excitation says");
     let intervals = world.intervals(&found.extended)?;
@@ -188,21 +188,25 @@ fn floors(train: &[Recorded]) -> Vec<f64> {
         .collect()
 }
 
-/// All outputs of the plant on the training records.
-pub(crate) fn outputs(world: &World<'_>, fitted: &Fitted) -> Vec<Vec<Vec<f64>>> {
-    let Ok(dynamics) = world.dynamics(&fitted.terms) else { return Vec::new() };
-    let mut starts = fitted.point.starts.iter();
-    world
-        .train
+/// All outputs of the plant on records, from the starts that the point has for them; not a number between sections.
+pub(crate) fn outputs(
+    world: &World<'_>,
+    terms: &[Term],
+    point: &Point,
+    records: &[Recorded],
+) -> Vec<Vec<Vec<f64>>> {
+    let Ok(dynamics) = world.dynamics(terms) else { return Vec::new() };
+    let mut starts = point.starts.iter();
+    records
         .iter()
         .map(|record| {
-            let mut whole = vec![Vec::new(); world.rig.plant.outputs.len()];
+            let mut whole = vec![vec![f64::NAN; record.len()]; world.rig.plant.outputs.len()];
             for section in &record.sections {
-                let drive: Drive = record.drive(section, &fitted.point.inputs);
+                let drive: Drive = record.drive(section, &point.inputs);
                 let Some(start) = starts.next() else { continue };
-                let part = dynamics.outputs(&fitted.point.parameters, start, &drive);
+                let part = dynamics.outputs(&point.parameters, start, &drive);
                 for (whole, part) in whole.iter_mut().zip(part) {
-                    whole.extend(part);
+                    whole[section.clone()].copy_from_slice(&part);
                 }
             }
             whole

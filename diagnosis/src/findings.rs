@@ -1,8 +1,13 @@
 //! What a diagnosis finds: the contents of `report.json`.
 
+mod pictures;
+
 use std::collections::BTreeMap;
 
 use serde::Serialize;
+
+pub(crate) use pictures::LARGEST;
+pub use pictures::{Binned, Coherence, Mark, Parity, Periodogram, Pictures, Spectrum, Trace};
 
 /// Version of the format of `report.json`: raised when a reader of an older one would misunderstand it.
 pub const FORMAT: u32 = 1;
@@ -79,7 +84,7 @@ impl Findings {
 pub enum Verdict {
     /// Nothing that this record could show.
     NoEffect,
-    /// Parameters differ from those that the model started with; nothing beyond.
+    /// Parameters differ from those that the model started with; no cause beyond them could be shown.
     ParameterMismatch,
     /// One or several causes are named.
     Named,
@@ -191,21 +196,34 @@ impl Evidence {
 
     /// The first gate that is not passed, in words.
     pub fn refusal(&self) -> Option<String> {
-        let Self { delta_bic, block_t, held_out_t, explained, phi_gain, taken, .. } = *self;
+        self.doubt().or_else(|| self.smallness())
+    }
+
+    /// The first gate that is not passed of those that tell whether it is there at all.
+    pub fn doubt(&self) -> Option<String> {
+        let Self { delta_bic, block_t, held_out_t, explained, .. } = *self;
         let required = self.required();
-        let passed = |found: f64, required: f64| found > required;
-        let by_far = passed(explained, BY_FAR) && held_out_t > 0.0;
+        let by_far = explained > BY_FAR && held_out_t > 0.0;
         if !explained.is_finite() {
             Some("diverges on the held-out data".to_owned())
-        } else if !passed(delta_bic, required.delta_bic) {
+        } else if delta_bic.is_nan() || delta_bic <= required.delta_bic {
             Some(format!("explains too little for its parameters (BIC falls by {delta_bic:.0})"))
-        } else if !(passed(block_t, required.block_t) || self.takes_the_bulk() && passed(block_t, STEADY)) {
+        } else if !(block_t > required.block_t || self.takes_the_bulk() && block_t > STEADY) {
             Some(format!("no steady gain over the training data (t = {block_t:.1})"))
-        } else if !(passed(held_out_t, required.held_out_t) || by_far) {
+        } else if !(held_out_t > required.held_out_t || by_far) {
             Some(format!("no gain on held-out data (t = {held_out_t:.1})"))
-        } else if !passed(explained, required.explained) {
+        } else {
+            None
+        }
+    }
+
+    /// The first gate that is not passed of those that tell whether it matters.
+    fn smallness(&self) -> Option<String> {
+        let Self { explained, phi_gain, taken, .. } = *self;
+        let required = self.required();
+        if explained <= required.explained {
             Some(format!("too small to matter ({:.1} % of the error)", 100.0 * explained))
-        } else if !(passed(phi_gain, required.phi_gain) || passed(taken, required.taken)) {
+        } else if !(phi_gain > required.phi_gain || taken > required.taken) {
             Some(format!(
                 "too small to matter (Φ rises by {phi_gain:.3}, {:.0} % of what was left goes)",
                 100.0 * taken
@@ -326,70 +344,4 @@ pub struct Candidate {
     pub unit: String,
     /// Why it is not named: `accepted`, `weaker than …`, `no gain on held-out data`, `not excited`, …
     pub outcome: String,
-}
-
-/// What the pictures of the report show.
-#[derive(Clone, Debug, Default, Serialize)]
-pub struct Pictures {
-    /// Measured and simulated signals of a held-out record.
-    pub traces: Vec<Trace>,
-    /// Error power over frequency for each signal.
-    pub spectra: Vec<Spectrum>,
-    /// Error of the fitted starting model over a variable, in bins.
-    pub scatters: Vec<Binned>,
-}
-
-/// A signal over time.
-#[derive(Clone, Debug, Serialize)]
-pub struct Trace {
-    /// As in the FMU.
-    pub signal: String,
-    /// SI.
-    pub unit: String,
-    /// In seconds.
-    pub time: Vec<f64>,
-    /// Measured.
-    pub measured: Vec<f64>,
-    /// Simulated by the starting model with fitted parameters.
-    pub before: Vec<f64>,
-    /// Simulated by the extended model.
-    pub after: Vec<f64>,
-}
-
-/// Power spectral density.
-#[derive(Clone, Debug, Serialize)]
-pub struct Spectrum {
-    /// As in the FMU.
-    pub signal: String,
-    /// SI; the densities are in its square per hertz.
-    pub unit: String,
-    /// In hertz.
-    pub frequency: Vec<f64>,
-    /// Of the measured signal.
-    pub measured: Vec<f64>,
-    /// Of the error of the starting model with fitted parameters.
-    pub before: Vec<f64>,
-    /// Of the error of the extended model.
-    pub after: Vec<f64>,
-}
-
-/// Mean of an error over bins of a variable, by the direction in which the variable moves.
-#[derive(Clone, Debug, Serialize)]
-pub struct Binned {
-    /// What is shown: `force missing in the strut`.
-    pub quantity: String,
-    /// Its unit.
-    pub unit: String,
-    /// Over which variable.
-    pub variable: String,
-    /// Its unit.
-    pub variable_unit: String,
-    /// Middle of each bin.
-    pub x: Vec<f64>,
-    /// Mean in each bin while the variable rises; null where there are too few samples.
-    pub rising: Vec<Option<f64>>,
-    /// Mean in each bin while the variable falls.
-    pub falling: Vec<Option<f64>>,
-    /// Twice the standard error of the means.
-    pub two_sigma: Vec<Option<f64>>,
 }

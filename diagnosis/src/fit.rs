@@ -192,10 +192,9 @@ impl<'a> Fit<'a> {
         all
     }
 
-    /// How much of each change of the predicted signals the residuals contain, beyond what the coordinates and the
-    /// states at the start can do: the normal equations `H a = g` of the amounts. Each change has its signals for
-    /// each record.
-    pub fn contained(&self, point: &Point, changes: &[Residuals]) -> (DMatrix<f64>, DVector<f64>) {
+    /// The normal equations `H d = −g` of the coordinates and of the amounts of changes of the predicted signals, without
+    /// the states at the start. Each change has its signals for each record.
+    pub fn beside(&self, point: &Point, changes: &[Residuals]) -> (DMatrix<f64>, DVector<f64>) {
         let (own, extra) = (self.coordinates.len(), changes.len());
         let (mut h, mut g) = (DMatrix::zeros(own + extra, own + extra), DVector::zeros(own + extra));
         let numbered = self.records.iter().enumerate();
@@ -211,6 +210,14 @@ impl<'a> Fit<'a> {
                 h[(index, index)] += deviation.powi(-2);
             }
         }
+        (h, g)
+    }
+
+    /// How much of each change of the predicted signals the residuals contain, beyond what the coordinates and the
+    /// states at the start can do: the normal equations `H a = g` of the amounts.
+    pub fn contained(&self, point: &Point, changes: &[Residuals]) -> (DMatrix<f64>, DVector<f64>) {
+        let (own, extra) = (self.coordinates.len(), changes.len());
+        let (h, g) = self.beside(point, changes);
         // At the minimum the coordinates' own gradient is zero, up to what bounds hold.
         let mut block = h.view((0, 0), (own, own)).into_owned();
         for index in 0..own {

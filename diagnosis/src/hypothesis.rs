@@ -14,9 +14,9 @@ use crate::search::Criterion;
 /// Points of a table without a name.
 pub const POINTS: usize = 11;
 
-/// Standard deviation of a channel's timing in seconds: filters and multiplexers of any measurement make such delays,
-/// and they are no fault.
-pub const TIMING: f64 = 4e-4;
+/// Standard deviation of a channel's timing in seconds: multiplexers and buses make such delays, and the filters of
+/// accelerometers have such time constants. They are no fault.
+const TIMING: f64 = 4e-4;
 
 /// Time over which the velocity at a section's start is guessed from a measured position, in seconds.
 const RATE: f64 = 0.02;
@@ -171,6 +171,16 @@ impl World<'_> {
         Fit::new(&self.rig.plant, dynamics, records, coordinates, self.sigma.clone())
     }
 
+    /// Standard deviation of what any measurement does to a signal; none for what would be a fault.
+    pub fn usual(&self, handle: Handle) -> Option<f64> {
+        let filtered = |output: usize| self.rig.plant.outputs[output].name.ends_with("acceleration");
+        match handle {
+            Handle::Output(_, Fault::Delay) => Some(TIMING),
+            Handle::Output(output, Fault::Lag) if filtered(output) => Some(TIMING),
+            _ => None,
+        }
+    }
+
     /// What is fitted with the terms: base parameters first, then the terms' own, each once.
     pub fn coordinates(&self, terms: &[Term]) -> Vec<Coordinate> {
         let plant = &self.rig.plant;
@@ -190,12 +200,11 @@ impl World<'_> {
             coordinates.push(Coordinate { handle: Handle::Parameter(index), bounds, prior });
         }
         for measured in self.train.first().map_or(&[][..], |record| &record.measured) {
-            let handle = Handle::Output(measured.output, Fault::Delay);
-            coordinates.push(Coordinate {
-                handle,
-                bounds: self.fault_bounds(handle),
-                prior: Some((0.0, TIMING)),
-            });
+            for handle in [Fault::Delay, Fault::Lag].map(|fault| Handle::Output(measured.output, fault)) {
+                let bounds = self.fault_bounds(handle);
+                let usual = self.usual(handle).map(|deviation| (0.0, deviation));
+                coordinates.extend(usual.map(|prior| Coordinate { handle, bounds, prior: Some(prior) }));
+            }
         }
         coordinates.retain(|coordinate| !self.held.contains(&coordinate.handle));
         for term in terms {

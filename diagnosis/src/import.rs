@@ -3,15 +3,22 @@
 use std::ops::Range;
 use std::path::Path;
 
-use crate::data::check::{check, noise_floor};
+use crate::data::check::{Checked, check, noise_floor};
 use crate::data::map::{Map, Wanted, plain};
-use crate::data::{self, uniform::uniform};
+use crate::data::{
+    self,
+    uniform::{Uniform, uniform},
+};
 use crate::findings::DataProblem;
+use crate::plant::Between;
 use crate::recorded::{Measured, Recorded, Source};
 use crate::rig::Rig;
 
 /// Samples that a record needs.
 const FEWEST: usize = 100;
+
+/// Share of a signal's samples up to which those that its sensor got wrong are left out, rather than the signal.
+const MOST_LEFT_OUT: f64 = 0.2;
 
 /// A record on a rig, with what is to be said about the data.
 #[derive(Clone, Debug)]
@@ -45,7 +52,7 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
     let mapped = map.apply(record, &wanted(rig)).map_err(|error| error.to_string())?;
     let name = mapped.record.name.clone();
     missing(rig, &mapped.record, &name, &mapped.unused)?;
-    let mut problems = check(&mapped.record);
+    let Checked { mut problems, unusable } = check(&mapped.record);
     if !mapped.unused.is_empty() {
         problems.push(DataProblem {
             record: name.clone(),
@@ -74,16 +81,61 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
         });
     }
     let measured = rig.plant.outputs.iter().enumerate().filter_map(|(output, declared)| {
-        let values = values(&declared.name)?;
+        let mut values = values(&declared.name)?;
         let noise_floor = noise_floor(&values);
+        let wrong = mapped.record.channels.iter().zip(&unusable).find(|(it, _)| it.name == declared.name);
+        let wrong = wrong.map_or(&[][..], |(_, ranges)| ranges);
+        let left_out = leave_out(&mut values, wrong, &mapped.record.time, &uniform);
+        if left_out > 0 {
+            let enough = left_out as f64 <= MOST_LEFT_OUT * values.len() as f64;
+            let what = if enough { "they are" } else { "the signal is" };
+            problems.push(DataProblem {
+                record: name.clone(),
+                signal: declared.name.clone(),
+                text: format!(
+                    "{left_out} of its {} samples are wrong in this way: {what} not compared with the model",
+                    values.len()
+                ),
+                fatal: false,
+            });
+            if !enough {
+                return None;
+            }
+        }
         Some(Measured { output, values, noise_floor })
     });
     let measured: Vec<Measured> = measured.collect();
     let sections = sections(&uniform.segments, uniform.step, rig.kind.section);
     Ok(Imported {
-        recorded: Some(Recorded { name, step: uniform.step, inputs, measured, sections }),
+        recorded: Some(Recorded {
+            name,
+            step: uniform.step,
+            inputs,
+            between: Between::Lines,
+            measured,
+            sections,
+        }),
         problems,
     })
+}
+
+/// Takes away the values on the even grid that come from ranges of the file's samples, and tells how many there were.
+fn leave_out(values: &mut [f64], ranges: &[Range<usize>], time: &[f64], grid: &Uniform) -> usize {
+    let mut count = 0;
+    for range in ranges {
+        // Up to the middle between its samples and their neighbours.
+        let edge = |sample: usize| {
+            (sample > 0 && sample < time.len()).then(|| 0.5 * (time[sample - 1] + time[sample]))
+        };
+        let place =
+            |time: f64| (((time - grid.start) / grid.step).ceil().max(0.0) as usize).min(values.len());
+        let (first, last) = (edge(range.start).map_or(0, place), edge(range.end).map_or(values.len(), place));
+        for value in values[first..last].iter_mut().filter(|value| value.is_finite()) {
+            *value = f64::NAN;
+            count += 1;
+        }
+    }
+    count
 }
 
 /// Turns a signal over that is recorded in the sense of another one, unless a map says what it is.
@@ -181,4 +233,24 @@ pub fn align(records: &mut [Recorded]) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::{Channel, Record};
+
+    /// Sample 3 of the file is missing, so that its later samples stand one place further on the even grid.
+    #[test]
+    fn wrong_samples_of_a_file_are_left_out_where_they_stand_on_the_even_grid() {
+        let time: Vec<f64> = (0..400).filter(|k| *k != 3).map(|k| 0.01 * f64::from(k)).collect();
+        let values: Vec<f64> = time.iter().map(|t| t.sin()).collect();
+        let channels = vec![Channel { name: "x".into(), unit: "m".into(), values }];
+        let (grid, _) = uniform(&Record { name: String::new(), time: time.clone(), channels }).unwrap();
+        let mut values = grid.channels[0].values.clone();
+        let wrong = [0..1, 9..12, 398..399];
+        assert_eq!(leave_out(&mut values, &wrong, &time, &grid), 5);
+        let left: Vec<usize> = (0..values.len()).filter(|k| values[*k].is_nan()).collect();
+        assert_eq!(left, [0, 10, 11, 12, 399]);
+    }
 }

@@ -1,18 +1,24 @@
 //! How sure the coordinates of a fit are.
 //!
-//! Errors of a model that is not quite right pull its parameters differently in every excitation. Beside the spread
-//! within the training data, what each excitation on its own would say of a coordinate is compared, held-out ones
-//! included: the variance between them, after DerSimonian and Laird (Meta-analysis in clinical trials, Controlled Clinical
-//! Trials 7, 1986), widens the intervals.
+//! Three things make a coordinate uncertain. Noise: the spread of its scores over blocks of the training data. Excitations:
+//! errors of a model that is not quite right pull its parameters differently in each; what each excitation on its own would
+//! say is compared, held-out ones included, and the variance between them, after DerSimonian and Laird (Meta-analysis in
+//! clinical trials, Controlled Clinical Trials 7, 1986), widens the interval. And what pulls alike in all excitations: small
+//! effects that are not in the model. Each cause of the catalogue that is not is taken to be there by as much as the
+//! errors contain of it, and how far the coordinate would move with it is added, in squares. Causes resemble one another,
+//! so this errs on the wide side.
 
 use std::ops::Range;
 
+use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::fit::{Coordinate, Handle, Point};
 use crate::hypothesis::{Fitted, World};
 use crate::lsq::Problem;
 use crate::recorded::Recorded;
+use crate::screening::Changes;
+use crate::search::worth;
 
 /// Excitations that are compared at least: fewer records are cut in pieces.
 const EXCITATIONS: usize = 4;
@@ -63,15 +69,39 @@ impl World<'_> {
     pub fn intervals(&self, fitted: &Fitted) -> Result<Vec<Interval>, String> {
         let own = fitted.linear.robust_covariance(&fitted.trace.scores);
         let opinions = self.opinions(fitted)?;
+        let pulls = self.pulls(fitted)?;
         let interval = |(index, coordinate): (usize, &Coordinate)| {
             let all: Vec<Opinion> = opinions.iter().map(|excitation| excitation[index]).collect();
             let (between, quantile) = between(&all);
-            let variance = NORMAL.powi(2) * own[(index, index)].max(0.0) + quantile.powi(2) * between;
+            let pulled: f64 = pulls.iter().map(|pull| pull[index].powi(2)).sum();
+            let variance =
+                NORMAL.powi(2) * own[(index, index)].max(0.0) + quantile.powi(2) * between + pulled;
             let value = fitted.point.get(coordinate.handle);
             let (handle, bounds) = (coordinate.handle, coordinate.bounds);
             Interval { handle, value, half: variance.sqrt(), bounds }
         };
         Ok(fitted.coordinates.iter().enumerate().map(interval).collect())
+    }
+
+    /// How far each coordinate would move beside each cause that is not in the model, the cause being in the shape in which the
+    /// errors contain most of it; only of causes that are worth a fit.
+    fn pulls(&self, fitted: &Fitted) -> Result<Vec<DVector<f64>>, String> {
+        let Changes { terms, probes, columns } = self.changes(fitted)?;
+        let dynamics = self.dynamics(&fitted.terms)?;
+        let fit = self.fit(&*dynamics, self.train, fitted.coordinates.clone());
+        let (h, g) = fit.beside(&fitted.point, &columns);
+        let mut most: Vec<Option<(f64, DVector<f64>)>> = vec![None; terms.len()];
+        for (probe, range) in &probes {
+            let found =
+                pull(&h, &g, fitted.coordinates.len(), range).filter(|(gain, _)| *gain > worth(fitted));
+            let most = &mut most[probe.term];
+            if let Some(found) = found
+                && most.as_ref().is_none_or(|(gain, _)| found.0 > *gain)
+            {
+                *most = Some(found);
+            }
+        }
+        Ok(most.into_iter().flatten().map(|(_, pull)| pull).collect())
     }
 
     /// What each excitation says of each coordinate: a Gauss–Newton step from the fit.
@@ -98,6 +128,30 @@ impl World<'_> {
         });
         Ok(cut.map(|(record, learnt)| of(&record, learnt)).collect())
     }
+}
+
+/// By how much the sum of squares falls with some further columns of the normal equations `H d = −g`, and how far the first
+/// `own` coordinates, which are at their minimum, move with them. None if the columns do nothing that the coordinates
+/// could not do.
+fn pull(
+    h: &DMatrix<f64>,
+    g: &DVector<f64>,
+    own: usize,
+    columns: &Range<usize>,
+) -> Option<(f64, DVector<f64>)> {
+    let all: Vec<usize> = (0..own).chain(columns.clone().map(|column| own + column)).collect();
+    let norm: Vec<f64> = all.iter().map(|it| h[(*it, *it)].max(f64::MIN_POSITIVE).sqrt()).collect();
+    // In units of each column's own norm; what nothing depends on stays where it is.
+    let scaled = DMatrix::from_fn(all.len(), all.len(), |i, j| {
+        let diagonal = if i == j { 1e-9 + f64::from(h[(all[i], all[i])] == 0.0) } else { 0.0 };
+        h[(all[i], all[j])] / norm[i] / norm[j] + diagonal
+    });
+    // What bounds hold has a gradient, and stays.
+    let right = DVector::from_fn(all.len(), |i, _| if i < own { 0.0 } else { -g[all[i]] / norm[i] });
+    let step = scaled.cholesky()?.solve(&right);
+    let moved = DVector::from_fn(own, |i, _| step[i] / norm[i]);
+    Some((step.dot(&right), moved))
+        .filter(|(gain, moved)| gain.is_finite() && moved.iter().all(|it| it.is_finite()))
 }
 
 /// A record's sections in so many pieces.
@@ -141,6 +195,7 @@ fn between(opinions: &[Opinion]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plant::Between;
     use crate::recorded::Measured;
 
     fn opinions(shifts: &[f64], variance: f64) -> Vec<Opinion> {
@@ -156,6 +211,29 @@ mod tests {
         assert!((between - 0.5 * (20.0 / 3.0 - 0.5)).abs() < 1e-12, "{between}");
         // Student's distribution with three degrees of freedom.
         assert!((quantile - 3.182).abs() < 1e-3, "{quantile}");
+    }
+
+    /// A straight line through points of a parabola: without its curvature, the line's height at zero is off by what the
+    /// joint fit says.
+    #[test]
+    fn what_is_not_in_the_model_pulls_what_is() {
+        let (height, slope, curvature) = (2.0, -1.0, 0.5);
+        let x = DVector::from_fn(20, |i, _| i as f64 / 10.0);
+        let y = x.map(|x| height + slope * x + curvature * x * x);
+        let all = DMatrix::from_fn(20, 3, |row, power| x[row].powi(power as i32));
+        let line = all.columns(0, 2).into_owned();
+        let fitted = (line.tr_mul(&line)).cholesky().unwrap().solve(&line.tr_mul(&y));
+        let left = &line * &fitted - &y;
+        // A column that is a combination of the others says nothing.
+        let none =
+            DMatrix::from_fn(20, 4, |row, column| if column < 3 { all[(row, column)] } else { 1.0 + x[row] });
+        let (h, g) = (none.tr_mul(&none), none.tr_mul(&left));
+        let (gain, moved) = pull(&h, &g, 2, &(0..1)).unwrap();
+        assert!((gain - left.norm_squared()).abs() < 1e-6 * gain, "{gain}");
+        assert!(
+            (moved[0] - (height - fitted[0])).abs() < 1e-6 && (moved[1] - (slope - fitted[1])).abs() < 1e-6
+        );
+        assert!(pull(&h, &g, 2, &(1..2)).is_none_or(|(gain, _)| gain < 1e-6));
     }
 
     #[test]
@@ -174,7 +252,8 @@ mod tests {
     #[test]
     fn a_record_is_cut_where_it_may_be() {
         let sections = vec![0..700, 750..1000];
-        let record = Recorded { name: String::new(), step: 1e-3, inputs: vec![], measured: vec![], sections };
+        let (name, inputs, between, measured) = (String::new(), vec![], Between::Lines, vec![]);
+        let record = Recorded { name, step: 1e-3, inputs, between, measured, sections };
         assert_eq!(cut(&record, 1).concat(), record.sections);
         let measured = vec![Measured { output: 0, values: vec![0.0; 2000], noise_floor: 1.0 }];
         let long = Recorded { measured, sections: vec![0..1400, 1450..2000], ..record };

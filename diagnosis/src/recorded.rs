@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::correction::Correction;
-use crate::plant::Drive;
+use crate::plant::{Between, Drive};
 
 /// A record on a plant's inputs and outputs, evenly sampled.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +14,8 @@ pub struct Recorded {
     pub step: f64,
     /// Where each input comes from.
     pub inputs: Vec<Source>,
+    /// How the inputs go on between the samples.
+    pub between: Between,
     /// What was measured.
     pub measured: Vec<Measured>,
     /// Ranges of samples that are simulated in one go, each with states of its own at the start.
@@ -74,10 +76,22 @@ impl Recorded {
         }
         for (index, source) in self.inputs.iter().enumerate() {
             if let Source::DerivativeOf(other) = source {
-                inputs[index] = derivative(&inputs[*other], self.step);
+                inputs[index] = self.rate(&inputs[*other]);
             }
         }
-        Drive { step: self.step, inputs }
+        Drive { step: self.step, inputs, between: self.between }
+    }
+
+    /// The derivative of an input: as a file's reader takes it, or nearly that of the curve through the samples.
+    fn rate(&self, signal: &[f64]) -> Vec<f64> {
+        let mut rate = derivative(signal, self.step);
+        if self.between == Between::Curves {
+            for (rate, near) in rate.iter_mut().skip(3).zip(signal.windows(7)) {
+                let odd = |reach: usize| near[3 + reach] - near[3 - reach];
+                *rate = (45.0 * odd(1) - 9.0 * odd(2) + odd(3)) / (60.0 * self.step);
+            }
+        }
+        rate
     }
 
     /// How the drive changes when one input's signal does.
@@ -85,7 +99,7 @@ impl Recorded {
         let mut changes = Vec::new();
         for (index, source) in self.inputs.iter().enumerate() {
             if *source == Source::DerivativeOf(input) {
-                changes.push((index, derivative(&change, self.step)));
+                changes.push((index, self.rate(&change)));
             }
         }
         changes.push((input, change));
@@ -102,4 +116,32 @@ pub fn derivative(signal: &[f64], step: f64) -> Vec<f64> {
             (signal[after] - signal[before]) / (step * (after - before).max(1) as f64)
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curves_rate_is_that_of_the_signal() {
+        let step = 2.5e-3;
+        let time = |k: i32| f64::from(k) * step;
+        let position: Vec<f64> = (0..80).map(|k| (125.0 * time(k)).sin()).collect();
+        let rate = |between: Between| {
+            let inputs = vec![Source::Measured(position.clone()), Source::DerivativeOf(0)];
+            let record = Recorded {
+                name: String::new(),
+                step,
+                inputs,
+                between,
+                measured: vec![],
+                sections: std::iter::once(0..80).collect(),
+            };
+            let error = |(k, rate): (i32, &f64)| (rate / 125.0 - (125.0 * time(k)).cos()).abs();
+            let rates = record.drive(&(0..80), &[Correction::default(); 2]).inputs.swap_remove(1);
+            (0..80).zip(&rates).skip(3).take(74).map(error).fold(0.0, f64::max)
+        };
+        assert!(rate(Between::Curves) < 1e-5, "{}", rate(Between::Curves));
+        assert!((0.015..0.018).contains(&rate(Between::Lines)), "{}", rate(Between::Lines));
+    }
 }

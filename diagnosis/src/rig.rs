@@ -258,7 +258,7 @@ impl Rig {
 }
 
 /// A setting's value: an enumeration's item is given by name.
-fn choice(plant: &Plant, index: usize, given: &Value) -> Result<Value, String> {
+pub(crate) fn choice(plant: &Plant, index: usize, given: &Value) -> Result<Value, String> {
     use strut_model::SettingKind;
     let declaration = &plant.settings[index];
     match (declaration.kind, given) {

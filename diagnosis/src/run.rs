@@ -1,6 +1,7 @@
 //! From the command line to the report.
 
 use std::fs;
+use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -35,7 +36,7 @@ pub fn main() -> ExitCode {
     let done = match (&arguments.command, &arguments.diagnosis) {
         (Some(Command::Simulate(arguments)), _) => simulate(arguments),
         (Some(Command::Rigs), _) => {
-            println!("{}", Rig::names().join("\n"));
+            tell(&format!("{}\n", Rig::names().join("\n")));
             Ok(())
         }
         (None, Some(arguments)) => run(arguments),
@@ -48,6 +49,11 @@ pub fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Prints; whoever closed the pipe has read enough.
+fn tell(text: &str) {
+    let _ = std::io::stdout().write_all(text.as_bytes());
 }
 
 fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
@@ -88,7 +94,7 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
         let findings =
             Findings::of_bad_data(&rig.name, names(&arguments.train), names(&arguments.test), problems);
         report::write(&findings, &arguments.out).map_err(|error| error.to_string())?;
-        print!("{}", report::terminal(&findings));
+        tell(&report::terminal(&findings));
         let page = arguments.out.join("report.html");
         return Err(format!("the data cannot be used; {text}; the whole list: {}", page.display()));
     }
@@ -109,8 +115,8 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
     bar.set_message("building the extended model");
     diagnosis.write_extended(&arguments.out, !arguments.no_fmu)?;
     bar.finish_and_clear();
-    print!("{}", report::terminal(&findings));
-    println!("\nreport: {}", arguments.out.join("report.html").display());
+    tell(&report::terminal(&findings));
+    tell(&format!("\nreport: {}\n", arguments.out.join("report.html").display()));
     Ok(())
 }
 
@@ -181,7 +187,7 @@ fn simulate(arguments: &SimulateArguments) -> Result<(), String> {
     for (name, text) in records {
         let path = arguments.out.join(name);
         replace(&path, &text).map_err(|error| format!("cannot write `{}`: {error}", path.display()))?;
-        println!("{}", path.display());
+        tell(&format!("{}\n", path.display()));
     }
     Ok(())
 }

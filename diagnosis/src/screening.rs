@@ -1,5 +1,7 @@
 //! Which causes the residuals of a fit may contain: every term is tried out, and compared to what is missing.
 
+use std::ops::Range;
+
 use nalgebra::DVector;
 use rayon::prelude::*;
 
@@ -24,10 +26,21 @@ pub struct Screened {
 }
 
 /// A point with a term tried out, and what its signals are differenced against being the fit's.
-struct Probe {
-    term: usize,
+pub struct Probe {
+    /// Index of the term.
+    pub term: usize,
     /// The point; for a table one for each of its points.
-    points: Vec<Point>,
+    pub points: Vec<Point>,
+}
+
+/// What every term would change beside a fit, in the signals predicted of the training data.
+pub struct Changes {
+    /// The terms.
+    pub terms: Vec<Term>,
+    /// Each term tried out, some in several shapes, with the range of its columns: one for each of its points.
+    pub probes: Vec<(Probe, Range<usize>)>,
+    /// The changes of the signals.
+    pub columns: Vec<Residuals>,
 }
 
 impl World<'_> {
@@ -81,15 +94,14 @@ impl World<'_> {
         })
     }
 
-    /// Compares every term to what a fit misses.
+    /// What every term would change beside a fit.
     ///
     /// # Errors
     /// If the model refuses its settings.
-    pub fn screened(&self, fitted: &Fitted) -> Result<Vec<Screened>, String> {
+    pub fn changes(&self, fitted: &Fitted) -> Result<Changes, String> {
         let terms: Vec<Term> = self.terms().into_iter().filter(|term| !fitted.terms.contains(term)).collect();
         let dynamics = self.dynamics(&fitted.terms)?;
-        let fit = self.fit(&*dynamics, self.train, fitted.coordinates.clone());
-        let predicted = fit.predictions(&fitted.point);
+        let predicted = self.fit(&*dynamics, self.train, Vec::new()).predictions(&fitted.point);
         let probes: Vec<Probe> = terms
             .iter()
             .enumerate()
@@ -116,7 +128,25 @@ impl World<'_> {
             .par_iter()
             .map(|probe| probe.points.iter().map(|point| changed(terms[probe.term], point)).collect())
             .collect();
-        let columns: Vec<Residuals> = changes.iter().flatten().flatten().cloned().collect();
+        let mut columns = Vec::new();
+        let mut kept = Vec::new();
+        for (probe, changes) in probes.into_iter().zip(changes) {
+            let Some(changes) = changes else { continue };
+            let first = columns.len();
+            columns.extend(changes);
+            kept.push((probe, first..columns.len()));
+        }
+        Ok(Changes { terms, probes: kept, columns })
+    }
+
+    /// Compares every term to what a fit misses.
+    ///
+    /// # Errors
+    /// If the model refuses its settings.
+    pub fn screened(&self, fitted: &Fitted) -> Result<Vec<Screened>, String> {
+        let Changes { terms, probes, columns } = self.changes(fitted)?;
+        let dynamics = self.dynamics(&fitted.terms)?;
+        let fit = self.fit(&*dynamics, self.train, fitted.coordinates.clone());
         let (h, g) = fit.contained(&fitted.point, &columns);
 
         let mut screened: Vec<Screened> = terms
@@ -124,11 +154,7 @@ impl World<'_> {
             .map(|term| Screened { term: *term, gain: 0.0, starts: Vec::new(), detectable: f64::INFINITY })
             .collect();
         let mut found: Vec<Vec<(f64, Point)>> = vec![Vec::new(); terms.len()];
-        let mut column = 0;
-        for (probe, changes) in probes.iter().zip(&changes) {
-            let Some(changes) = changes else { continue };
-            let range = column..column + changes.len();
-            column = range.end;
+        for (probe, range) in &probes {
             let mut block = h.view((range.start, range.start), (range.len(), range.len())).into_owned();
             for index in 0..range.len() {
                 block[(index, index)] = block[(index, index)] * (1.0 + 1e-6) + f64::MIN_POSITIVE;

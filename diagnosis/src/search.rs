@@ -28,8 +28,6 @@ const MOST: usize = 4;
 const BESIDE: f64 = 0.35;
 /// Student's t of the difference of two fits' errors beyond which they are told apart.
 const APART: f64 = 2.5;
-/// Errors that are larger by less than this factor are nearly the same.
-const NEARLY: f64 = 1.02;
 /// Errors that are larger by less than this factor tell nothing apart, however steady the difference is.
 const SAME: f64 = 1.005;
 
@@ -221,17 +219,19 @@ impl World<'_> {
         named.map(|it| self.simplest(base, it, passing)).or_else(|| passing.first().copied())
     }
 
-    /// One with fewer parameters that is a part of the best and explains nearly as much.
+    /// One with fewer parameters that is a part of the best, unless what the best one adds to it passes the gates on its own.
     fn simplest<'b>(&self, base: &Fitted, best: &'b Tried, passing: &[&'b Tried]) -> &'b Tried {
         let mut chosen = best;
         for other in passing {
             if let (Ok(fitted), Ok(simpler)) = (&chosen.fitted, &other.fitted)
                 && contains(chosen.term, other.term, &parts(fitted), &parts(simpler))
                 && simpler.coordinates.len() < fitted.coordinates.len()
-                && (self.as_good(base, fitted, simpler)
-                    || self.left(base, simpler) < NEARLY * self.left(base, fitted))
             {
-                chosen = other;
+                let added = self.evidence(chosen.term, base, simpler, fitted);
+                // Whether it is common does not matter beside a part of itself.
+                if (Evidence { usual: false, ..added }).refusal().is_some() {
+                    chosen = other;
+                }
             }
         }
         chosen
@@ -295,7 +295,7 @@ fn merge(all: &mut Vec<Tried>, new: Vec<Tried>) {
 }
 
 /// The least fall of the sum of squares that may matter.
-fn worth(base: &Fitted) -> f64 {
+pub(crate) fn worth(base: &Fitted) -> f64 {
     12.0_f64.max(0.005 * 2.0 * base.cost)
 }
 

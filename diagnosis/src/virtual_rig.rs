@@ -5,7 +5,8 @@ use std::fmt::Write;
 
 use strut_model::Declaration;
 
-use crate::plant::Drive;
+use crate::plant::{Between, Drive};
+use crate::random::Random;
 use crate::recorded::derivative;
 use crate::rig::Rig;
 use crate::screening::rms;
@@ -40,8 +41,7 @@ pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String,
     }
     let dynamics = rig.plant.prepare(&rig.choices)?;
     dynamics.check(&parameters)?;
-    let mut random =
-        Random(experiment.seed.wrapping_mul(1000).wrapping_add(number).wrapping_mul(0x9E37_79B9) | 1);
+    let mut random = Random::new(experiment.seed.wrapping_mul(1000).wrapping_add(number));
     let step = experiment.step;
     let count = (experiment.length / step) as usize;
     let mut inputs: Vec<Vec<f64>> = rig
@@ -61,7 +61,7 @@ pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String,
             inputs[index] = derivative(&inputs[position], step);
         }
     }
-    let drive = Drive { step, inputs };
+    let drive = Drive { step, inputs, between: Between::Lines };
     let outputs = dynamics.outputs(&parameters, &rig.start, &drive);
     let declared = rig.plant.inputs.iter().chain(&rig.plant.outputs);
     let signals: Vec<(String, Vec<f64>)> = declared
@@ -141,20 +141,4 @@ fn multisine(
             grown * grown * (3.0 - 2.0 * grown) * sum / scale
         })
         .collect()
-}
-
-/// Marsaglia's xorshift.
-struct Random(u64);
-
-impl Random {
-    fn uniform(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        (-2.0 * self.uniform().max(1e-300).ln()).sqrt() * (TAU * self.uniform()).cos()
-    }
 }

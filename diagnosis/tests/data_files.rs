@@ -58,7 +58,7 @@ fn from_a_foreign_file_to_an_even_record() {
     assert_eq!(mapped.unused, ["Reserve"]);
     assert!(mapped.missing.is_empty());
 
-    let problems = check(&mapped.record);
+    let problems = check(&mapped.record).problems;
     assert_eq!(problems.len(), 2, "{problems:?}");
     assert!(
         problems.iter().all(|problem| !problem.fatal && problem.text.starts_with("1 samples are missing"))

@@ -2,7 +2,7 @@
 
 use strut_diagnosis::diagnosis::{Options, diagnose};
 use strut_diagnosis::naming::name;
-use strut_diagnosis::plant::Drive;
+use strut_diagnosis::plant::{Between, Drive};
 use strut_diagnosis::recorded::{Measured, Recorded, Source, derivative};
 use strut_diagnosis::rig::Rig;
 use strut_diagnosis::screening::rms;
@@ -76,7 +76,7 @@ fn record(rig: &Rig, seed: u64, changes: &[(&str, f64)]) -> Recorded {
         "road.velocity" => velocity.clone(),
         _ => force.clone(),
     });
-    let drive = Drive { step: STEP, inputs: raw.collect() };
+    let drive = Drive { step: STEP, inputs: raw.collect(), between: Between::Lines };
     let dynamics = rig.plant.prepare(&rig.choices).unwrap();
     let start = vec![0.0; rig.plant.states.len()];
     let outputs = dynamics.outputs(&parameters, &start, &drive);
@@ -93,6 +93,7 @@ fn record(rig: &Rig, seed: u64, changes: &[(&str, f64)]) -> Recorded {
         name: format!("{seed}"),
         step: STEP,
         inputs,
+        between: Between::Lines,
         measured: measured.into(),
         sections: std::iter::once(0..n).collect(),
     }

@@ -2,7 +2,8 @@
 
 use super::{Cause, Element, Scale, part};
 
-const FRICTION_VELOCITY: (f64, f64) = (1e-3, 1.0);
+/// Below, a rig that really sticks is met no better, and equations become too stiff.
+const FRICTION_VELOCITY: (f64, f64) = (5e-3, 1.0);
 
 pub(super) const CAUSES: &[Cause] = &[
     Cause {
@@ -26,8 +27,9 @@ pub(super) const CAUSES: &[Cause] = &[
         contains: &["01"],
         setting: None,
         parts: &[
-            part("strut.stribeck.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
-            part("strut.stribeck.velocity", Scale::VELOCITY, (5e-3, 1.0), &[0.1]),
+            // A peak that is narrower and higher than this imitates sticking.
+            part("strut.stribeck.force", Scale::FORCE, (0.0, 2.0), &[0.1]),
+            part("strut.stribeck.velocity", Scale::VELOCITY, (2e-2, 1.0), &[0.1]),
             part("strut.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
             part("strut.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02]),
         ],

@@ -26,22 +26,32 @@ const SHORTEST_REST: usize = 200;
 /// Spread of a signal at rest over its spread in the whole record.
 const REST: f64 = 0.05;
 
-/// Everything that is wrong with a record.
+/// What is wrong with a record.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Checked {
+    /// Everything that there is to say.
+    pub problems: Vec<DataProblem>,
+    /// Of each channel, the samples at which the sensor did not show what it should.
+    pub unusable: Vec<Vec<Range<usize>>>,
+}
+
+/// Looks for everything that is wrong with a record.
 #[must_use]
-pub fn check(record: &Record) -> Vec<DataProblem> {
+pub fn check(record: &Record) -> Checked {
     let mut problems = Problems { record: &record.name, found: Vec::new() };
+    let mut unusable = vec![Vec::new(); record.channels.len()];
     if check_time(&record.time, &mut problems) {
         check_intervals(&record.time, &mut problems);
         let rest = standstill(record);
         for (i, channel) in record.channels.iter().enumerate() {
             let others = record.channels.iter().enumerate().filter(|&(j, _)| j != i).map(|(_, other)| other);
-            channel::check(&record.time, channel, others, &mut problems);
+            unusable[i] = channel::check(&record.time, channel, others, &mut problems);
             if let Some(rest) = rest.clone() {
                 check_offset(&record.time, channel, rest, &mut problems);
             }
         }
     }
-    problems.found
+    Checked { problems: problems.found, unusable }
 }
 
 /// Collects problems of one record.

@@ -229,8 +229,7 @@ pub(super) fn derivatives<M: Model>(
         })
         .collect();
     let input = |i: usize, sample: usize, share: f64| {
-        let next = (sample + 1).min(drive.len() - 1);
-        let between = |signal: &[f64]| signal[sample] + share * (signal[next] - signal[sample]);
+        let between = |signal: &[f64]| drive.between.value(signal, sample, share);
         let value = between(&drive.inputs[i]);
         if changes[i].is_empty() {
             return Dual::from(value);

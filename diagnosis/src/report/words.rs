@@ -200,15 +200,16 @@ pub fn headline(findings: &Findings) -> String {
     let named = |effect: &Effect| format!("{} {}", effect.name, place(&effect.element));
     let effects: Vec<String> = findings.effects.iter().map(named).collect();
     match findings.verdict {
-        Verdict::NoEffect => "The model lacks nothing that these records could show.".into(),
+        Verdict::NoEffect => "These records show no cause beyond the model.".into(),
         Verdict::ParameterMismatch => {
             let wrong: Vec<_> =
                 findings.base_parameters.iter().filter(|parameter| parameter.mismatch).collect();
             let names: Vec<String> = wrong.iter().map(|parameter| parameter.name.clone()).collect();
             match names.len() {
-                0 => "The model’s parameters do not fit the rig; its equations do.".into(),
-                1..=3 => format!("The model’s equations fit the rig, but not its {}.", list(&names, "and")),
-                more => format!("The model’s equations fit the rig, but {more} of its parameters do not."),
+                0..=3 => {
+                    format!("What differs is {}; no cause beyond that could be shown.", list(&names, "and"))
+                }
+                more => format!("{more} parameters differ; no cause beyond that could be shown."),
             }
         }
         Verdict::Named if effects.is_empty() => "The cause is named.".into(),

@@ -149,6 +149,49 @@ fn the_schematic_shows_the_rig_at_hand() {
 }
 
 #[test]
+fn a_balance_tells_what_it_says_and_one_that_cannot_be_formed_what_it_needs() {
+    let text = |findings: &Findings| -> String {
+        let page = report::html(findings);
+        page.split('<').filter_map(|part| part.split_once('>')).map(|(_, text)| text).collect()
+    };
+    let named = sample(Verdict::Named);
+    for words in [
+        "r1 forces on the body ✗ 45 × noise → ✓ holds",
+        "rms: start 54.3, fitted 54.2, extended 1.60, noise 1.20 N",
+        "If it does not hold: the strut has a law that the model lacks.",
+        "r4 kinematics cannot be formed: it needs the wheel’s acceleration.",
+    ] {
+        assert!(text(&named).contains(words), "{words}: {}", text(&named));
+    }
+    let mut left = named.clone();
+    left.pictures.parity[0].rms_after = 12.0;
+    assert!(text(&left).contains("r1 forces on the body ✗ 45 × noise → ✗ 10 × noise"));
+    let mut none = named;
+    none.pictures.parity.clear();
+    assert!(!text(&none).contains("Which balances hold"));
+}
+
+#[test]
+fn the_page_tells_noise_from_what_is_driven() {
+    let mut findings = sample(Verdict::Named);
+    let page = report::html(&findings);
+    for words in ["Yes, as far as can be told", "rebound stop", "largest errors left"] {
+        assert!(page.contains(words), "{words}");
+    }
+    assert_eq!(page.matches("Is it driven by").count(), findings.pictures.coherences.len());
+    for periodogram in &mut findings.pictures.periodograms {
+        periodogram.distance_after = 0.3;
+    }
+    for trace in &mut findings.pictures.traces {
+        trace.marks.clear();
+    }
+    let page = report::html(&findings);
+    assert!(page.contains("No: 0.30 off, chance makes 0.021"));
+    assert!(!page.contains("Yes, as far as can be told"));
+    assert!(!page.contains("rebound stop") && !page.contains("largest errors left"));
+}
+
+#[test]
 fn a_gate_that_is_not_passed_is_marked() {
     let mut findings = sample(Verdict::Named);
     assert!(!report::html(&findings).contains("not passed"));
@@ -296,6 +339,35 @@ fn with_numbers(mut findings: Findings, numbers: &[f64]) -> Findings {
         let lists =
             [&mut spectrum.frequency, &mut spectrum.measured, &mut spectrum.before, &mut spectrum.after];
         lists.into_iter().zip([20, 20, 3, 0]).for_each(|(list, count)| fill(list, count));
+    }
+    for trace in &mut findings.pictures.traces {
+        for mark in &mut trace.marks {
+            let mut ends = Vec::new();
+            fill(&mut ends, 2);
+            (mark.from, mark.to) = (ends[0], ends[1]);
+        }
+    }
+    for coherence in &mut findings.pictures.coherences {
+        fill(&mut coherence.frequency, 20);
+        let mut list = Vec::new();
+        fill(&mut list, 30);
+        coherence.before = list[..20].iter().copied().map(Some).collect();
+        coherence.after = list[20..].iter().copied().map(Some).collect();
+        coherence.limit = list[0];
+    }
+    for periodogram in &mut findings.pictures.periodograms {
+        let lists = [&mut periodogram.frequency, &mut periodogram.before, &mut periodogram.after];
+        lists.into_iter().zip([20, 21, 9]).for_each(|(list, count)| fill(list, count));
+        (periodogram.distance_before, periodogram.distance_after) =
+            (periodogram.before[0], periodogram.after[0]);
+        periodogram.limit = periodogram.before[1];
+    }
+    for parity in &mut findings.pictures.parity {
+        let lists = [&mut parity.time, &mut parity.before, &mut parity.after];
+        lists.into_iter().zip([20, 21, 9]).for_each(|(list, count)| fill(list, count));
+        (parity.rms_before, parity.rms_fitted, parity.rms_after) =
+            (parity.before[0], parity.before[1], parity.before[2]);
+        (parity.noise, parity.band) = (parity.before[3], parity.before[4]);
     }
     for scatter in &mut findings.pictures.scatters {
         fill(&mut scatter.x, 31);

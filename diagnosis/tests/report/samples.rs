@@ -7,7 +7,7 @@ use strut_diagnosis::findings::{
     Pictures, Signal, Verdict,
 };
 
-use crate::simulation::{self, Comparison, binned, comparisons};
+use crate::simulation::{self, Comparison, balances, binned, comparisons};
 
 pub const VERDICTS: [Verdict; 8] = [
     Verdict::NoEffect,
@@ -143,6 +143,9 @@ fn car() -> (Vec<Signal>, Pictures) {
     let pictures = Pictures {
         traces: comparisons.iter().map(Comparison::trace).collect(),
         spectra: comparisons.iter().map(Comparison::spectrum).collect(),
+        coherences: comparisons.iter().map(Comparison::coherence).collect(),
+        periodograms: comparisons.iter().map(Comparison::periodogram).collect(),
+        parity: balances(),
         scatters: vec![
             binned("strut velocity", "m/s", |run, index| run.speed[index]),
             binned("strut deflection", "m", |run, index| run.deflection[index]),
@@ -322,6 +325,10 @@ fn unchanged(findings: &mut Findings) {
     }
     for spectrum in &mut findings.pictures.spectra {
         spectrum.before.clone_from(&spectrum.after);
+    }
+    for parity in &mut findings.pictures.parity {
+        parity.before.clone_from(&parity.after);
+        (parity.rms_before, parity.rms_fitted) = (parity.rms_after, parity.rms_after);
     }
     findings.pictures.scatters = vec![binned("strut velocity", "m/s", |run, index| run.speed[index])];
     for scatter in &mut findings.pictures.scatters {

@@ -1,6 +1,6 @@
 //! A quarter car on a bumpy road, so that the samples' curves look like what a rig gives.
 
-use strut_diagnosis::findings::{Binned, Signal, Spectrum, Trace};
+use strut_diagnosis::findings::{Binned, Coherence, Mark, Parity, Periodogram, Signal, Spectrum, Trace};
 
 /// In seconds.
 const STEP: f64 = 1e-3;
@@ -120,6 +120,44 @@ impl Comparison {
             measured: self.measured.clone(),
             before: self.fitted.clone(),
             after: self.extended.clone(),
+            marks: [
+                ("largest error", 9.0, 9.5),
+                ("largest error", 27.0, 27.5),
+                ("rebound stop", 18.12, 18.2),
+            ]
+            .map(|(what, from, to)| Mark { what: what.into(), from, to })
+            .into(),
+        }
+    }
+
+    /// An error that the road drives below 10 Hz; nothing drives what the extended model leaves.
+    pub fn coherence(&self) -> Coherence {
+        let frequency: Vec<f64> = (1..60).map(|index| 0.5 * f64::from(index)).collect();
+        let driven = |(index, f): (usize, &f64)| {
+            (*f < 25.0).then(|| 0.9 / (1.0 + (f / 10.0).powi(4)) + 0.05 * noise(index))
+        };
+        Coherence {
+            signal: self.name.into(),
+            input: "road.position".into(),
+            before: frequency.iter().enumerate().map(driven).collect(),
+            after: (0..frequency.len())
+                .map(|index| (index < 49).then(|| 0.06 + 0.05 * noise(index)))
+                .collect(),
+            frequency,
+            limit: 0.17,
+        }
+    }
+
+    pub fn periodogram(&self) -> Periodogram {
+        let frequency: Vec<f64> = (1..200).map(f64::from).collect();
+        Periodogram {
+            signal: self.name.into(),
+            before: frequency.iter().map(|f| 1.0 - (-f / 12.0).exp()).collect(),
+            after: frequency.iter().map(|f| f / 199.0).collect(),
+            frequency,
+            distance_before: 0.8,
+            distance_after: 0.015,
+            limit: 0.021,
         }
     }
 
@@ -158,6 +196,45 @@ fn density(values: &[f64], frequency: &[f64]) -> Vec<f64> {
         power.sum::<f64>() / count
     };
     frequency.iter().map(one).collect()
+}
+
+/// Balances of a car with a friction of 57 N: one that shows it, one that cannot be formed.
+pub fn balances() -> Vec<Parity> {
+    let run = run(57.0, 420.0, 10.0);
+    let force = |friction: f64| -> Vec<f64> {
+        let noisy = |(index, v): (usize, &f64)| friction * (v / 0.008).tanh() + 2.0 * noise(index);
+        run.speed.iter().step_by(6).enumerate().map(noisy).collect()
+    };
+    let formed = Parity {
+        id: "r1".into(),
+        name: "forces on the body".into(),
+        equation: "m_s a_s + F_strut + F_guide - F_act".into(),
+        meaning: "the strut has a law that the model lacks".into(),
+        needs: None,
+        unit: "N".into(),
+        band: 30.0,
+        rms_before: 54.3,
+        rms_fitted: 54.2,
+        rms_after: 1.6,
+        noise: 1.2,
+        time: (0..run.speed.len().div_ceil(6)).map(|index| index as f64 * 6.0 * STEP).collect(),
+        before: force(57.0),
+        after: force(0.4),
+    };
+    let unformed = Parity {
+        id: "r4".into(),
+        name: "kinematics".into(),
+        needs: Some("the wheel’s acceleration".into()),
+        time: vec![],
+        before: vec![],
+        after: vec![],
+        rms_before: f64::NAN,
+        rms_fitted: f64::NAN,
+        rms_after: f64::NAN,
+        noise: f64::NAN,
+        ..formed.clone()
+    };
+    vec![formed, unformed]
 }
 
 /// The missing force of the car over its strut's speed or deflection.

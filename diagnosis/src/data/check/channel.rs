@@ -1,6 +1,6 @@
 //! What is wrong with one signal.
 
-use super::{Channel, MOST_MISSING, Problems, describe, number, percent, runs};
+use super::{Channel, MOST_MISSING, Problems, describe, number, percent, runs, spread};
 use crate::data::noise::{lattice, median, noise_floor};
 use std::ops::Range;
 
@@ -15,6 +15,15 @@ const FLAT: usize = 3;
 const FEWEST_FLAT: usize = 5;
 /// How much more often the extreme value is taken than the next one. A sine on a lattice has 2.4 at most.
 const PILED: usize = 4;
+/// Noise over the spread of a signal, below which flat parts may be its own: what the noise's estimate leaves of a
+/// smooth signal is a few parts in ten thousand.
+const SMOOTH: f64 = 1e-3;
+/// Equal samples in a row, at least, over which a moving signal was held, and how often in a record chance may make as
+/// many.
+const HELD: usize = 4;
+const BY_CHANCE: f64 = 1e-3;
+/// Held stretches that make a fault.
+const FEWEST_HELD: usize = 3;
 /// Longest run of zeros that is a dropout.
 const DROPOUT: usize = 10;
 /// Size of a dropout over the median change and over the largest change nearby.
@@ -24,19 +33,27 @@ const ABOVE_NEAR: f64 = 5.0;
 const FEWEST_LEVELS: usize = 32;
 const SWITCHED: usize = 4;
 
-/// Checks one signal; `others` tell whether anything moved at all.
+/// What is said of some samples of a signal.
+struct Fault {
+    text: String,
+    samples: Vec<Range<usize>>,
+}
+
+/// Checks one signal; `others` tell whether anything moved at all. Returns the samples at which the sensor did not show
+/// what it should.
 pub(super) fn check<'a>(
     time: &[f64],
     channel: &Channel,
     others: impl Iterator<Item = &'a Channel> + Clone,
     problems: &mut Problems,
-) {
+) -> Vec<Range<usize>> {
     let values = &channel.values;
     let present: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
     if present.is_empty() {
         problems.add(&channel.name, true, "has no samples: leave it out".into());
-        return;
+        return Vec::new();
     }
+    let mut unusable = Vec::new();
     let mut add = |text: String| problems.add(&channel.name, false, text);
     if present.iter().all(|&v| v == present[0]) {
         let text = format!(
@@ -46,6 +63,7 @@ pub(super) fn check<'a>(
         );
         add(text);
     } else {
+        let mut faults = Vec::new();
         let moving = moves(values, MOVING);
         let steady: Option<Range<usize>> = moving.then(|| stuck(values, others)).flatten();
         if let Some(run) = &steady {
@@ -57,17 +75,23 @@ pub(super) fn check<'a>(
                 number(time[run.start]),
                 number(time[run.end - 1])
             );
-            add(text);
+            faults.push(Fault { text, samples: vec![run.clone()] });
         }
         if moving && steady.is_none() {
             for (extreme, word) in [(f64::max as fn(f64, f64) -> f64, "highest"), (f64::min, "lowest")] {
-                saturation(time, channel, extreme, word).into_iter().for_each(&mut add);
+                faults.extend(saturation(time, channel, extreme, word));
             }
+            faults.extend(held(time, channel));
         }
-        dropouts(time, channel).into_iter().for_each(&mut add);
+        faults.extend(dropouts(time, channel));
+        for Fault { text, samples } in faults {
+            add(text);
+            unusable.extend(samples);
+        }
         quantisation(channel).into_iter().for_each(&mut add);
     }
     missing(time, channel, problems);
+    unusable
 }
 
 fn missing(time: &[f64], channel: &Channel, problems: &mut Problems) {
@@ -116,7 +140,7 @@ fn stuck<'a>(values: &[f64], mut others: impl Iterator<Item = &'a Channel>) -> O
 }
 
 /// Flat tops at the extreme value.
-fn saturation(time: &[f64], channel: &Channel, extreme: fn(f64, f64) -> f64, word: &str) -> Option<String> {
+fn saturation(time: &[f64], channel: &Channel, extreme: fn(f64, f64) -> f64, word: &str) -> Option<Fault> {
     let values = &channel.values;
     // f64's max and min pass over NaN.
     let top = values.iter().copied().reduce(extreme)?;
@@ -128,18 +152,54 @@ fn saturation(time: &[f64], channel: &Channel, extreme: fn(f64, f64) -> f64, wor
     let count: usize = tops.iter().map(Range::len).sum();
     (count >= FEWEST_FLAT && count > PILED * at(next)).then(|| {
         let places = describe(tops.iter().map(|run| format!("{} s", number(time[run.start]))));
-        format!(
+        let text = format!(
             "is flat at its {word} value {} {} for {} of the record ({places}): the sensor or its amplifier is \
              saturated, or a stop is reached; use a larger range or less excitation",
             number(top),
             channel.unit,
             percent(count as f64 / values.len() as f64)
-        )
+        );
+        Fault { text, samples: if is_smooth(values) { Vec::new() } else { tops } }
     })
 }
 
+/// Whether a signal has so little noise that flat parts may be its own, as a computed force's of an open contact.
+fn is_smooth(values: &[f64]) -> bool {
+    noise_floor(values) < SMOOTH * spread(values).1
+}
+
+/// Short stretches over which a moving signal keeps one value, as where samples were lost and the last one repeated.
+fn held(time: &[f64], channel: &Channel) -> Option<Fault> {
+    let values = &channel.values;
+    // What has no noise may be at rest, and what has less than its lattice's steps keeps its values at every turn.
+    if is_smooth(values) || lattice(values).is_some_and(|lattice| noise_floor(values) < lattice.step) {
+        return None;
+    }
+    let equal: Vec<bool> = values.windows(2).map(|pair| pair[0] == pair[1]).collect();
+    let stretches = runs(&equal, true);
+    // Chance makes single equal pairs first of all.
+    let pairs = stretches.iter().filter(|run| run.len() == 1).count().max(1) as f64 / values.len() as f64;
+    let by_chance = |length: usize| values.len() as f64 * pairs.powi(length as i32 - 1);
+    let extremes = [f64::max as fn(f64, f64) -> f64, f64::min].map(|of| values.iter().copied().reduce(of));
+    let stretches: Vec<_> = stretches
+        .into_iter()
+        .map(|run| run.start..run.end + 1)
+        .filter(|run| run.len() >= HELD && by_chance(run.len()) < BY_CHANCE)
+        // Flat tops are another matter.
+        .filter(|run| !extremes.contains(&Some(values[run.start])))
+        .collect();
+    let longest = stretches.iter().map(Range::len).max().filter(|_| stretches.len() >= FEWEST_HELD)?;
+    let places = describe(stretches.iter().map(|run| format!("{} s", number(time[run.start]))));
+    let text = format!(
+        "keeps one value for up to {longest} samples {} times, at {places}: samples were lost and the last one \
+         repeated; check the bus or the wireless link",
+        stretches.len()
+    );
+    Some(Fault { text, samples: stretches })
+}
+
 /// Single samples, or short runs of zeros, far from their neighbours.
-fn dropouts(time: &[f64], channel: &Channel) -> Option<String> {
+fn dropouts(time: &[f64], channel: &Channel) -> Option<Fault> {
     let values = &channel.values;
     let change = |i: usize| (values[i + 1] - values[i]).abs();
     let mut changes: Vec<f64> =
@@ -162,19 +222,20 @@ fn dropouts(time: &[f64], channel: &Channel) -> Option<String> {
             let drift = 2.0 * (values[end] - values[i - 1]).abs() / (length + 1) as f64;
             let largest_near = near.fold(drift, f64::max);
             if opposite && jump > ABOVE_USUAL * usual && jump > ABOVE_NEAR * largest_near {
-                found.push(i);
+                found.push(i..end);
                 i = end;
             }
         }
         i += 1;
     }
     (!found.is_empty()).then(|| {
-        let places = describe(found.iter().map(|&i| format!("{} s", number(time[i]))));
-        format!(
+        let places = describe(found.iter().map(|it| format!("{} s", number(time[it.start]))));
+        let text = format!(
             "drops out or spikes for single samples {} times, at {places}: check plugs and cables; leave these samples \
              empty to have them interpolated",
             found.len()
-        )
+        );
+        Fault { text, samples: found }
     })
 }
 

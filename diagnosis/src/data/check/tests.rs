@@ -39,7 +39,7 @@ fn clean(seed: u64, sigma: f64) -> Record {
 
 /// The only problem of a record: its signal, text and whether it is fatal.
 fn only(record: &Record) -> (String, String, bool) {
-    let found = check(record);
+    let found = check(record).problems;
     let [problem] = &found[..] else { panic!("{found:#?}") };
     assert_eq!(problem.record, "run.csv");
     (problem.signal.clone(), problem.text.clone(), problem.fatal)
@@ -48,7 +48,7 @@ fn only(record: &Record) -> (String, String, bool) {
 proptest! {
     #[test]
     fn clean_records_have_no_problems(seed in 0_u64..1_000_000, sigma in 1e-4..0.5_f64) {
-        prop_assert_eq!(check(&clean(seed, sigma)), []);
+        prop_assert_eq!(check(&clean(seed, sigma)).problems, []);
     }
 
     #[test]
@@ -57,7 +57,7 @@ proptest! {
         for value in &mut record.channels[0].values {
             *value = (*value * levels / 4.0).round() / levels * 4.0;
         }
-        prop_assert_eq!(check(&record), []);
+        prop_assert_eq!(check(&record).problems, []);
     }
 
     #[test]
@@ -81,7 +81,7 @@ fn switched_commands_are_no_faults() {
     for (i, value) in record.channels[1].values.iter_mut().enumerate() {
         *value = [0.0, 3.0, 1.0, 6.0, 2.0, 5.0][i / 500];
     }
-    assert_eq!(check(&record), []);
+    assert_eq!(check(&record).problems, []);
 }
 
 #[test]
@@ -102,12 +102,12 @@ fn the_signals_of_healthy_rigs_are_no_faults() {
             let values = record.time.iter().zip(noise).map(|(&t, n)| shape(t) + sigma * n).collect();
             record.channels.push(Channel { name: format!("shape {k}"), unit: "m".into(), values });
         }
-        assert_eq!(check(&record), [], "noise {sigma}");
+        assert_eq!(check(&record).problems, [], "noise {sigma}");
         for channel in &mut record.channels {
             channel.values.iter_mut().for_each(|value| *value = (*value * 500.0).round() / 500.0);
         }
         record.channels.remove(2); // Its values are as small as the steps.
-        assert_eq!(check(&record), [], "noise {sigma}, rounded");
+        assert_eq!(check(&record).problems, [], "noise {sigma}, rounded");
     }
 }
 
@@ -205,7 +205,35 @@ fn saturation() {
     for value in &mut record.channels[0].values {
         *value = (value.clamp(-1.5, 1.5) * 1000.0).round() / 1000.0;
     }
-    assert_eq!(check(&record).len(), 2);
+    assert_eq!(check(&record).problems.len(), 2);
+}
+
+/// What a radio link or a bus makes of lost samples: the last value stays.
+#[test]
+fn held_values() {
+    let mut record = clean(1, 0.01);
+    let stretches = [300..340, 900..905, 1700..1712, 2400..2430];
+    for stretch in stretches.clone() {
+        let value = record.channels[2].values[stretch.start];
+        record.channels[2].values[stretch].fill(value);
+    }
+    let (signal, text, fatal) = only(&record);
+    assert_eq!((signal.as_str(), fatal), ("z", false));
+    assert!(text.starts_with("keeps one value for up to 40 samples 4 times, at 0.3 s, 0.9 s"), "{text}");
+    let found = check(&record).unusable;
+    assert_eq!(found, [vec![], vec![], stretches.to_vec()]);
+}
+
+/// A contact that opens, computed: no noise, no sensor.
+#[test]
+fn flat_tops_without_noise_are_the_signals_own() {
+    let mut record = clean(1, 0.0);
+    for value in &mut record.channels[0].values {
+        *value = value.max(-1.5);
+    }
+    let found = check(&record);
+    assert!(found.problems.iter().any(|it| it.text.starts_with("is flat at its lowest")), "{found:?}");
+    assert_eq!(found.unusable, [vec![], vec![], vec![]]);
 }
 
 #[test]
@@ -270,7 +298,7 @@ fn offset_at_rest() {
         }
     }
     assert_eq!(standstill(&record), Some(0..1200));
-    assert_eq!(check(&record), []);
+    assert_eq!(check(&record).problems, []);
     for value in &mut record.channels[1].values {
         *value += 7.5;
     }

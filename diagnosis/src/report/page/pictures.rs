@@ -1,11 +1,14 @@
-//! The pictures: traces, spectra, binned scatter and the curve without a name.
+//! The pictures: traces, binned scatter, the curve without a name, and what the errors look like.
+
+mod frequency;
+mod parity;
 
 use maud::{Markup, html};
 
 use super::extended;
-use crate::findings::{Binned, Curve, Findings, Spectrum, Trace};
-use crate::report::plot::{Axis, Plot, Shape};
-use crate::report::words::{digits, labelled, unit};
+use crate::findings::{Binned, Curve, Findings, LARGEST, Mark, Trace};
+use crate::report::plot::{Axis, Edge, Plot, Shape};
+use crate::report::words::{digits, labelled, list, unit};
 
 /// Width and height of a picture over the whole page, in pixels.
 const WIDE: (f64, f64) = (1000.0, 250.0);
@@ -41,18 +44,17 @@ pub fn section(findings: &Findings) -> Markup {
         @if !pictures.traces.is_empty() {
             section {
                 h2 { "Measured and simulated" }
-                ul.legend { li.measured { "measured" } li.before { "fitted" } @if extended { li.after { "extended" } } }
+                ul.legend { li.measured { "measured" } li.before { "fitted" } @if extended { li.after { "extended" } }
+                    (marked(&pictures.traces))
+                }
                 (folded(&pictures.traces, OPEN_TRACES, "signals", |one| trace(one, extended)))
             }
         }
-        @if !pictures.spectra.is_empty() {
+        @if !pictures.parity.is_empty() || !pictures.spectra.is_empty() {
             section {
-                h2 { "Where in frequency the error lies" }
-                ul.legend {
-                    li.measured { "measured signal" } li.before { "error, fitted" }
-                    @if extended { li.after { "error, extended" } }
-                }
-                (folded(&pictures.spectra, OPEN_PLOTS, "signals", |one| spectrum(one, extended)))
+                h2 { "What the errors look like" }
+                (parity::balances(&pictures.parity, extended))
+                (frequency::frequencies(pictures, extended))
             }
         }
     }
@@ -104,33 +106,13 @@ fn unit_or_none(symbol: &str) -> String {
     if unit.is_empty() { "–".into() } else { unit }
 }
 
-fn spectrum(spectrum: &Spectrum, extended: bool) -> Markup {
-    // The mean of a signal is not a vibration: frequency zero stays out of a logarithmic axis.
-    let x = Axis::logarithmic("frequency / Hz", spectrum.frequency.iter().copied(), 0.0);
-    let curves = [("measured", &spectrum.measured), ("before", &spectrum.before), ("after", &spectrum.after)];
-    let curves = if extended { &curves[..] } else { &curves[..2] };
-    let all = curves.iter().flat_map(|(_, values)| values.iter().copied());
-    let unit = unit(&spectrum.unit);
-    let label = match unit.as_str() {
-        "" => "1/Hz".to_owned(),
-        plain if plain.chars().all(char::is_alphabetic) => format!("{plain}²/Hz"),
-        composed => format!("({composed})²/Hz"),
-    };
-    let title = format!("Power spectral density of {}", spectrum.signal);
-    let mut plot = Plot::new(title, HALF, x, Axis::logarithmic(&label, all, 0.05));
-    for (class, values) in curves {
-        plot = plot.curve(class, &spectrum.frequency, values);
-    }
-    html! { figure { figcaption { code { (spectrum.signal) } } (plot.svg()) } }
-}
-
 fn trace(trace: &Trace, extended: bool) -> Markup {
-    let (from, to) = part(trace);
-    let within = |(time, value): (&f64, &f64)| (from <= *time && *time <= to).then_some(*value);
     let error = |simulated: &[f64]| -> Vec<f64> {
         trace.measured.iter().zip(simulated).map(|(measured, simulated)| measured - simulated).collect()
     };
     let (before, after) = (error(&trace.before), error(&trace.after));
+    let (from, to) = part(&trace.time, &before);
+    let within = |(time, value): (&f64, &f64)| (from <= *time && *time <= to).then_some(*value);
     let curves = [("measured", &trace.measured), ("before", &trace.before), ("after", &trace.after)];
     let curves = if extended { &curves[..] } else { &curves[..2] };
     let seen = curves.iter().flat_map(|(_, values)| trace.time.iter().zip(*values).filter_map(within));
@@ -145,15 +127,20 @@ fn trace(trace: &Trace, extended: bool) -> Markup {
     for (class, values) in curves {
         signals = signals.curve(class, &trace.time, values);
     }
+    let (largest, active): (Vec<&Mark>, Vec<&Mark>) = trace.marks.iter().partition(|mark| is_largest(mark));
+    let span = |marks: &[&Mark]| marks.iter().map(|mark| (mark.from, mark.to)).collect::<Vec<_>>();
+    let (largest, active) = (span(&largest), span(&active));
+    let signals = signals.marks("active", Edge::Bottom, active.iter().copied());
     let whole = Axis::tight("time / s", trace.time.iter().copied(), 10);
     let both = Axis::linear(&format!("error / {unit}"), before.iter().chain(&after).copied(), 3);
     let mut errors = Plot::new(format!("Error of {}", trace.signal), STRIP, whole, both).zero();
-    let is_part = to - from < duration(trace) * 0.999;
+    let is_part = to - from < duration(&trace.time) * 0.999;
     if is_part {
         errors = errors.window(from, to);
     }
     let errors = errors.curve("before", &trace.time, &before);
     let errors = if extended { errors.curve("after", &trace.time, &after) } else { errors };
+    let errors = errors.marks("largest", Edge::Top, largest).marks("active", Edge::Bottom, active);
     html! {
         figure.wide {
             figcaption {
@@ -169,31 +156,47 @@ fn trace(trace: &Trace, extended: bool) -> Markup {
     }
 }
 
+fn is_largest(mark: &Mark) -> bool {
+    mark.what == LARGEST
+}
+
+/// What the marks on the traces mean.
+fn marked(traces: &[Trace]) -> Markup {
+    let marks = || traces.iter().flat_map(|trace| &trace.marks);
+    let mut active: Vec<String> =
+        marks().filter(|mark| !is_largest(mark)).map(|mark| mark.what.clone()).collect();
+    active.sort();
+    active.dedup();
+    html! {
+        @if marks().any(is_largest) { li.largest { "largest errors left" } }
+        @if !active.is_empty() { li.active { (list(&active, "or")) } }
+    }
+}
+
 /// A time to a tenth of a second.
 fn seconds(time: f64) -> String {
     if time.abs() < 1e6 { format!("{time:.1}").replace('-', "−") } else { digits(time, 4) }
 }
 
-fn duration(trace: &Trace) -> f64 {
-    match (trace.time.first(), trace.time.last()) {
+fn duration(time: &[f64]) -> f64 {
+    match (time.first(), time.last()) {
         (Some(first), Some(last)) => last - first,
         _ => 0.0,
     }
 }
 
-/// The part of a long trace in which the error before is largest; a short one as a whole.
-fn part(trace: &Trace) -> (f64, f64) {
-    let (first, last) = (trace.time.first().copied(), trace.time.last().copied());
-    let (Some(first), Some(last)) = (first, last) else { return (0.0, 0.0) };
+/// The part of a long stretch of time in which the errors are largest; a short one as a whole.
+fn part(time: &[f64], errors: &[f64]) -> (f64, f64) {
+    let (Some(&first), Some(&last)) = (time.first(), time.last()) else { return (0.0, 0.0) };
     // Also taken if times are not finite.
-    if !(duration(trace) > WHOLE && duration(trace).is_finite()) {
+    if !(duration(time) > WHOLE && duration(time).is_finite()) {
         return (first, last);
     }
-    let parts = (duration(trace) / PART).ceil().min(10_000.0);
-    let length = duration(trace) / parts;
+    let parts = (duration(time) / PART).ceil().min(10_000.0);
+    let length = duration(time) / parts;
     let mut power = vec![0.0; parts as usize];
-    for ((time, measured), before) in trace.time.iter().zip(&trace.measured).zip(&trace.before) {
-        let error = (measured - before).powi(2);
+    for (time, error) in time.iter().zip(errors) {
+        let error = error.powi(2);
         if error.is_finite() {
             // Out of order times land at an end.
             let index = (((time - first) / length) as usize).min(power.len() - 1);
@@ -221,18 +224,9 @@ mod tests {
     #[test]
     fn a_long_trace_is_shown_where_its_error_is_largest() {
         let time: Vec<f64> = (0..6000).map(|index| f64::from(index) * 0.01).collect();
-        let measured: Vec<f64> =
-            time.iter().map(|t| if (33.0..34.0).contains(t) { 2.0 } else { 1.0 }).collect();
-        let one = vec![1.0; time.len()];
-        let signal = |time| Trace {
-            signal: "a".into(),
-            unit: "m".into(),
-            time,
-            measured,
-            before: one.clone(),
-            after: one.clone(),
-        };
-        let (from, to) = part(&signal(time));
+        let errors: Vec<f64> =
+            time.iter().map(|t| if (33.0..34.0).contains(t) { 1.0 } else { 0.0 }).collect();
+        let (from, to) = part(&time, &errors);
         assert!(from <= 33.0 && to >= 33.9 && to - from <= PART, "{from} … {to}");
     }
 }

@@ -25,6 +25,18 @@ pub enum Shape {
     Down,
 }
 
+/// Where along the frame stretches of the x axis are marked.
+#[derive(Clone, Copy)]
+pub enum Edge {
+    /// Along its top.
+    Top,
+    /// Along its bottom.
+    Bottom,
+}
+
+/// Thickness of such marks in pixels.
+const MARK: f64 = 5.0;
+
 /// A plot, built layer by layer from back to front.
 pub struct Plot {
     title: String,
@@ -78,12 +90,46 @@ impl Plot {
 
     /// A stretch of the x axis that is shown in another plot.
     pub fn window(mut self, from: f64, to: f64) -> Self {
-        if let (Some(from), Some(to)) = (self.x.share(from), self.x.share(to)) {
-            let inner = self.width - LEFT - RIGHT;
-            let (x, width) = (LEFT + inner * from, inner * (to - from));
+        if let Some((x, width)) = self.stretch(from, to) {
             self.layers.push(html! {
                 rect class="window" x=(px(x)) y=(px(TOP)) width=(px(width)) height=(px(self.bottom() - TOP)) {}
             });
+        }
+        self
+    }
+
+    /// Stretches of the x axis in which something is to be seen.
+    pub fn marks(mut self, class: &str, edge: Edge, stretches: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        let y = match edge {
+            Edge::Top => TOP,
+            Edge::Bottom => self.bottom() - MARK,
+        };
+        for (from, to) in stretches {
+            if let Some((x, width)) = self.stretch(from, to) {
+                // The shortest one is still to be seen.
+                let width = px(width.max(1.5));
+                self.layers.push(html! {
+                    rect class=(format!("mark {class}")) x=(px(x)) y=(px(y)) width=(width) height=(px(MARK)) {}
+                });
+            }
+        }
+        self
+    }
+
+    /// Where a stretch of the x axis begins and how wide it is, in pixels; none if none of it is in sight.
+    fn stretch(&self, from: f64, to: f64) -> Option<(f64, f64)> {
+        let (from, to) = (self.x.share(from)?, self.x.share(to)?);
+        let (from, to) = (from.clamp(0.0, 1.0), to.clamp(0.0, 1.0));
+        let inner = self.width - LEFT - RIGHT;
+        (from < to).then_some((LEFT + inner * from, inner * (to - from)))
+    }
+
+    /// A level that values are compared to.
+    pub fn level(mut self, y: f64) -> Self {
+        if let Some(share) = self.y.share(y) {
+            let y = px(self.bottom() - (self.bottom() - TOP) * share.clamp(-1.0, 2.0));
+            let right = px(self.width - RIGHT);
+            self.layers.push(html! { line class="level" x1=(px(LEFT)) x2=(right) y1=(y) y2=(y) {} });
         }
         self
     }
@@ -150,7 +196,9 @@ mod tests {
             (Axis::linear("x", odd, 5), Axis::linear("y", odd, 5)),
             (Axis::logarithmic("x", odd, 0.0), Axis::logarithmic("y", odd, 0.1)),
         ] {
-            let plot = Plot::new("odd".into(), (300.0, 200.0), x, y).zero().window(f64::NAN, 1.0);
+            let plot =
+                Plot::new("odd".into(), (300.0, 200.0), x, y).zero().window(f64::NAN, 1.0).level(f64::NAN);
+            let plot = plot.marks("m", Edge::Top, [(f64::NAN, 1.0), (f64::MIN, f64::MAX), (2.0, 1.0)]);
             let plot = plot.curve("a", &odd, &odd).band("b", &odd, &odd, &odd);
             let text = plot.points("c", Shape::Up, &odd, &odd).svg().into_string();
             assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");

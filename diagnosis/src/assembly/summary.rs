@@ -1,0 +1,153 @@
+//! The verdict in a few sentences, with the numbers that matter.
+
+use crate::findings::{Curve, Effect, Findings, Signal, Verdict};
+
+/// Errors that exceed a signal's noise by this factor are told as not explained …
+const ABOVE_NOISE: f64 = 3.0;
+/// … if they are more than this share of the signal.
+const VISIBLE: f64 = 0.1;
+
+/// The summary of findings that are complete otherwise.
+pub(super) fn of(findings: &Findings) -> String {
+    let Findings { effects, unnamed, .. } = findings;
+    let text = match findings.verdict {
+        Verdict::NoEffect => "No cause could be shown by these records.".to_owned(),
+        Verdict::ParameterMismatch => "No cause beyond parameters could be shown.".to_owned(),
+        Verdict::Named => format!("The model lacks: {}.", list(effects)),
+        Verdict::SensorFault => format!("The measurement is wrong, not the plant: {}.", list(effects)),
+        Verdict::Ambiguous => {
+            let rivals: Vec<&str> =
+                effects.iter().flat_map(|effect| &effect.ambiguous_with).map(String::as_str).collect();
+            format!(
+                "The model lacks: {}; these records cannot tell it from {}.",
+                list(effects),
+                rivals.join(", ")
+            )
+        }
+        Verdict::Unnamed if effects.is_empty() => String::new(),
+        Verdict::Unnamed => format!("The measurement is wrong: {}.", list(effects)),
+        Verdict::ModelInadequate => {
+            "The model explains too little of the held-out data for a cause to be looked for: check the rig, the \
+             signals' names, units and signs."
+                .to_owned()
+        }
+        Verdict::BadData => "The data cannot be used.".to_owned(),
+    };
+    let told = findings.verdict != Verdict::ModelInadequate;
+    let curve = unnamed.as_ref().filter(|_| told).map(|curve| without_name(curve, &findings.nearest));
+    let sentences = [parameters(findings), Some(text), curve, gained(&findings.signals), left(findings)];
+    sentences.into_iter().flatten().filter(|it| !it.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+fn list(effects: &[Effect]) -> String {
+    let named = effects.iter().map(|effect| match effect.parameters.first() {
+        Some(it) => {
+            format!("{} at {} ({} = {:.4} {})", effect.name, effect.element, it.name, it.value, it.unit)
+        }
+        None => format!("{} at {}", effect.name, effect.element),
+    });
+    named.collect::<Vec<_>>().join("; ")
+}
+
+fn parameters(findings: &Findings) -> Option<String> {
+    let changed = findings.base_parameters.iter().filter(|it| it.mismatch);
+    let changed: Vec<String> = changed
+        .map(|it| format!("{} is {:.4} {} instead of {:.4}", it.name, it.after, it.unit, it.before))
+        .collect();
+    (!changed.is_empty()).then(|| format!("Parameters: {}.", changed.join("; ")))
+}
+
+fn without_name(curve: &Curve, nearest: &[Effect]) -> String {
+    let known = if curve.x.is_empty() {
+        format!("nearest comes {}", list(nearest))
+    } else {
+        "its curve is given".to_owned()
+    };
+    let Curve { location, variable, .. } = curve;
+    format!(
+        "The model lacks a force in the {location} over {variable} that has no name in the catalogue; {known}."
+    )
+}
+
+fn gained(signals: &[Signal]) -> Option<String> {
+    let gain = |signal: &Signal| signal.phi_after - signal.phi_fitted;
+    let most = signals.iter().max_by(|a, b| gain(a).total_cmp(&gain(b)))?;
+    let Signal { name, phi_fitted, phi_after, .. } = most;
+    let text = format!("On held-out data Φ of {name} rises from {phi_fitted:.3} to {phi_after:.3}.");
+    (gain(most) > 0.0).then_some(text)
+}
+
+/// Where nothing is found although the errors are no noise, that is told, too.
+fn left(findings: &Findings) -> Option<String> {
+    if !matches!(findings.verdict, Verdict::NoEffect | Verdict::ParameterMismatch) {
+        return None;
+    }
+    let visible = |it: &&Signal| {
+        it.rms_after > ABOVE_NOISE * it.noise_floor && 1.0 - it.phi_after > VISIBLE && it.noise_floor > 0.0
+    };
+    let most = findings.signals.iter().filter(visible).min_by(|a, b| a.phi_after.total_cmp(&b.phi_after))?;
+    Some(format!(
+        "Yet {:.0} % of {} is missed on held-out data, {:.0} times its noise: something is left that none of the \
+         candidates explains well enough to be told.",
+        100.0 * (1.0 - most.phi_after),
+        most.name,
+        most.rms_after / most.noise_floor
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::findings::Evidence;
+
+    fn findings(verdict: Verdict) -> Findings {
+        Findings { verdict, ..Findings::of_bad_data("rig", vec![], vec![], vec![]) }
+    }
+
+    fn signal(phi_after: f64, noise_floor: f64) -> Signal {
+        Signal {
+            name: "body.acceleration".into(),
+            unit: "m/s2".into(),
+            phi_before: 0.1,
+            phi_fitted: phi_after,
+            phi_after,
+            rms_before: 8.0,
+            rms_fitted: 4.0,
+            rms_after: 4.0,
+            noise_floor,
+            repeatability: None,
+        }
+    }
+
+    #[test]
+    fn errors_beyond_the_noise_are_told_where_nothing_is_found() {
+        let of = |phi, floor| {
+            of(&Findings { signals: vec![signal(phi, floor)], ..findings(Verdict::ParameterMismatch) })
+        };
+        let text = of(0.7, 1.0);
+        assert!(text.contains("Yet 30 % of body.acceleration"), "{text}");
+        assert!(text.contains("4 times its noise"), "{text}");
+        // What is little beside the signal, or about as large as its noise, is not worth a word.
+        assert!(!of(0.95, 1.0).contains("Yet") && !of(0.7, 2.0).contains("Yet"));
+    }
+
+    #[test]
+    fn a_fault_of_a_sensor_beside_a_curve_does_not_acquit_the_plant() {
+        let effect = Effect {
+            id: "34".into(),
+            element: "wheel.force".into(),
+            name: "gain of the sensor".into(),
+            equation: String::new(),
+            parameters: vec![],
+            evidence: Evidence::default(),
+            ambiguous_with: vec![],
+            experiment: None,
+        };
+        let curve =
+            Curve { location: "strut".into(), variable: "suspension.velocity".into(), ..Curve::default() };
+        let unnamed = Some(Curve { x: vec![0.0], y: vec![1.0], ..curve });
+        let text = of(&Findings { effects: vec![effect], unnamed, ..findings(Verdict::Unnamed) });
+        assert!(text.starts_with("The measurement is wrong: gain of the sensor at wheel.force."), "{text}");
+        assert!(text.contains("a force in the strut over suspension.velocity"), "{text}");
+    }
+}

@@ -1,0 +1,15 @@
+//! What a signal has at which frequency: power spectra, coherence, cumulative periodograms, filters without phase.
+
+mod cumulative;
+mod filter;
+mod welch;
+
+pub(crate) use cumulative::cumulative_periodogram;
+pub(crate) use filter::{about_line, filled, in_band};
+pub(crate) use welch::{coherence, power_spectrum};
+
+/// White noise of unit variance for tests, the same at every run.
+#[cfg(test)]
+fn white(seed: u64, count: usize) -> Vec<f64> {
+    crate::data::check::tests::noise(seed, count)
+}
