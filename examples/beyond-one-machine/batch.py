@@ -79,28 +79,26 @@ class Batch:
         missing = self.missing()
         progress = Progress(self.count, self.count - sum(len(self.indices(number)) for number in missing))
 
-        def submit(number, indices):
-            tasks = [(index, task(index)) for index in indices]
+        def submit(part):
+            tasks = [(index, task(index)) for index in part[1]]
             return connected.submit(rows, work, tasks, pure=False)
 
-        waiting = {submit(number, self.indices(number)): (number, self.indices(number)) for number in missing}
+        waiting = {submit(part): part for part in ((number, self.indices(number)) for number in missing)}
+        suspects = []
         parts = {number: [] for number in missing}
-        for future in self.completed(connected, waiting, submit):
+        for future, alone in self.completed(connected, waiting, suspects, submit):
             number, indices = waiting.pop(future)
-            failure = None
             try:
                 parts[number] += future.result(timeout=PATIENCE)
             except TimeoutError:
                 # It was lost with its worker before it was fetched.
-                waiting[submit(number, indices)] = (number, indices)
+                waiting[submit((number, indices))] = (number, indices)
             except Exception as error:
-                failure = error
-            if failure is not None and len(indices) > 1:
-                # Something in it kills workers: each piece for itself shows which.
-                for index in indices:
-                    waiting[submit(number, [index])] = (number, [index])
-            elif failure is not None:
-                parts[number].append({"index": indices[0], "error": sentence(failure)})
+                if alone:
+                    parts[number].append({"index": indices[0], "error": sentence(error)})
+                else:
+                    # It, or what waited beside it for the same workers, kills them: each piece by itself shows which.
+                    suspects += [(number, [index]) for index in indices]
             future.release()
             if len(parts[number]) == len(self.indices(number)):
                 complete = sorted(parts.pop(number), key=lambda row: row["index"])
@@ -112,24 +110,30 @@ class Batch:
         return sum(error is not None for error in self.table()["error"].to_pylist())
 
     @staticmethod
-    def completed(connected, waiting, submit):
-        """The futures as they end. Dask may lose one for ever if workers die in quick succession: where nothing has ended for
-        a while and no worker has anything to do, what is waited for is submitted again."""
-        last = time.monotonic()
-        while waiting:
+    def completed(connected, waiting, suspects, submit):
+        """The futures as they end, and whether it was a suspect's: suspects come last, and one after the other, as Dask blames
+        the death of a worker on all that waits for it.
+
+        Dask may lose a future for ever if workers die in quick succession: where nothing has ended for a while and no worker
+        has anything to do, what is waited for is submitted again."""
+        last, alone = time.monotonic(), False
+        while waiting or suspects:
+            if not waiting:
+                alone, suspect = True, suspects.pop(0)
+                waiting[submit(suspect)] = suspect
             ended = next((future for future in waiting if future.done()), None)
             if ended is not None:
-                yield ended
+                yield ended, alone
                 last = time.monotonic()
             elif time.monotonic() - last < PATIENCE:
                 time.sleep(0.02)
             else:
                 last = time.monotonic()
                 if connected.scheduler_info()["workers"] and not any(connected.processing().values()):
-                    for future, (number, indices) in list(waiting.items()):
+                    for future, part in list(waiting.items()):
                         del waiting[future]
                         future.cancel()
-                        waiting[submit(number, indices)] = (number, indices)
+                        waiting[submit(part)] = part
 
 
 def rows(work, tasks):
