@@ -132,7 +132,7 @@ fn header(file: &str, row: &StringRecord) -> Result<Vec<Channel>, DataError> {
 }
 
 /// Name and unit of `name [unit]` or `name (unit)`.
-fn title(cell: &str) -> (&str, &str) {
+pub(super) fn title(cell: &str) -> (&str, &str) {
     for (open, close) in [('[', ']'), ('(', ')')] {
         if let Some((name, unit)) = cell.strip_suffix(close).and_then(|rest| rest.split_once(open)) {
             return (name.trim(), unit.trim());

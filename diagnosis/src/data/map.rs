@@ -143,12 +143,14 @@ impl Map {
     fn source(&self, record: &Record, wanted: &Wanted) -> Result<Option<(usize, Source)>, DataError> {
         let columns = &record.channels;
         if let Some(source) = self.signals.get(&wanted.name) {
-            let index = columns.iter().position(|column| column.name == source.column).ok_or_else(|| {
-                let hint = did_you_mean(&source.column, columns.iter().map(|column| column.name.as_str()));
-                let text =
-                    format!("the map takes `{}` from it, but there is no such column{hint}", wanted.name);
-                DataError::signal(&record.name, &source.column, text)
-            })?;
+            let index =
+                columns.iter().position(|column| column.is_called(&source.column)).ok_or_else(|| {
+                    let hint =
+                        did_you_mean(&source.column, columns.iter().map(|column| column.name.as_str()));
+                    let text =
+                        format!("the map takes `{}` from it, but there is no such column{hint}", wanted.name);
+                    DataError::signal(&record.name, &source.column, text)
+                })?;
             return Ok(Some((index, source.clone())));
         }
         let names = std::iter::once(&wanted.name).chain(&wanted.aliases);
@@ -209,6 +211,20 @@ mod tests {
 
     fn error(map: &str, record: Record, wanted: &[Wanted]) -> String {
         Map::parse(map).and_then(|map| map.apply(record, wanted)).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_column_may_be_named_with_its_unit_as_in_the_header() {
+        let file = record(&[("Weg FL", "mm", RAMP), ("Kraft", "", RAMP)]);
+        let signals = [wanted("deflection", "m", &[]), wanted("force", "N", &[])];
+        for column in ["Weg FL [mm]", "Weg FL (mm)", "Weg FL"] {
+            let map = format!("[signals]\n\"deflection\" = \"{column}\"\n\"force\" = \"Kraft\"\n");
+            let mapped = Map::parse(&map).and_then(|map| map.apply(file.clone(), &signals)).unwrap();
+            assert_eq!(mapped.record.channels[0].values, [0.0, 0.001, 0.002, 0.003]);
+        }
+        // Another unit is another column.
+        let error = error("[signals]\n\"deflection\" = \"Weg FL [m]\"\n", file, &signals);
+        assert!(error.contains("did you mean `Weg FL`?"), "{error}");
     }
 
     #[test]

@@ -44,6 +44,13 @@ pub struct Channel {
     pub values: Vec<f64>,
 }
 
+impl Channel {
+    /// Whether somebody means it by a name: its own, or as a header has it, with the unit in brackets.
+    pub(crate) fn is_called(&self, name: &str) -> bool {
+        name == self.name || csv::title(name.trim()) == (self.name.as_str(), self.unit.as_str())
+    }
+}
+
 /// Reads a record: CSV, ASAM MDF 4 or MATLAB 5 to 7, told apart by the first bytes.
 ///
 /// # Errors

@@ -61,13 +61,15 @@ impl Table {
 
     fn time_index(&self, wanted: Option<&TimeColumn>) -> Result<usize, DataError> {
         if let Some(wanted) = wanted {
-            return self.columns.iter().position(|column| column.name == wanted.column).ok_or_else(|| {
-                let text = format!(
-                    "the map takes the time from it, but there is no such column{}",
-                    did_you_mean(&wanted.column, self.columns.iter().map(|column| column.name.as_str()))
-                );
-                DataError::signal(&self.name, &wanted.column, text)
-            });
+            return self.columns.iter().position(|column| column.is_called(&wanted.column)).ok_or_else(
+                || {
+                    let text = format!(
+                        "the map takes the time from it, but there is no such column{}",
+                        did_you_mean(&wanted.column, self.columns.iter().map(|column| column.name.as_str()))
+                    );
+                    DataError::signal(&self.name, &wanted.column, text)
+                },
+            );
         }
         let named = |column: &Channel| is_time(&column.name);
         // A first column without a known name is believed if its unit is one of time.
