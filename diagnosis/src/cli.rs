@@ -8,6 +8,7 @@ use crate::search::Criterion;
 
 const EXAMPLES: &str = "\
 Examples:
+  diagnose rigs tum-quarter-vehicle   what its records may hold: names, units, and what is looked for in them
   diagnose simulate --hide strut.coulomb.force=60 --out records
                                       records of a virtual rig with friction hidden in it
   diagnose --rig tum-linear-measured-quarter-car --train records/train.csv --test records/test.csv --out report
@@ -32,8 +33,11 @@ pub struct Arguments {
 pub enum Command {
     /// Makes records of a virtual rig, to try the diagnosis with
     Simulate(SimulateArguments),
-    /// Lists the rigs
-    Rigs,
+    /// Lists the rigs, or tells of one what its records may hold and what is looked for in them
+    Rigs {
+        /// The rig, e.g. tum-quarter-vehicle
+        name: Option<String>,
+    },
 }
 
 /// A diagnosis.

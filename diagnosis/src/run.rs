@@ -35,9 +35,12 @@ pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let done = match (&arguments.command, &arguments.diagnosis) {
         (Some(Command::Simulate(arguments)), _) => simulate(arguments),
-        (Some(Command::Rigs), _) => {
+        (Some(Command::Rigs { name: None }), _) => {
             tell(&format!("{}\n", Rig::names().join("\n")));
             Ok(())
+        }
+        (Some(Command::Rigs { name: Some(name) }), _) => {
+            Rig::published(name).map(|rig| tell(&report::sheet(&rig)))
         }
         (None, Some(arguments)) => run(arguments),
         (None, None) => Err("nothing to do: run with --help".into()),

@@ -1,14 +1,17 @@
-//! What was found, for people and programs: `report.html`, `report.json` and a summary for the terminal.
+//! What was found, for people and programs: `report.html`, `report.json` and a summary for the terminal; and, before there is
+//! anything to be found, what a rig's records may hold.
 
 mod evidence;
 mod json;
 mod page;
 mod plot;
+mod sheet;
 mod terminal;
 mod words;
 
 pub use json::json;
 pub use page::html;
+pub use sheet::sheet;
 pub use terminal::terminal;
 
 use std::io;
