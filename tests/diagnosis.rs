@@ -229,6 +229,10 @@ fn make_records(folder: &Path) {
         part(&|title| title.starts_with("time") || driven(title) || title.starts_with("tire")),
     );
     write("short.csv", excerpt(&good, 150, |_| true));
+    write(
+        "flat.csv",
+        clipped(&part(&|title| title.starts_with("time") || driven(title) || title.starts_with("body.a"))),
+    );
     write("map.toml", "[signals]\n\"suspension.deflection\" = \"Weg\"\n".into());
 }
 
@@ -236,6 +240,19 @@ fn make_records(folder: &Path) {
 fn drop_last(line: &str) -> String {
     let cells: Vec<&str> = line.split(',').collect();
     cells[..cells.len().min(9)].join(",") + "\n"
+}
+
+/// The same with the last column limited to half its root mean square.
+fn clipped(text: &str) -> String {
+    let row = |line: &str| -> (String, f64) {
+        let (others, last) = line.rsplit_once(',').expect("there are several columns");
+        (others.into(), last.parse().expect("a number"))
+    };
+    let (title, lines) = text.split_once('\n').expect("there is a header");
+    let rows: Vec<(String, f64)> = lines.lines().map(row).collect();
+    let limit = 0.5 * (rows.iter().map(|(_, value)| value * value).sum::<f64>() / rows.len() as f64).sqrt();
+    let clipped = rows.iter().map(|(others, value)| format!("{others},{}\n", value.clamp(-limit, limit)));
+    format!("{title}\n{}", clipped.collect::<String>())
 }
 
 /// Exit code 1, words on stderr, no panic.
@@ -275,25 +292,32 @@ fn what_cannot_be_used_is_refused_in_words_and_leaves_nothing_behind() {
 
 /// Bad data gets a report that says what is wrong, and no model.
 #[test]
-fn a_record_that_is_too_short_is_refused_with_a_report() {
-    let folder = folder("short");
+fn a_record_that_cannot_be_used_is_refused_with_a_report() {
+    let folder = folder("unusable");
     make_records(&folder);
-    let out = folder.join("out");
-    let mut command = diagnose();
-    command.args(["--rig", RIG, "--train"]).arg(folder.join("short.csv"));
-    command.arg("--test").arg(folder.join("good.csv")).arg("--out").arg(&out);
-    let output = command.output().expect("cargo can be started");
-    let error = refused(&output, "a short record");
-    for words in ["short.csv", "only 150 samples: at least 200 are needed", "report.html"] {
-        assert!(error.contains(words), "no `{words}` in {error}");
+    for (record, what) in [
+        ("short.csv", "only 150 samples: at least 200 are needed"),
+        ("flat.csv", "no output is left to compare with the model"),
+    ] {
+        let out = folder.join("out");
+        let mut command = diagnose();
+        command.args(["--rig", RIG, "--train"]).arg(folder.join(record));
+        command.arg("--test").arg(folder.join("good.csv")).arg("--out").arg(&out);
+        let output = command.output().expect("cargo can be started");
+        let error = refused(&output, record);
+        for words in [record, what, "report.html"] {
+            assert!(error.contains(words), "no `{words}` in {error}");
+        }
+        let mut names: Vec<_> =
+            fs::read_dir(&out).expect("there is a report").map(|it| it.unwrap().file_name()).collect();
+        names.sort();
+        assert_eq!(names, ["report.html", "report.json"]);
+        let report = report(&out);
+        assert_eq!(report["verdict"], "bad_data");
+        let problems = report["data_problems"].as_array().expect("a list");
+        let fatal = problems.iter().filter(|it| it["fatal"] == true);
+        assert!(fatal.clone().all(|it| it["record"] == record) && fatal.count() == 1, "{problems:?}");
     }
-    let mut names: Vec<_> =
-        fs::read_dir(&out).expect("there is a report").map(|it| it.unwrap().file_name()).collect();
-    names.sort();
-    assert_eq!(names, ["report.html", "report.json"]);
-    let report = report(&out);
-    assert_eq!(report["verdict"], "bad_data");
-    assert_eq!(report["data_problems"][0]["record"], "short.csv");
 }
 
 /// Records of real rigs, which others have measured; they are no part of the project.

@@ -154,6 +154,8 @@ pub struct Evidence {
     pub taken: f64,
     /// Whether every rig has a little of it, so that more of it is asked for.
     pub usual: bool,
+    /// Whether it matters however little of it the errors show, as with a signal that is very late.
+    pub grave: bool,
 }
 
 /// Share of the error's power on held-out data that does not go by chance, however few the blocks are.
@@ -179,6 +181,7 @@ impl Evidence {
         phi_gain: 0.015,
         taken: 0.55,
         usual: false,
+        grave: false,
     };
 
     /// The same of what every rig has a little of.
@@ -194,23 +197,32 @@ impl Evidence {
         self.taken > BULK
     }
 
+    /// Whether so much of the error on held-out data goes that chance is no question, however few the blocks are.
+    pub fn explains_by_far(&self) -> bool {
+        self.explained > BY_FAR && self.held_out_t > 0.0
+    }
+
     /// The first gate that is not passed, in words.
     pub fn refusal(&self) -> Option<String> {
         self.doubt().or_else(|| self.smallness())
     }
 
+    /// Whether it takes so much away that a small Student's t over the training data is enough.
+    pub fn is_steady_enough(&self) -> bool {
+        self.takes_the_bulk() && self.block_t > STEADY
+    }
+
     /// The first gate that is not passed of those that tell whether it is there at all.
-    pub fn doubt(&self) -> Option<String> {
+    fn doubt(&self) -> Option<String> {
         let Self { delta_bic, block_t, held_out_t, explained, .. } = *self;
         let required = self.required();
-        let by_far = explained > BY_FAR && held_out_t > 0.0;
         if !explained.is_finite() {
             Some("diverges on the held-out data".to_owned())
         } else if delta_bic.is_nan() || delta_bic <= required.delta_bic {
             Some(format!("explains too little for its parameters (BIC falls by {delta_bic:.0})"))
-        } else if !(block_t > required.block_t || self.takes_the_bulk() && block_t > STEADY) {
+        } else if !(block_t > required.block_t || self.is_steady_enough()) {
             Some(format!("no steady gain over the training data (t = {block_t:.1})"))
-        } else if !(held_out_t > required.held_out_t || by_far) {
+        } else if !(held_out_t > required.held_out_t || self.explains_by_far()) {
             Some(format!("no gain on held-out data (t = {held_out_t:.1})"))
         } else {
             None
@@ -221,7 +233,9 @@ impl Evidence {
     fn smallness(&self) -> Option<String> {
         let Self { explained, phi_gain, taken, .. } = *self;
         let required = self.required();
-        if explained <= required.explained {
+        if self.grave {
+            None
+        } else if explained <= required.explained {
             Some(format!("too small to matter ({:.1} % of the error)", 100.0 * explained))
         } else if !(phi_gain > required.phi_gain || taken > required.taken) {
             Some(format!(

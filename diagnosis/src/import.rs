@@ -105,6 +105,17 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
         Some(Measured { output, values, noise_floor })
     });
     let measured: Vec<Measured> = measured.collect();
+    if measured.is_empty() {
+        problems.push(DataProblem {
+            record: name,
+            signal: "all outputs".into(),
+            text: "no output is left to compare with the model, as too many samples of each are wrong: see what else is \
+                   told of this record, mend the sensors or their ranges, and record again"
+                .into(),
+            fatal: true,
+        });
+        return Ok(Imported { recorded: None, problems });
+    }
     let sections = sections(&uniform.segments, uniform.step, rig.kind.section);
     Ok(Imported {
         recorded: Some(Recorded {

@@ -219,13 +219,15 @@ impl World<'_> {
         named.map(|it| self.simplest(base, it, passing)).or_else(|| passing.first().copied())
     }
 
-    /// One with fewer parameters that is a part of the best, unless what the best one adds to it passes the gates on its own.
+    /// One that is simpler than the best, a part of it with fewer parameters or one that needs fewer late signals, unless what
+    /// the best one adds to it passes the gates on its own.
     fn simplest<'b>(&self, base: &Fitted, best: &'b Tried, passing: &[&'b Tried]) -> &'b Tried {
         let mut chosen = best;
         for other in passing {
             if let (Ok(fitted), Ok(simpler)) = (&chosen.fitted, &other.fitted)
-                && contains(chosen.term, other.term, &parts(fitted), &parts(simpler))
-                && simpler.coordinates.len() < fitted.coordinates.len()
+                && (contains(chosen.term, other.term, &parts(fitted), &parts(simpler))
+                    && simpler.coordinates.len() < fitted.coordinates.len()
+                    || self.late(simpler) < self.late(fitted) && !is_table(other.term))
             {
                 let added = self.evidence(chosen.term, base, simpler, fitted);
                 // Whether it is common does not matter beside a part of itself.
@@ -242,14 +244,20 @@ impl World<'_> {
         self.apart(best, other) < APART || self.left(base, other) < SAME * self.left(base, best)
     }
 
-    /// Those that explain the data as well as the chosen one, and are not the same with something more.
+    /// Those that explain the data as well as the chosen one, and are not the same with something more, nor need more late
+    /// signals.
     fn rivals(&self, base: &Fitted, chosen: &Tried, passing: &[&Tried]) -> Vec<Term> {
         let Ok(best) = &chosen.fitted else { return Vec::new() };
         let own = parts(best);
         let rival = |other: &&&Tried| {
             let Ok(fitted) = &other.fitted else { return false };
             let more = contains(other.term, chosen.term, &parts(fitted), &own);
-            other.term != chosen.term && !is_table(other.term) && !more && self.as_good(base, best, fitted)
+            let later = self.late(fitted) > self.late(best);
+            other.term != chosen.term
+                && !is_table(other.term)
+                && !more
+                && !later
+                && self.as_good(base, best, fitted)
         };
         passing.iter().filter(rival).map(|it| it.term).collect()
     }

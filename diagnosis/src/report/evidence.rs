@@ -3,6 +3,11 @@
 use super::words::{number, percent};
 use crate::findings::Evidence;
 
+const HELD_OUT: &str = "Held-out data";
+const TRAINING: &str = "Training data";
+const SIZE: &str = "Size";
+const RELEVANCE: &str = "Relevance";
+
 /// One gate.
 pub struct Gate {
     /// What is looked at.
@@ -15,28 +20,41 @@ pub struct Gate {
     pub required: String,
     /// Whether that is exceeded.
     pub passed: bool,
+    /// Why it need not be, if so.
+    pub waived: Option<&'static str>,
 }
 
 /// All gates.
 pub fn gates(evidence: &Evidence) -> [Gate; 5] {
     let limits = evidence.required();
+    let waived = |name: &str| match name {
+        HELD_OUT if evidence.explains_by_far() => Some("so much of the error goes that it is no chance"),
+        TRAINING if evidence.is_steady_enough() => {
+            Some("most of the error goes, so that its gain is as uneven")
+        }
+        SIZE | RELEVANCE if evidence.grave => {
+            Some("a signal that is so late matters, however little the errors show it")
+        }
+        _ => None,
+    };
     let gate = |name, meaning, found: f64, required: f64, print: fn(f64) -> String| Gate {
         name,
         meaning,
         found: print(found),
         required: format!("> {}", print(required)),
         passed: found > required,
+        waived: waived(name),
     };
     [
         gate(
-            "Held-out data",
+            HELD_OUT,
             "t of the gain over blocks of another excitation",
             evidence.held_out_t,
             limits.held_out_t,
             number,
         ),
         gate(
-            "Training data",
+            TRAINING,
             "t of the gain over blocks of what was learnt from",
             evidence.block_t,
             limits.block_t,
@@ -50,7 +68,7 @@ pub fn gates(evidence: &Evidence) -> [Gate; 5] {
             number,
         ),
         gate(
-            "Size",
+            SIZE,
             "share of the starting model’s error power it explains",
             evidence.explained,
             limits.explained,
@@ -58,10 +76,10 @@ pub fn gates(evidence: &Evidence) -> [Gate; 5] {
         ),
         if evidence.phi_gain <= limits.phi_gain && evidence.taken > limits.taken {
             let what = "share that it takes away of the error that was left";
-            gate("Relevance", what, evidence.taken, limits.taken, percent)
+            gate(RELEVANCE, what, evidence.taken, limits.taken, percent)
         } else {
             let what = "largest rise of Φ among the signals, on either data";
-            gate("Relevance", what, evidence.phi_gain, limits.phi_gain, number)
+            gate(RELEVANCE, what, evidence.phi_gain, limits.phi_gain, number)
         },
     ]
 }

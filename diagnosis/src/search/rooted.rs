@@ -7,7 +7,7 @@ use crate::fit::Handle;
 use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
 
-use super::{APART, Accepted, Found, is_table, matters_beside};
+use super::{APART, Accepted, Found, Tried, is_table, matters_beside};
 
 /// Relative change of an effect's size beyond which it is another one.
 const RESIZED: f64 = 0.5;
@@ -24,6 +24,30 @@ struct Suspect {
     grave: bool,
 }
 
+impl Suspect {
+    /// What speaks for a term in its place, or for itself: more than the usual amount is what made it suspect.
+    fn weighed(&self, it: Term, evidence: Evidence) -> Evidence {
+        let timing = matches!(it, Term::Fault(_));
+        let usual = evidence.usual && it != self.term && !timing;
+        Evidence { usual, grave: self.grave && timing, ..evidence }
+    }
+}
+
+/// What explains as much as a suspect does.
+struct Rival {
+    term: Term,
+    evidence: Evidence,
+    fitted: Fitted,
+}
+
+/// How late a signal is.
+struct Timing {
+    /// What makes it late.
+    handles: Vec<Handle>,
+    /// In standard deviations of what any measurement does.
+    late: f64,
+}
+
 impl World<'_> {
     /// The causes that hide in the base parameters of what was found, with what speaks for the difference and the rivals
     /// that explain it as well. A rival that explains it better is added to what was found.
@@ -32,53 +56,51 @@ impl World<'_> {
     /// If the model refuses its settings.
     pub fn rooted(&self, found: &mut Found) -> Result<Vec<Accepted>, String> {
         let mut rooted = Vec::new();
-        for Suspect { term, before, grave } in self.suspects(found) {
+        for suspect in self.suspects(found) {
             let mut start = found.extended.point.clone();
-            before.iter().for_each(|(handle, value)| start.set(*handle, *value));
-            let held = before.iter().map(|(handle, _)| *handle).collect();
+            suspect.before.iter().for_each(|(handle, value)| start.set(*handle, *value));
+            let held = suspect.before.iter().map(|(handle, _)| *handle).collect();
             let without = World { held, ..self.clone() };
             // Without a fit to compare to there is nothing to be told.
             let Ok(held) = without.fitted(&found.extended.terms, &[start], Stop::NOISY) else { continue };
-            // More than the usual amount is what made it suspect.
-            let passes = |it: Term, evidence: Evidence| {
-                let timing = matches!(it, Term::Fault(_));
-                let evidence = Evidence { usual: evidence.usual && it != term && !timing, ..evidence };
-                let refusal = if grave && timing { evidence.doubt() } else { evidence.refusal() };
-                refusal.is_none() && !is_table(it)
-            };
-            let evidence = self.evidence(term, &held, &held, &found.extended);
-            if !passes(term, evidence) {
+            let evidence = self.evidence(suspect.term, &held, &held, &found.extended);
+            let evidence = suspect.weighed(suspect.term, evidence);
+            if evidence.refusal().is_some() {
                 continue;
             }
-            let screened = without.screened(&held)?;
-            let mut promising = without.promising(&held, &screened);
-            promising.retain(|it| it.term != term);
-            let mut tried = without.try_all(&held, &held, &promising);
-            tried.retain(|it| it.fitted.is_ok() && passes(it.term, it.evidence));
-            let fits: Vec<(Term, Evidence, Fitted)> =
-                tried.into_iter().filter_map(|it| Some((it.term, it.evidence, it.fitted.ok()?))).collect();
+            let fits = without.instead(&suspect, &held)?;
             let behind = |it: &Fitted| self.apart(&found.extended, it);
-            let ahead = fits.iter().filter(|(_, _, it)| behind(it) < -APART);
-            let ahead = ahead.min_by(|(_, _, a), (_, _, b)| behind(a).total_cmp(&behind(b))).cloned();
-            let best = ahead.as_ref().map_or(&found.extended, |(_, _, it)| it);
-            let own = ahead.as_ref().map_or(term, |(it, _, _)| *it);
-            let alike = |it: &&(Term, Evidence, Fitted)| it.0 != own && self.as_good(&held, best, &it.2);
-            let rivals = fits.iter().filter(alike).map(|(it, _, _)| *it).collect();
+            let ahead = fits.iter().filter(|it| behind(&it.fitted) < -APART);
+            let ahead = ahead.min_by(|a, b| behind(&a.fitted).total_cmp(&behind(&b.fitted)));
+            let best = ahead.map_or(&found.extended, |it| &it.fitted);
+            let (term, evidence) = ahead.map_or((suspect.term, evidence), |it| (it.term, it.evidence));
+            let rivals = fits.iter().filter(|it| it.term != term && self.as_good(&held, best, &it.fitted));
+            let rivals = rivals.map(|it| it.term).collect();
+            let told = Accepted { term, evidence, rivals };
             match ahead {
-                Some((term, evidence, fitted)) => {
-                    found.extended = fitted;
-                    found.accepted.push(Accepted {
-                        term,
-                        evidence: Evidence { usual: false, ..evidence },
-                        rivals,
-                    });
+                Some(Rival { fitted, .. }) => {
+                    // It was fitted well enough to be compared; now it is to be told.
+                    let start = std::slice::from_ref(&fitted.point);
+                    found.extended = self.fitted(&fitted.terms, start, Stop::NOISY)?;
+                    found.accepted.push(told);
                 }
-                None => {
-                    rooted.push(Accepted { term, evidence: Evidence { usual: false, ..evidence }, rivals });
-                }
+                None => rooted.push(told),
             }
         }
         Ok(rooted)
+    }
+
+    /// What may stand in the place of a suspect, fitted on top of what was fitted without it.
+    fn instead(&self, suspect: &Suspect, held: &Fitted) -> Result<Vec<Rival>, String> {
+        let screened = self.screened(held)?;
+        let mut promising = self.promising(held, &screened);
+        promising.retain(|it| it.term != suspect.term);
+        let rival = |it: Tried| {
+            let evidence = suspect.weighed(it.term, it.evidence);
+            let passes = evidence.refusal().is_none() && !is_table(it.term);
+            passes.then_some(Rival { term: it.term, evidence, fitted: it.fitted.ok()? })
+        };
+        Ok(self.try_all(held, held, &promising).into_iter().filter_map(rival).collect())
     }
 
     fn suspects(&self, found: &Found) -> Vec<Suspect> {
@@ -91,18 +113,32 @@ impl World<'_> {
             let before = vec![(Handle::Parameter(index), before)];
             other.then_some(Suspect { term: Term::Cause(cause), before, grave: false })
         });
-        let late = (0..rig.plant.outputs.len()).filter_map(|output| {
-            let own = |it: &Handle| matches!(it, Handle::Output(of, _) if *of == output);
-            let fitted = found.extended.coordinates.iter().map(|it| it.handle).filter(own);
-            let timing: Vec<Handle> = fitted.filter(|it| self.usual(*it).is_some()).collect();
-            // A delay and a lag that oppose one another leave a signal as late as their sum.
-            let late: f64 = timing.iter().map(|it| point.get(*it)).sum();
-            let most = timing.iter().max_by(|a, b| point.get(**a).abs().total_cmp(&point.get(**b).abs()))?;
-            let before = timing.iter().map(|it| (*it, 0.0)).collect();
-            let late = late.abs() / self.usual(*most)?;
+        let late = self.timings(&found.extended).into_iter().filter_map(|Timing { handles, late }| {
+            let most = handles.iter().max_by(|a, b| point.get(**a).abs().total_cmp(&point.get(**b).abs()))?;
+            let before = handles.iter().map(|it| (*it, 0.0)).collect();
             (late > LATE).then_some(Suspect { term: Term::Fault(*most), before, grave: late > TOO_LATE })
         });
         resized.chain(late).filter(|it| !found.extended.terms.contains(&it.term)).collect()
+    }
+
+    /// The timing of each measured output, as far as it was not found to be a fault.
+    fn timings(&self, fitted: &Fitted) -> Vec<Timing> {
+        let of = |output: usize| {
+            let own = |it: &Handle| matches!(it, Handle::Output(of, _) if *of == output);
+            let handles = fitted.coordinates.iter().map(|it| it.handle).filter(own);
+            let found = |it: &Handle| fitted.terms.contains(&Term::Fault(*it));
+            let handles: Vec<Handle> = handles.filter(|it| self.usual(*it).is_some() && !found(it)).collect();
+            // A delay and a lag that oppose one another leave a signal as late as their sum.
+            let sum: f64 = handles.iter().map(|it| fitted.point.get(*it)).sum();
+            let late = sum.abs() / self.usual(*handles.first()?)?;
+            Some(Timing { handles, late })
+        };
+        (0..self.rig.plant.outputs.len()).filter_map(of).collect()
+    }
+
+    /// Number of signals that are later than any measurement makes them.
+    pub(super) fn late(&self, fitted: &Fitted) -> usize {
+        self.timings(fitted).iter().filter(|it| it.late > LATE).count()
     }
 
     /// Takes away what was found and is small beside the causes that hide in the base parameters. Tells whether anything

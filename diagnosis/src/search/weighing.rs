@@ -51,6 +51,7 @@ impl World<'_> {
             phi_gain: self.phi_gain(null, fitted),
             taken: 1.0 - self.remaining(null, fitted),
             usual: is_table(term) || USUAL.contains(&name(term, &self.rig.plant).id.as_str()),
+            grave: false,
         }
     }
 

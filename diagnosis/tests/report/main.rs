@@ -192,11 +192,22 @@ fn the_page_tells_noise_from_what_is_driven() {
 }
 
 #[test]
-fn a_gate_that_is_not_passed_is_marked() {
+fn a_gate_that_is_not_passed_is_marked_and_one_that_need_not_be_says_why() {
     let mut findings = sample(Verdict::Named);
-    assert!(!report::html(&findings).contains("not passed"));
+    let shown =
+        |findings: &Findings| ["not passed", "not asked for"].map(|it| report::html(findings).contains(it));
+    assert_eq!(shown(&findings), [false, false]);
     findings.effects[0].evidence.held_out_t = Evidence::REQUIRED.held_out_t;
-    assert!(report::html(&findings).contains("not passed"));
+    findings.effects[0].evidence.explained = 0.2;
+    assert_eq!(shown(&findings), [true, false]);
+    findings.effects[0].evidence.explained = 0.5;
+    assert!(findings.effects[0].evidence.refusal().is_none());
+    assert_eq!(shown(&findings), [false, true]);
+    findings.effects[0].evidence =
+        Evidence { explained: 1e-3, grave: true, ..sample(Verdict::Named).effects[0].evidence };
+    assert!(findings.effects[0].evidence.refusal().is_none());
+    assert_eq!(shown(&findings), [false, true]);
+    assert!(report::html(&findings).contains("a signal that is so late matters"));
 }
 
 #[test]

@@ -61,6 +61,7 @@ fn friction() -> Effect {
             phi_gain: 0.21,
             taken: 0.35,
             usual: false,
+            grave: false,
         },
         ambiguous_with: vec![],
         experiment: None,
@@ -110,6 +111,7 @@ fn candidates() -> Vec<Candidate> {
             phi_gain: 0.002,
             taken: 0.35,
             usual: false,
+            grave: false,
         };
         Candidate {
             id: id.into(),
@@ -214,6 +216,7 @@ pub fn sample(verdict: Verdict) -> Findings {
                 phi_gain: 0.12,
                 taken: 0.35,
                 usual: true,
+                grave: false,
             };
             findings.effects = vec![friction(), cogging];
             findings.summary =

@@ -46,7 +46,13 @@ fn evidence(evidence: &Evidence) -> Markup {
                         td { (gate.name) div.small { (gate.meaning) } }
                         td.number { strong { (gate.found) } }
                         td.number { (gate.required) }
-                        td { @if gate.passed { span.yes { "✓ passed" } } @else { span.no { "✗ not passed" } } }
+                        td {
+                            @match (gate.passed, gate.waived) {
+                                (true, _) => span.yes { "✓ passed" },
+                                (false, Some(reason)) => { "not asked for" div.small { (reason) } },
+                                (false, None) => span.no { "✗ not passed" },
+                            }
+                        }
                     }
                 }
             }
