@@ -73,6 +73,8 @@ pub struct Part {
     pub bounds: (f64, f64),
     /// Values from which it is looked for.
     pub probes: &'static [f64],
+    /// Whether it is an amount beside the first parameter's: the law is a sum, of which either may be absent.
+    pub addend: bool,
 }
 
 /// Powers of an element's typical force, deflection and velocity that a parameter's numbers are in: what is large and
@@ -129,7 +131,12 @@ pub struct Typical {
 
 /// A parameter of a cause.
 const fn part(parameter: &'static str, scale: Scale, bounds: (f64, f64), probes: &'static [f64]) -> Part {
-    Part { parameter, scale, bounds, probes }
+    Part { parameter, scale, bounds, probes, addend: false }
+}
+
+/// A parameter that adds something of its own to what the first one does.
+const fn addend(parameter: &'static str, scale: Scale, bounds: (f64, f64), probes: &'static [f64]) -> Part {
+    Part { addend: true, ..part(parameter, scale, bounds, probes) }
 }
 
 /// A force without a name, over a variable: a table in the plant.

@@ -42,28 +42,47 @@ impl Errors<'_> {
     /// By how much another model's squared errors are smaller over blocks of so many samples, in halves of `unit`, one
     /// for each signal; blocks in which both models say the same are left out.
     pub fn gains(&self, other: &Self, block: usize, unit: &[f64]) -> Vec<f64> {
-        let mut gains: Vec<(f64, f64)> = Vec::new();
+        self.blocks(other, block, unit).iter().map(|it| 0.5 * (it.before - it.after)).collect()
+    }
+
+    /// The same in logarithms of each block's own errors: a block counts for what is better there, not for how large its
+    /// errors are.
+    pub fn ratios(&self, other: &Self, block: usize, unit: &[f64]) -> Vec<f64> {
+        let ratio = |it: &Block| (it.before.max(f64::MIN_POSITIVE) / it.after.max(f64::MIN_POSITIVE)).ln();
+        self.blocks(other, block, unit).iter().map(ratio).collect()
+    }
+
+    /// Squared errors of both models over blocks, in `unit`; blocks in which both say the same are left out.
+    fn blocks(&self, other: &Self, block: usize, unit: &[f64]) -> Vec<Block> {
+        let mut blocks: Vec<Block> = Vec::new();
         for (own, other) in self.residuals.iter().zip(other.residuals) {
             let count = own.first().map_or(0, |signal| signal.len().div_ceil(block));
-            let mut here = vec![(0.0, 0.0); count];
+            let mut here = vec![Block::default(); count];
             for ((own, other), unit) in own.iter().zip(other).zip(unit) {
-                for ((own, other), (gain, change)) in
-                    own.chunks(block).zip(other.chunks(block)).zip(&mut here)
-                {
+                for ((own, other), here) in own.chunks(block).zip(other.chunks(block)).zip(&mut here) {
                     for (before, after) in own.iter().zip(other) {
                         if before.is_finite() && after.is_finite() {
-                            *gain += 0.5 * (before * before - after * after) / unit;
-                            *change += (before - after).powi(2) / unit;
+                            here.before += before * before / unit;
+                            here.after += after * after / unit;
+                            here.change += (before - after).powi(2) / unit;
                         }
                     }
                 }
             }
-            gains.extend(here);
+            blocks.extend(here);
         }
-        let largest = gains.iter().map(|(_, change)| *change).fold(0.0, f64::max);
-        let active = gains.into_iter().filter(|(_, change)| *change > INACTIVE * largest);
-        active.map(|(gain, _)| gain).collect()
+        let largest = blocks.iter().map(|it| it.change).fold(0.0, f64::max);
+        blocks.retain(|it| it.change > INACTIVE * largest);
+        blocks
     }
+}
+
+/// Sums of squares over a block: of two models' errors, and of their difference.
+#[derive(Clone, Copy, Debug, Default)]
+struct Block {
+    before: f64,
+    after: f64,
+    change: f64,
 }
 
 /// Number of independent samples: the sum of correlations ends where they first change their sign. They are those of what
@@ -131,6 +150,22 @@ mod tests {
         assert!((effective_count(&held) / 2000.0 - 1.0).abs() < 0.2);
         let drifting: Vec<f64> = white.iter().zip(0..).map(|(y, k)| y + 3.0 - 1e-4 * f64::from(k)).collect();
         assert!((effective_count(&drifting) / effective_count(&white) - 1.0).abs() < 0.01);
+    }
+
+    /// A large event and nine small ones, all of them met better.
+    #[test]
+    fn events_of_any_size_count_alike_in_ratios() {
+        let sizes = [6.0, 7.0, 5.5, 30.0, 6.5, 6.0, 5.0, 7.0, 6.0, 5.5];
+        let of = |share: f64| -> Residuals {
+            let event = |size: f64, k: i32| share * size * (0.6 * f64::from(k)).sin();
+            vec![vec![sizes.iter().flat_map(|size| (0..50).map(move |k| event(*size, k))).collect()]]
+        };
+        let (bad, good, floor) = (of(1.0), of(0.9), [0.0]);
+        let [bad, good] = [&bad, &good].map(|residuals| Errors { residuals, floor: &floor });
+        assert!(student(&bad.gains(&good, 50, &[1.0])) < 2.0);
+        let ratios = bad.ratios(&good, 50, &[1.0]);
+        assert_eq!(ratios.len(), sizes.len());
+        assert!(ratios.iter().all(|it| (it - 2.0 * (1.0_f64 / 0.9).ln()).abs() < 1e-9), "{ratios:?}");
     }
 
     #[test]

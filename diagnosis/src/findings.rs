@@ -198,8 +198,9 @@ impl Evidence {
     }
 
     /// Whether so much of the error on held-out data goes that chance is no question, however few the blocks are.
-    pub fn explains_by_far(&self) -> bool {
-        self.explained > BY_FAR && self.held_out_t > 0.0
+    pub fn is_no_chance(&self) -> bool {
+        let most_of_what_was_left = self.taken > self.required().taken && self.held_out_t > STEADY;
+        most_of_what_was_left || self.explained > BY_FAR && self.held_out_t > 0.0
     }
 
     /// The first gate that is not passed, in words.
@@ -222,7 +223,7 @@ impl Evidence {
             Some(format!("explains too little for its parameters (BIC falls by {delta_bic:.0})"))
         } else if !(block_t > required.block_t || self.is_steady_enough()) {
             Some(format!("no steady gain over the training data (t = {block_t:.1})"))
-        } else if !(held_out_t > required.held_out_t || self.explains_by_far()) {
+        } else if !(held_out_t > required.held_out_t || self.is_no_chance()) {
             Some(format!("no gain on held-out data (t = {held_out_t:.1})"))
         } else {
             None

@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use crate::catalogue::{self, Cause, Element, Table};
+use crate::catalogue::{self, Cause, Element, Part, Table};
 use crate::correction::Fault;
 use crate::fit::{Handle, Point, Residuals};
 use crate::hypothesis::{Fitted, POINTS, Term, World};
@@ -29,7 +29,7 @@ pub struct Screened {
 pub struct Probe {
     /// Index of the term.
     pub term: usize,
-    /// The point; for a table one for each of its points.
+    /// The point; for a sum one for each of its addends, as a table's points are.
     pub points: Vec<Point>,
 }
 
@@ -163,9 +163,11 @@ impl World<'_> {
             let Some(amounts) = block.clone().cholesky().map(|it| it.solve(&right)) else { continue };
             let gain = amounts.dot(&right);
             let screened = &mut screened[probe.term];
-            if let [_] = probe.points.as_slice() {
+            if !matches!(terms[probe.term], Term::Table(_))
+                && let Some(variances) = block.try_inverse()
+            {
                 let size = self.first_size(terms[probe.term], &probe.points[0], &fitted.point);
-                screened.detectable = screened.detectable.min(5.0 * size / block[(0, 0)].sqrt());
+                screened.detectable = screened.detectable.min(5.0 * size * variances[(0, 0)].sqrt());
             }
             let (gain, point) = self.start(terms[probe.term], probe, &amounts, gain, &fitted.point);
             found[probe.term].push((gain, point));
@@ -187,7 +189,7 @@ impl World<'_> {
             Term::Cause(cause) => self
                 .shapes(cause, at)
                 .into_iter()
-                .map(|point| Probe { term: index, points: vec![point] })
+                .map(|shape| Probe { term: index, points: self.addends(cause, shape, at) })
                 .collect(),
             Term::Table(table) => vec![Probe { term: index, points: self.knots(table, at) }],
             Term::Fault(handle) => {
@@ -198,11 +200,26 @@ impl World<'_> {
         }
     }
 
-    /// A cause from every combination of its probes.
+    /// A shape of a cause, and each of its addends without the others.
+    fn addends(&self, cause: &Cause, shape: Point, at: &Point) -> Vec<Point> {
+        let typical = self.typical(cause.element);
+        let index = |part: &Part| self.rig.plant.parameter(part.parameter);
+        let alone = |part: &Part| {
+            let (amount, first) = (index(part)?, index(cause.parts.first()?)?);
+            let mut point = shape.clone();
+            point.parameters[first] = at.parameters[first];
+            point.parameters[amount] += part.probes.first()? * part.scale.of(&typical);
+            Some(point)
+        };
+        let others: Vec<Point> = cause.parts.iter().filter(|part| part.addend).filter_map(alone).collect();
+        std::iter::once(shape).chain(others).collect()
+    }
+
+    /// A cause from every combination of its probes, without its addends.
     fn shapes(&self, cause: &Cause, at: &Point) -> Vec<Point> {
         let typical = self.typical(cause.element);
         let mut points = vec![at.clone()];
-        for part in cause.parts {
+        for part in cause.parts.iter().filter(|part| !part.addend) {
             let Some(index) = self.rig.plant.parameter(part.parameter) else { continue };
             // What another cause has brought already stays.
             let there = at.parameters[index] != self.rig.parameters[index];
@@ -292,15 +309,18 @@ impl World<'_> {
     ) -> (f64, Point) {
         let Some(mut point) = probe.points.first().cloned() else { return (0.0, at.clone()) };
         let own = self.own_coordinates(term);
-        match term {
-            Term::Table(_) => {
-                for (coordinate, (tried, amount)) in own.iter().zip(probe.points.iter().zip(amounts.iter())) {
-                    let value = amount * tried.get(coordinate.handle);
+        match probe.points.as_slice() {
+            [_, _, ..] => {
+                for coordinate in &own {
+                    let before = at.get(coordinate.handle);
+                    let tried = probe.points.iter().map(|tried| tried.get(coordinate.handle) - before);
+                    let step: f64 = tried.zip(amounts.iter()).map(|(tried, amount)| amount * tried).sum();
+                    let value = before + step;
                     point.set(coordinate.handle, value.clamp(coordinate.bounds.0, coordinate.bounds.1));
                 }
                 (gain, point)
             }
-            Term::Cause(_) | Term::Fault(_) => {
+            _ => {
                 let Some(first) = own.first() else { return (gain.max(0.0), point) };
                 let before = at.get(first.handle);
                 let step = amounts[0] * (probe.points[0].get(first.handle) - before);

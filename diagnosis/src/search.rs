@@ -130,9 +130,7 @@ impl World<'_> {
         let mut chosen: Vec<&Screened> =
             named.iter().copied().filter(|it| it.gain > least).take(FITTED).collect();
         // What has no derivative where it is absent may screen badly: it is tried all the same.
-        let hidden = named.iter().copied().filter(|it| {
-            matches!(it.term, Term::Cause(cause) if HIDDEN.contains(&cause.id)) && it.gain > 0.2 * worth(base)
-        });
+        let hidden = named.iter().copied().filter(|it| has_threshold(it.term) && it.gain > 0.2 * worth(base));
         // And the limit cases of the others, which are preferred where they explain nearly as much.
         let limits = named
             .iter()
@@ -307,5 +305,10 @@ pub(crate) fn worth(base: &Fitted) -> f64 {
     12.0_f64.max(0.005 * 2.0 * base.cost)
 }
 
-/// Terms that nothing shows of while they are absent: they begin to act beyond a threshold.
-const HIDDEN: &[&str] = &["09", "12", "20"];
+/// Numbers of the causes that begin to act beyond a threshold.
+const THRESHOLDS: &[&str] = &["09", "12", "20"];
+
+/// Whether nothing shows of a term while it is absent, and of what it does only now and then.
+fn has_threshold(term: Term) -> bool {
+    matches!(term, Term::Cause(cause) if THRESHOLDS.contains(&cause.id))
+}

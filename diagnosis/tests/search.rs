@@ -1,6 +1,8 @@
 //! The search on records that the plant itself has made: what is hidden is found, what is not there is not claimed.
 
+use strut_diagnosis::correction::Fault;
 use strut_diagnosis::diagnosis::{Options, diagnose};
+use strut_diagnosis::fit::Handle;
 use strut_diagnosis::naming::name;
 use strut_diagnosis::plant::{Between, Drive};
 use strut_diagnosis::recorded::{Measured, Recorded, Source, derivative};
@@ -137,4 +139,35 @@ fn two_causes_are_told_from_a_wrong_mass() {
     for (name, hidden) in hidden {
         assert!((value(&values, name) / hidden - 1.0).abs() < 0.02, "{name}");
     }
+}
+
+/// A quadratic and a cubic part of opposite signs: neither ratio between them is given.
+#[test]
+fn a_spring_that_is_curved_both_ways_is_found() {
+    let (terms, values) = found(&[("strut.spring.quadratic", -1.5e5), ("strut.spring.cubic", 2e7)]);
+    assert_eq!(terms, ["08 strut"]);
+    assert!((value(&values, "strut.spring.quadratic") / -1.5e5 - 1.0).abs() < 0.1);
+    assert!((value(&values, "strut.spring.cubic") / 2e7 - 1.0).abs() < 0.1);
+}
+
+/// A delay of the actuator is not told as all sensors being late and the road early.
+#[test]
+fn one_late_actuator_is_simpler_than_every_sensor_being_late() {
+    let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
+    let late = |seed: u64| {
+        let mut record = record(&rig, seed, &[]);
+        let force = rig.plant.input("actuator.force").unwrap();
+        if let Source::Measured(values) = &mut record.inputs[force] {
+            // It acts two samples after it was commanded.
+            values.rotate_left(2);
+        }
+        record
+    };
+    let (train, test) = ([late(1)], [late(20)]);
+    let diagnosis = diagnose(&rig, &train, &test, &test, Options::default(), &|_| {}).unwrap();
+    let told = diagnosis.found.accepted.iter().chain(&diagnosis.rooted);
+    let told: Vec<String> = told.map(|it| name(it.term, &rig.plant).short()).collect();
+    assert_eq!(told, ["23 actuator.force"]);
+    let delay = Handle::Input(rig.plant.input("actuator.force").unwrap(), Fault::Delay);
+    assert!((diagnosis.found.extended.point.get(delay) - 2.0 * STEP).abs() < 0.2 * STEP);
 }

@@ -1,6 +1,6 @@
 //! Causes in the strut and in the guides.
 
-use super::{Cause, Element, Scale, part};
+use super::{Cause, Element, Scale, addend, part};
 
 /// Below, a rig that really sticks is met no better, and equations become too stiff.
 const FRICTION_VELOCITY: (f64, f64) = (5e-3, 1.0);
@@ -105,7 +105,7 @@ pub(super) const CAUSES: &[Cause] = &[
         setting: None,
         parts: &[
             part("strut.spring.cubic", Scale::CUBIC, (-5.0, 5.0), &[0.05]),
-            part("strut.spring.quadratic", Scale::QUADRATIC, (-5.0, 5.0), &[0.0, 0.05]),
+            addend("strut.spring.quadratic", Scale::QUADRATIC, (-5.0, 5.0), &[0.05]),
         ],
         experiment: "move through the whole stroke quasi-statically",
     },

@@ -28,7 +28,7 @@ pub struct Gate {
 pub fn gates(evidence: &Evidence) -> [Gate; 5] {
     let limits = evidence.required();
     let waived = |name: &str| match name {
-        HELD_OUT if evidence.explains_by_far() => Some("so much of the error goes that it is no chance"),
+        HELD_OUT if evidence.is_no_chance() => Some("so much of the error goes that it is no chance"),
         TRAINING if evidence.is_steady_enough() => {
             Some("most of the error goes, so that its gain is as uneven")
         }

@@ -1,18 +1,19 @@
 //! What speaks for one fit over another.
 
 use crate::comparison::{Errors, student};
+use crate::correction::Fault;
 use crate::findings::Evidence;
-use crate::fit::{Residuals, strain};
+use crate::fit::{Handle, Residuals, strain};
 use crate::hypothesis::{Fitted, Term, World};
-use crate::naming::name;
+use crate::naming::{Name, name};
 use crate::recorded::Recorded;
 use crate::screening::rms;
 
-use super::is_table;
+use super::{has_threshold, is_table};
 
-/// Numbers of what every rig has a little of: memory in its rubber, springs that are not quite straight, a motor's cogging,
-/// sensors' filters and timing. What has no name is as common.
-const USUAL: &[&str] = &["07", "08", "09", "27", "35", "36"];
+/// Numbers of what every rig has a little of: memory and compliance in its rubber, springs that are not quite straight, cogging,
+/// sensors' filters and timing, of what is measured of the drive, too. What has no name is as common.
+const USUAL: &[&str] = &["07", "08", "09", "13", "27", "35", "36"];
 
 impl World<'_> {
     fn block(&self) -> usize {
@@ -23,10 +24,13 @@ impl World<'_> {
         Errors { residuals, floor: &self.floor }
     }
 
-    /// Student's t of the gain over blocks, in units of what the better fit leaves.
-    fn steadiness(&self, null: &Residuals, other: &Residuals) -> f64 {
+    /// Student's t of the gain over blocks, in units of what the better fit leaves. Of what acts beyond a threshold only, the
+    /// gains are as uneven as the events: there, it is enough if each event's own errors shrink steadily.
+    fn steadiness(&self, term: Term, null: &Residuals, other: &Residuals) -> f64 {
         let (null, other) = (self.errors(null), self.errors(other));
-        student(&null.gains(&other, self.block(), &other.mean_squares()))
+        let unit = other.mean_squares();
+        let gain = student(&null.gains(&other, self.block(), &unit));
+        if has_threshold(term) { gain.max(student(&null.ratios(&other, self.block(), &unit))) } else { gain }
     }
 
     /// What speaks for a term by which one fit extends another; how much it explains is counted in the errors
@@ -45,14 +49,21 @@ impl World<'_> {
             unit.iter().zip(before.iter().zip(&after)).map(|(unit, (before, after))| (before - after) / unit);
         Evidence {
             delta_bic: gain - more as f64 * total.max(1.0).ln(),
-            block_t: self.steadiness(&null.train, &fitted.train),
-            held_out_t: self.steadiness(&null.test, &fitted.test),
+            block_t: self.steadiness(term, &null.train, &fitted.train),
+            held_out_t: self.steadiness(term, &null.test, &fitted.test),
             explained: shares.sum::<f64>() / unit.len().max(1) as f64,
             phi_gain: self.phi_gain(null, fitted),
             taken: 1.0 - self.remaining(null, fitted),
-            usual: is_table(term) || USUAL.contains(&name(term, &self.rig.plant).id.as_str()),
+            usual: self.is_usual(term),
             grave: false,
         }
+    }
+
+    /// Whether every rig has a little of it.
+    fn is_usual(&self, term: Term) -> bool {
+        let Name { id, sensor, .. } = name(term, &self.rig.plant);
+        let timing = matches!(term, Term::Fault(Handle::Input(_, Fault::Lag | Fault::Delay)));
+        is_table(term) || USUAL.contains(&id.as_str()) || sensor && timing
     }
 
     /// The largest rise of Φ among the signals: on the training or the held-out data, whichever is less.
