@@ -66,6 +66,63 @@ fn a_hidden_friction_is_found_and_the_extended_model_has_the_errors_that_are_tol
     looked_at(&out.join("report.html"));
 }
 
+/// What lies outside of the model, an actuator that is late and a sensor with a wrong gain, is told such that the errors
+/// come out all the same.
+#[test]
+fn what_the_extended_model_does_not_hold_is_told_for_whoever_runs_it() {
+    let folder = folder("outside");
+    let (records, out) = (folder.join("records"), folder.join("report"));
+    strut::run(diagnose().args(["simulate", "--out"]).arg(&records));
+    for name in ["train.csv", "test.csv"] {
+        let path = records.join(name);
+        let text = fs::read_to_string(&path).expect("it was just made");
+        // What is commanded now was acting four samples later; the accelerometer shows a fifth too much.
+        fs::write(&path, early(&scaled(&text, "body.acceleration", 1.2), "actuator.force", 4))
+            .expect("it is ours");
+    }
+    let mut command = diagnose();
+    command.args(["--rig", RIG, "--effects", "23,34", "--train"]).arg(records.join("train.csv"));
+    let output = strut::run(command.arg("--test").arg(records.join("test.csv")).arg("--out").arg(&out));
+    let terminal = String::from_utf8_lossy(&output.stdout);
+    let report = report(&out);
+    let mut names = named(&report);
+    names.sort_unstable();
+    assert_eq!(names, ["23", "34"], "{terminal}");
+    let amount = |signal: &str, what: &str| {
+        let corrections = report["corrections"].as_array().expect("a list");
+        corrections.iter().find(|it| it["signal"] == signal).expect(signal)[what].as_f64().expect("a number")
+    };
+    assert!((amount("actuator.force", "delay") - 4e-3).abs() < 2e-4, "{terminal}");
+    assert!((amount("body.acceleration", "gain") - 0.2).abs() < 0.01, "{terminal}");
+    print!("{}", strut::python("tests/masters/diagnosed.py", [&out, &records]));
+}
+
+/// A table with another function of one of its columns.
+fn with_column(text: &str, name: &str, change: impl Fn(&[f64]) -> Vec<f64>) -> String {
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    let column = rows[0].iter().position(|title| title.starts_with(name)).expect(name);
+    let values: Vec<f64> = rows[1..].iter().map(|row| row[column].parse().expect("a number")).collect();
+    let changed = change(&values);
+    let row = |(row, value): (&Vec<&str>, &f64)| {
+        let value = value.to_string();
+        let cells =
+            row.iter().enumerate().map(|(index, cell)| if index == column { value.as_str() } else { *cell });
+        cells.collect::<Vec<_>>().join(",") + "\n"
+    };
+    rows[0].join(",") + "\n" + &rows[1..].iter().zip(&changed).map(row).collect::<String>()
+}
+
+fn scaled(text: &str, name: &str, factor: f64) -> String {
+    with_column(text, name, |values| values.iter().map(|value| factor * value).collect())
+}
+
+/// A column some samples early; the last values are held.
+fn early(text: &str, name: &str, samples: usize) -> String {
+    with_column(text, name, |values| {
+        (0..values.len()).map(|index| values[(index + samples).min(values.len() - 1)]).collect()
+    })
+}
+
 /// Opens a page in a browser: nothing sticks out of a desk's or a phone's window, and there is something to be seen.
 fn looked_at(page: &Path) {
     let Some(browser) = strut::Browser::installed() else { return };
@@ -231,7 +288,10 @@ fn make_records(folder: &Path) {
     write("short.csv", excerpt(&good, 150, |_| true));
     write(
         "flat.csv",
-        clipped(&part(&|title| title.starts_with("time") || driven(title) || title.starts_with("body.a"))),
+        clipped(
+            &part(&|title| title.starts_with("time") || driven(title) || title.starts_with("body.a")),
+            "body.acceleration",
+        ),
     );
     write("map.toml", "[signals]\n\"suspension.deflection\" = \"Weg\"\n".into());
 }
@@ -242,17 +302,12 @@ fn drop_last(line: &str) -> String {
     cells[..cells.len().min(9)].join(",") + "\n"
 }
 
-/// The same with the last column limited to half its root mean square.
-fn clipped(text: &str) -> String {
-    let row = |line: &str| -> (String, f64) {
-        let (others, last) = line.rsplit_once(',').expect("there are several columns");
-        (others.into(), last.parse().expect("a number"))
-    };
-    let (title, lines) = text.split_once('\n').expect("there is a header");
-    let rows: Vec<(String, f64)> = lines.lines().map(row).collect();
-    let limit = 0.5 * (rows.iter().map(|(_, value)| value * value).sum::<f64>() / rows.len() as f64).sqrt();
-    let clipped = rows.iter().map(|(others, value)| format!("{others},{}\n", value.clamp(-limit, limit)));
-    format!("{title}\n{}", clipped.collect::<String>())
+/// The same with a column limited to its root mean square, so that a third is flat.
+fn clipped(text: &str, name: &str) -> String {
+    with_column(text, name, |values| {
+        let limit = (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt();
+        values.iter().map(|value| value.clamp(-limit, limit)).collect()
+    })
 }
 
 /// Exit code 1, words on stderr, no panic.

@@ -4,9 +4,13 @@ mod pictures;
 mod summary;
 mod unnamed;
 
+use strut_model::Declaration;
+
+use crate::correction::{Correction, Fault};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::findings::{
-    BaseParameter, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal, Start, Verdict,
+    BaseParameter, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal,
+    SignalCorrection, Start, Verdict,
 };
 use crate::fit::{Handle, Point, Residuals};
 use crate::hypothesis::Term;
@@ -26,7 +30,7 @@ impl Diagnosis<'_> {
     /// Everything that is told.
     pub fn findings(&self, data_problems: Vec<DataProblem>, seconds: f64) -> Findings {
         let world = &self.world;
-        let (signals, starts) = self.signals();
+        let (signals, starts, corrections) = self.signals();
         let base_parameters = self.base_parameters();
         let accepted = self.found.accepted.iter().chain(&self.rooted);
         let named: Vec<&Accepted> = accepted.filter(|it| !matches!(it.term, Term::Table(_))).collect();
@@ -76,6 +80,7 @@ impl Diagnosis<'_> {
             pictures: self.pictures(),
             signals,
             starts,
+            corrections,
             unnamed,
             nearest,
             experiment,
@@ -146,8 +151,24 @@ impl Diagnosis<'_> {
         Some((settled, residuals))
     }
 
-    /// The errors of the starting, the fitted and the extended model, and where the last one starts.
-    fn signals(&self) -> (Vec<Signal>, Vec<Start>) {
+    /// What signals pass beside the model that is told.
+    fn corrections(&self, point: &Point) -> Vec<SignalCorrection> {
+        let plant = &self.world.rig.plant;
+        let of = |input: bool| {
+            move |(declared, correction): (&Declaration, &Correction)| {
+                let amounts = Fault::ALL.map(|fault| (fault.name(), correction.get(fault)));
+                let signal = declared.name.clone();
+                let told = SignalCorrection { signal, input, amounts: amounts.into() };
+                (!correction.is_neutral()).then_some(told)
+            }
+        };
+        let inputs = plant.inputs.iter().zip(&point.inputs).filter_map(of(true));
+        inputs.chain(plant.outputs.iter().zip(&point.outputs).filter_map(of(false))).collect()
+    }
+
+    /// The errors of the starting, the fitted and the extended model, where the last one starts, and what signals pass
+    /// beside it.
+    fn signals(&self) -> (Vec<Signal>, Vec<Start>, Vec<SignalCorrection>) {
         let world = &self.world;
         let extended = &self.found.extended;
         let terms = self.extended_terms();
@@ -157,7 +178,7 @@ impl Diagnosis<'_> {
             self.measured(&terms, &extended.point),
         );
         let (Some((_, before)), Some((_, fitted)), Some((point, after))) = all else {
-            return (Vec::new(), Vec::new());
+            return (Vec::new(), Vec::new(), Vec::new());
         };
         let rows = self.measured.first().map_or(0, |record| record.measured.len());
         let of = |row: usize| {
@@ -191,7 +212,7 @@ impl Diagnosis<'_> {
             end: section.end as f64 * record.step,
             states: names().zip(states.iter().copied()).collect(),
         });
-        ((0..rows).map(of).collect(), starts.collect())
+        ((0..rows).map(of).collect(), starts.collect(), self.corrections(&point))
     }
 
     fn effect(&self, accepted: &Accepted) -> Effect {

@@ -75,8 +75,11 @@ impl Diagnosis<'_> {
             })
             .collect();
         if !signals.is_empty() {
-            let _ =
-                write!(text, "\n# What the records' signals are to be corrected by:\n{}", signals.concat());
+            let _ = write!(
+                text,
+                "\n# What signals pass on their way into the model and out of it, the timing of the channels included:\n{}",
+                signals.concat()
+            );
         }
         text
     }

@@ -35,6 +35,8 @@ pub struct Findings {
     pub signals: Vec<Signal>,
     /// The extended model's states where the simulation of each held-out stretch starts.
     pub starts: Vec<Start>,
+    /// What signals pass on their way into the extended model and out of it; its FMU does not hold it.
+    pub corrections: Vec<SignalCorrection>,
     /// A cause without a name.
     pub unnamed: Option<Curve>,
     /// Laws that come nearest to a cause without a name, and explain too little to be it; the extended model holds them.
@@ -67,6 +69,7 @@ impl Findings {
             base_parameters: Vec::new(),
             signals: Vec::new(),
             starts: Vec::new(),
+            corrections: Vec::new(),
             unnamed: None,
             nearest: Vec::new(),
             experiment: None,
@@ -304,6 +307,19 @@ pub struct Start {
     pub end: f64,
     /// Values of the FMU's states by their names, SI.
     pub states: BTreeMap<String, f64>,
+}
+
+/// What a signal passes on its way into or out of the extended model:
+/// `(1 + gain) lag(delay(y + quadratic y² + cubic y³)) + offset + drift t`.
+#[derive(Clone, Debug, Serialize)]
+pub struct SignalCorrection {
+    /// The signal, as in the FMU.
+    pub signal: String,
+    /// Whether it goes into the model.
+    pub input: bool,
+    /// Its parameters by their names, SI.
+    #[serde(flatten)]
+    pub amounts: BTreeMap<&'static str, f64>,
 }
 
 /// A force, or another quantity, over a variable; without points where it is only known to be there.

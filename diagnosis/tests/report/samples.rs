@@ -33,6 +33,7 @@ pub fn empty(verdict: Verdict) -> Findings {
         base_parameters: vec![],
         signals: vec![],
         starts: vec![],
+        corrections: vec![],
         unnamed: None,
         nearest: Vec::new(),
         experiment: None,

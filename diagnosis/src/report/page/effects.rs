@@ -27,7 +27,7 @@ pub fn section(findings: &Findings) -> Markup {
                             }
                             (evidence(&effect.evidence))
                         }
-                        (added(effect))
+                        (added(findings, effect))
                     }
                 }
             }
@@ -78,11 +78,15 @@ fn alternatives(findings: &Findings, effect: &Effect) -> Markup {
 }
 
 /// What the model got.
-fn added(effect: &Effect) -> Markup {
+fn added(findings: &Findings, effect: &Effect) -> Markup {
+    let outside = findings.corrections.iter().any(|it| it.signal == effect.element);
     html! {
         @if !effect.equation.is_empty() || !effect.parameters.is_empty() {
             div.added {
-                h4 { "What was added to the model" }
+                h4 { @if outside { "What the signal passes" } @else { "What was added to the model" } }
+                @if outside {
+                    p { "It lies outside of the model: " code { "extended.fmu" } " does not hold it. " code { "report.json" } " has it among " code { "corrections" } "." }
+                }
                 @if !effect.equation.is_empty() { pre { (effect.equation) } }
                 @if !effect.parameters.is_empty() {
                     div.scroll { table.tight {
