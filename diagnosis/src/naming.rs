@@ -100,7 +100,7 @@ fn of_fault(handle: Handle, plant: &Plant) -> Name {
     };
     Name {
         id: id.into(),
-        name: format!("{what} of {} {signal}", if actuator { "the actuator's" } else { "the signal" }),
+        name: format!("{what} of the {}", if actuator { "actuator" } else { "sensor" }),
         element: signal,
         equation: equation.into(),
         experiment: experiment.into(),

@@ -1,6 +1,10 @@
 //! The verdict in a few sentences, with the numbers that matter.
 
 use crate::findings::{Curve, Effect, Findings, Signal, Verdict};
+use crate::report::words::{digits, place, unit};
+
+/// Significant digits of a value.
+const DIGITS: usize = 4;
 
 /// Errors that exceed a signal's noise by this factor are told as not explained …
 const ABOVE_NOISE: f64 = 3.0;
@@ -42,17 +46,30 @@ pub(super) fn of(findings: &Findings) -> String {
 fn list(effects: &[Effect]) -> String {
     let named = effects.iter().map(|effect| match effect.parameters.first() {
         Some(it) => {
-            format!("{} at {} ({} = {:.4} {})", effect.name, effect.element, it.name, it.value, it.unit)
+            format!(
+                "{} {} ({} = {})",
+                effect.name,
+                place(&effect.element),
+                it.name,
+                value(it.value, &it.unit)
+            )
         }
-        None => format!("{} at {}", effect.name, effect.element),
+        None => format!("{} {}", effect.name, place(&effect.element)),
     });
     named.collect::<Vec<_>>().join("; ")
+}
+
+fn value(value: f64, symbol: &str) -> String {
+    format!("{} {}", digits(value, DIGITS), unit(symbol)).trim_end().to_owned()
 }
 
 fn parameters(findings: &Findings) -> Option<String> {
     let changed = findings.base_parameters.iter().filter(|it| it.mismatch);
     let changed: Vec<String> = changed
-        .map(|it| format!("{} is {:.4} {} instead of {:.4}", it.name, it.after, it.unit, it.before))
+        .map(|it| {
+            let (after, before) = (value(it.after, &it.unit), digits(it.before, DIGITS));
+            format!("{} is {after} instead of {before}", it.name)
+        })
         .collect();
     (!changed.is_empty()).then(|| format!("Parameters: {}.", changed.join("; ")))
 }

@@ -7,7 +7,7 @@ mod page;
 mod plot;
 mod sheet;
 mod terminal;
-mod words;
+pub(crate) mod words;
 
 pub use json::json;
 pub use page::html;

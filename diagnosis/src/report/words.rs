@@ -141,14 +141,14 @@ pub fn part(element: &str) -> Option<Part> {
     })
 }
 
-/// An element as a place: `in the strut`, `in the measurement of body.acceleration`.
+/// An element as a place: `in the strut`, `at body.acceleration`.
 pub fn place(element: &str) -> String {
     match (part(element), element) {
         (Some(Part::Tire), _) => "in the tyre".into(),
         (Some(_), "body_guide") => "in the body’s guide".into(),
         (Some(_), "wheel_guide") => "in the wheel’s guide".into(),
         (Some(_), _) => format!("in the {element}"),
-        (None, _) => format!("in the measurement of {element}"),
+        (None, _) => format!("at {element}"),
     }
 }
 
