@@ -160,14 +160,13 @@ impl World<'_> {
                 block[(index, index)] = block[(index, index)] * (1.0 + 1e-6) + f64::MIN_POSITIVE;
             }
             let right = g.rows(range.start, range.len()).into_owned();
-            let Some(amounts) = block.clone().cholesky().map(|it| it.solve(&right)) else { continue };
+            let Some(factor) = block.cholesky() else { continue };
+            let amounts = factor.solve(&right);
             let gain = amounts.dot(&right);
             let screened = &mut screened[probe.term];
-            if !matches!(terms[probe.term], Term::Table(_))
-                && let Some(variances) = block.try_inverse()
-            {
+            if !matches!(terms[probe.term], Term::Table(_)) {
                 let size = self.first_size(terms[probe.term], &probe.points[0], &fitted.point);
-                screened.detectable = screened.detectable.min(5.0 * size * variances[(0, 0)].sqrt());
+                screened.detectable = screened.detectable.min(5.0 * size * factor.inverse()[(0, 0)].sqrt());
             }
             let (gain, point) = self.start(terms[probe.term], probe, &amounts, gain, &fitted.point);
             found[probe.term].push((gain, point));
