@@ -14,8 +14,8 @@ fn held<R: Real>(over: &[R; POINTS], range: R, x: R) -> R {
     Table { x: &knots, y: over }.held(x / range * HALF)
 }
 
-/// An unnamed force between body and wheel: one curve over the deflection and one over the velocity (catalogue of
-/// diagnosis, G1–G5).
+/// An unnamed force between body and wheel: one curve over the deflection, one over the velocity, and a damping rate over
+/// the deflection (catalogue of diagnosis, G1–G5).
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct ForceCurve<R> {
     /// Factor of both curves; zero switches them off
@@ -33,6 +33,9 @@ pub struct ForceCurve<R> {
     /// Force at equally spaced velocities, held beyond them
     #[var(unit = N, start = 0.0)]
     pub over_velocity: [R; POINTS],
+    /// Damping rate at equally spaced deflections, held beyond them
+    #[var(unit = N_S_PER_M, start = 0.0)]
+    pub damping_over_deflection: [R; POINTS],
 }
 
 impl<R: Real> ForceCurve<R> {
@@ -43,7 +46,9 @@ impl<R: Real> ForceCurve<R> {
             return self.scale;
         }
         let over_deflection = held(&self.over_deflection, self.deflection_range, deflection);
-        self.scale * (over_deflection + held(&self.over_velocity, self.velocity_range, velocity))
+        let damping = held(&self.damping_over_deflection, self.deflection_range, deflection);
+        let over_velocity = held(&self.over_velocity, self.velocity_range, velocity);
+        self.scale * (over_deflection + over_velocity + damping * velocity)
     }
 }
 
@@ -104,6 +109,31 @@ impl<R: Real> CompressionCurve<R> {
     }
 }
 
+/// An unnamed force of an actuator over what it is asked for (catalogue of diagnosis, G1–G5).
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct CommandCurve<R> {
+    /// Factor of the curve; zero switches it off
+    #[var(unit = ONE, start = 0.0)]
+    pub scale: R,
+    /// Force asked for at the last point, that of the first one being its opposite
+    #[var(unit = N, start = 100.0, min = 1e-6)]
+    pub force_range: R,
+    /// Force beside it at equally spaced forces asked for, held beyond them
+    #[var(unit = N, start = 0.0)]
+    pub over_force: [R; POINTS],
+}
+
+impl<R: Real> CommandCurve<R> {
+    /// The force that comes beside the one that is asked for.
+    #[inline]
+    pub fn force(&self, asked: R) -> R {
+        if self.scale.vanishes() {
+            return self.scale;
+        }
+        self.scale * held(&self.over_force, self.force_range, asked)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -122,6 +152,7 @@ mod tests {
             over_deflection: squares(),
             velocity_range: 0.5,
             over_velocity: [0.0; POINTS],
+            damping_over_deflection: [0.0; POINTS],
         }
     }
 
@@ -147,6 +178,12 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn a_damping_rate_over_the_deflection_is_one(x in -0.1..0.1_f64, v in -1.0..1.0_f64) {
+            let damper = ForceCurve { over_deflection: [0.0; POINTS], damping_over_deflection: squares(), ..curve(1.5) };
+            prop_assert!((damper.force(x, v) - curve(1.5).force(x, 0.0) * v).abs() < 1e-9);
+        }
+
         #[test]
         fn both_curves_add_and_each_over_its_own_variable(x in -0.1..0.1_f64, v in -1.0..1.0_f64) {
             let both = ForceCurve { over_velocity: squares(), ..curve(1.5) };

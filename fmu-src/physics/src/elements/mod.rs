@@ -1,5 +1,6 @@
 //! Elements between masses: the textbook law with the effects that may sit on it.
 
+mod actuation;
 mod anti_roll_bar;
 mod corner;
 mod guide;
@@ -11,6 +12,7 @@ mod strut;
 mod tire;
 mod valve;
 
+pub use actuation::{Actuation, ActuationState};
 pub use anti_roll_bar::AntiRollBar;
 pub use corner::{Corner, Moving};
 pub use guide::{Guide, WheelGuide};

@@ -2,6 +2,8 @@
 
 use strut_model::{Choice, Real, Variables};
 
+use crate::effects::dead_zone;
+
 /// How the flow through the valve follows from spool position and load pressure.
 #[derive(Choice, Clone, Copy, Debug, PartialEq)]
 pub enum ValveLaw {
@@ -104,6 +106,9 @@ pub struct Spool<R> {
     /// Largest displacement to either side (u_1max)
     #[var(unit = M, start = 0.5e-3, min = 1e-6)]
     pub stroke: R,
+    /// Displacement to either side within which the valve stays closed (catalogue of diagnosis, 28)
+    #[var(unit = M, start = 0.0, min = 0.0)]
+    pub overlap: R,
 }
 
 /// What follows from cylinder and valve.
@@ -177,6 +182,8 @@ impl<R: Real> ServoCylinder<R> {
     /// The flows at a spool position and pressure difference.
     #[inline]
     pub fn flow(&self, law: ValveLaw, hydraulics: &Hydraulics<R>, position: R, pressure: R) -> Flow<R> {
+        let overlap = self.spool.overlap;
+        let position = if overlap.vanishes() { position } else { dead_zone(position, overlap) };
         match law {
             ValveLaw::Nonlinear => self.orifices(hydraulics, position, pressure),
             ValveLaw::Linear => {

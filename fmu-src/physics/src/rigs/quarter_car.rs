@@ -10,7 +10,11 @@ use strut_model::{
     About, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
 };
 
-use crate::elements::{Corner, Guide, Hysteresis, HysteresisState, Load, Mode, Strut, Tire, WheelGuide};
+use crate::effects::{Enveloping, EnvelopingState, FrameMode, FrameState, switched_on};
+use crate::elements::{
+    Actuation, ActuationState, Corner, Guide, Hysteresis, HysteresisState, Load, Mode, Strut, Tire,
+    WheelGuide,
+};
 use crate::signals::{Acceleration, Deflection, Motion, Pushing, RoadMotion, Travel, WheelMotion};
 
 /// A quarter of a car, or a test rig of it.
@@ -47,6 +51,22 @@ pub struct Parameters<R> {
     pub wheel_guide: WheelGuide<R>,
     /// Memory of the strut
     pub hysteresis: Hysteresis<R>,
+    /// From the actuator's command to its force
+    pub actuator: Actuation<R>,
+    /// Frame that swings with the body
+    pub frame: FrameMode<R>,
+    /// Tyre on short bumps
+    pub enveloping: Enveloping<R>,
+    /// Cell that measures the wheel's force
+    pub force_cell: ForceCell<R>,
+}
+
+/// What a force cell in a wheel leaves out: what is outside of it has to be accelerated, too (catalogue of diagnosis, 41).
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct ForceCell<R> {
+    /// Part of the unsprung mass between tyre and cell; zero: the cell measures the tyre's force
+    #[var(unit = KG, start = 0.0, min = 0.0)]
+    pub mass: R,
 }
 
 /// What comes from outside.
@@ -67,6 +87,12 @@ pub struct State<R> {
     pub wheel: Motion<R>,
     /// Memory of the strut
     pub hysteresis: HysteresisState<R>,
+    /// On the way from the actuator's command to its force
+    pub actuator: ActuationState<R>,
+    /// Frame that swings with the body
+    pub frame: FrameState<R>,
+    /// What the tyre sees of the road
+    pub enveloping: EnvelopingState<R>,
 }
 
 /// What can be measured.
@@ -112,7 +138,7 @@ impl Model for QuarterCar {
             },
             Equation {
                 text: "further effects of the strut: + k_2 x^2 + k_3 x^3 + k_b (<x - x_r> - <-x - x_c>) + c v |v| + F_b \
-                    exp(-(v/v_b)^2) tanh(v/v_0) + F_y tanh(v/v_y + b x) + F_p + s (f_1(x) + f_2(v)); F_c becomes F_c \
+                    exp(-(v/v_b)^2) tanh(v/v_0) + F_y tanh(v/v_y + b x) + F_p + s (f_1(x) + f_2(v) + f_3(x) v); F_c becomes F_c \
                     <1 + beta x>, d becomes d (1 - a (1 - exp(-t/T))), v in the damper becomes v + rho dz(v, v_k); < > \
                     = max( , 0), dz a dead zone",
                 source: "catalogue of diagnosis: 08, 09, 06, 02, 32, offset, G; 11, 10, 05",
@@ -142,6 +168,19 @@ impl Model for QuarterCar {
             Equation {
                 text: "F_tire = k_t c + q c^2 + d_t c' + F_t tanh(c'/v_0) + s f(c), c = z_r - z_u",
                 source: "TUM eq. 5, 4.3.2, Table 7; curve: catalogue of diagnosis: G",
+            },
+            Equation {
+                text: "F_act = S(k T(D(u)) + F_a) + s f(k T(D(u)) + F_a): delay D (1 - t s/2 + t^2 s^2/12)/(1 + t s/2 + t^2 \
+                    s^2/12), lag T' y' + y = u, limit S(F) = F - r dz(F, F_m)",
+                source: "catalogue of diagnosis: 23-26, 41, G",
+            },
+            Equation {
+                text: "frame: + m_f (w^2 y + 2 z w y') on the body, y'' + 2 z w y' + w^2 y = -a_s, w = 2 pi f",
+                source: "catalogue of diagnosis: 18",
+            },
+            Equation {
+                text: "enveloping: the tyre sees T_e z' = z_r - z instead of z_r; force cell: wheel.force = F_tire - m_c a_u",
+                source: "catalogue of diagnosis: 22, 41",
             },
             Equation {
                 text: "with lift-off: F_tire >= -F_0, and F_tire = -F_0 for c <= c_l, F_0 = (m_s + m_u) g",
@@ -222,7 +261,9 @@ impl Model for QuarterCar {
                 + p.guide.further_effects()
                 + tire.further_effects()
                 + p.wheel_guide.further_effects()
-                + p.hysteresis.further_effects(),
+                + p.hysteresis.further_effects()
+                + p.actuator.further_effects()
+                + switched_on([p.frame.mass, p.enveloping.time, p.force_cell.mass]),
         }
     }
 
@@ -233,9 +274,10 @@ impl Model for QuarterCar {
 
     #[inline(always)]
     fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
-        let (State { body, wheel, hysteresis }, p) = (*now.state, now.parameters);
-        let (road, actuator, further) =
-            (now.input.road, now.input.actuator.force, now.derived.further_effects);
+        let (State { body, wheel, hysteresis, .. }, p) = (*now.state, now.parameters);
+        let further = now.derived.further_effects;
+        let (actuator, on_its_way) = p.actuator.force(now.state.actuator, now.input.actuator.force, further);
+        let (road, enveloping) = p.enveloping.seen(now.state.enveloping, now.input.road);
         let corner = Corner {
             unsprung_mass: p.unsprung_mass,
             tire: &p.tire,
@@ -249,17 +291,27 @@ impl Model for QuarterCar {
             memory = rates;
             force
         });
-        if !further.vanishes() {
-            moving.wheel.acceleration -= p.wheel_guide.resistance(wheel.velocity) / p.unsprung_mass;
-        }
         let on_body = p.guide.added_to(|| moving.strut_force, body.velocity, further);
         // The reciprocal does not wait for the force as the quotient would.
-        let acceleration = (actuator - on_body) * (R::from(1.0) / p.sprung_mass);
+        let mut acceleration = (actuator - on_body) * (R::from(1.0) / p.sprung_mass);
+        let mut frame = FrameMode::rest();
+        if !further.vanishes() {
+            moving.wheel.acceleration -= p.wheel_guide.resistance(wheel.velocity) / p.unsprung_mass;
+            moving.wheel.force -= p.force_cell.mass * moving.wheel.acceleration;
+            if !p.frame.mass.vanishes() {
+                let pull = p.frame.pull(now.state.frame);
+                acceleration += p.frame.mass * pull / p.sprung_mass;
+                frame = p.frame.rates(now.state.frame, pull, acceleration);
+            }
+        }
 
         let rates = State {
             body: Motion { position: body.velocity, velocity: acceleration },
             wheel: Motion { position: wheel.velocity, velocity: moving.wheel.acceleration },
             hysteresis: memory,
+            actuator: on_its_way,
+            frame,
+            enveloping,
         };
         let output = Output {
             body: Acceleration { acceleration },

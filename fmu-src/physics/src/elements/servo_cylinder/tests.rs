@@ -119,6 +119,19 @@ proptest! {
     }
 
     #[test]
+    fn an_overlap_closes_the_valve_and_takes_so_much_of_every_opening(
+        position in -0.5e-3..0.5e-3_f64, pressure in -11.8e6..11.8e6_f64, index in 0..3_usize,
+    ) {
+        let mut lapped = declared::<f64>();
+        lapped.spool.overlap = 0.05e-3;
+        let hydraulics = lapped.hydraulics();
+        let found = lapped.flow(LAWS[index], &hydraulics, position, pressure);
+        let opening = position - position.clamp(-0.05e-3, 0.05e-3);
+        prop_assert_eq!(found, flow(LAWS[index], opening, pressure));
+        prop_assert_eq!(lapped.flow(ValveLaw::Nonlinear, &hydraulics, 0.04e-3, pressure).load, 0.0);
+    }
+
+    #[test]
     fn a_valve_makes_no_energy(position in -0.5e-3..0.5e-3_f64, pressure in -20e6..20e6_f64) {
         // Beyond the supply pressure a law without a root has no bound.
         for law in LAWS.into_iter().filter(|law| *law == ValveLaw::Nonlinear || pressure.abs() <= 12e6) {

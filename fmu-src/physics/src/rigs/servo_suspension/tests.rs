@@ -197,7 +197,7 @@ proptest! {
         let v1 = output.wheel.velocity;
         let (expected, measured) = car.equations(Now {
             time: 0.0,
-            state: &Bundle::from_fn(|i| [x[0], x[1], x[2], v1, 0.0, 0.0, 0.0][i]),
+            state: &Bundle::from_fn(|i| [x[0], x[1], x[2], v1].get(i).copied().unwrap_or(0.0)),
             input: &Bundle::from_fn(|i| [road[0], 20.0 * road[1], output.actuator.force][i]),
             parameters: &of_car,
             derived: &car.derive(&of_car),

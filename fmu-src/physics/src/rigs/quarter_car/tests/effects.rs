@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use strut_model::{Bundle, Declarations, Dependencies, Lanes, Nothing, Value};
 
 use super::*;
-use crate::testing::Bench;
+use crate::testing::{Bench, harmonic};
 
 type Rig = Bench<QuarterCar>;
 
@@ -29,11 +29,19 @@ fn every_effect() -> Parameters<f64> {
     (p.hysteresis.presliding.force, p.hysteresis.presliding.exponent) = (60.0, 1.5);
     p.hysteresis.maxwell.stiffness = 2e4;
     (p.hysteresis.mount.gap, p.hysteresis.mount.compliance) = (0.5e-3, 2e-6);
+    (p.strut.curve.over_deflection[6], p.strut.curve.damping_over_deflection[4]) = (8.0, 90.0);
+    (p.actuator.gain, p.actuator.offset, p.actuator.delay, p.actuator.lag) = (0.9, 4.0, 3e-3, 2e-3);
+    (p.actuator.saturation.ratio, p.actuator.saturation.force) = (0.7, 2.0);
+    (p.actuator.curve.scale, p.actuator.curve.over_force[6]) = (1.0, 3.0);
+    (p.frame.mass, p.enveloping.time, p.force_cell.mass) = (2.0, 5e-3, 4.0);
     p
 }
 
-/// The rates of 7 states at rest but for the last three, and the outputs.
-fn with_memory<R: Real>(p: &Parameters<R>, x: [R; 7], u: [R; 3]) -> Vec<R> {
+/// Number of states.
+const STATES: usize = <State<f64> as Bundle<f64>>::LEN;
+
+/// The rates of all states and the outputs.
+fn with_memory<R: Real>(p: &Parameters<R>, x: [R; STATES], u: [R; 3]) -> Vec<R> {
     let (rates, output) = CAR.equations(Now {
         time: R::from(50.0),
         state: &Bundle::from_fn(|i| x[i]),
@@ -49,7 +57,7 @@ fn with_memory<R: Real>(p: &Parameters<R>, x: [R; 7], u: [R; 3]) -> Vec<R> {
 #[test]
 fn every_parameter_reaches_the_motion() {
     let p: Parameters<Dependencies> = Bundle::from_fn(Dependencies::on);
-    let reached = with_memory(&p, [0.0.into(); 7], [0.0.into(); 3]);
+    let reached = with_memory(&p, [0.0.into(); STATES], [0.0.into(); 3]);
     for (i, declared) in Declarations::of::<Parameters<f64>>().into_iter().enumerate() {
         assert!(reached.iter().any(|set| set.contains(i)), "{}", declared.name);
     }
@@ -127,6 +135,57 @@ fn what_is_off_does_not_move() {
     assert!(remembered(&[]).iter().flatten().all(|state| *state == 0.0));
 }
 
+#[test]
+fn a_late_actuator_is_late_by_its_delay_and_its_lag() {
+    // What moves is the force that acts; both rigs answer it alike, so that their phases differ by the actuator's.
+    let driven = |changes: &[(&str, f64)]| {
+        let force = |t: f64| 200.0 * (std::f64::consts::TAU * 5.0 * t).sin();
+        // A velocity: the steps of the held force, of which another part arrives through a delay, are not in it.
+        let read = |rig: &mut Rig| rig.get("body.velocity");
+        let linear =
+            ["strut.coulomb.force", "guide.coulomb.force", "strut.asymmetry.ratio", "tire.quadratic"];
+        let changes: Vec<_> =
+            linear.map(|name| (name, 0.0)).into_iter().chain(changes.iter().copied()).collect();
+        let found = rig(&changes).initialized().follow("actuator.force", force, 1e-3, 4000, read);
+        harmonic(&found[3000..], 0.0, 1e-3, 5.0)
+    };
+    let (amplitude, phase) = driven(&[]);
+    let omega = std::f64::consts::TAU * 5.0;
+    for (changes, gain, late) in [
+        (vec![("actuator.delay", 0.008)], 1.0, omega * 0.008),
+        (vec![("actuator.lag", 0.006)], 1.0 / (omega * 0.006).hypot(1.0), (omega * 0.006).atan()),
+        (vec![("actuator.gain", 0.8)], 0.8, 0.0),
+    ] {
+        let (found, at) = driven(&changes);
+        assert!((found / amplitude - gain).abs() < 2e-3, "{changes:?}: {}", found / amplitude);
+        assert!((phase - at - late).abs() < 2e-3, "{changes:?}: {} {late}", phase - at);
+    }
+}
+
+#[test]
+fn a_force_cell_leaves_out_what_is_outside_of_it() {
+    let cells = |mass: f64| {
+        on_a_road(rig(&[("force_cell.mass", mass)]), ["wheel.force", "wheel.acceleration", "body.position"])
+    };
+    for (whole, part) in cells(0.0).into_iter().zip(cells(5.0)) {
+        assert!((whole[0] - part[0] - 5.0 * part[1]).abs() < 1e-6 * (1.0 + whole[0].abs()));
+        assert!((whole[2] - part[2]).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_frame_far_below_its_resonance_is_part_of_the_body() {
+    let mass = Rig::published("TumQuarterVehicle").get("sprung_mass");
+    let positions = |changes: &[(&str, f64)]| on_a_road(rig(changes), ["body.position"]);
+    let heavier = positions(&[("sprung_mass", mass + 3.0)]);
+    let framed = positions(&[("frame.mass", 3.0), ("frame.frequency", 400.0), ("frame.damping_ratio", 0.5)]);
+    let bare = positions(&[]);
+    let apart = |a: &[[f64; 1]], b: &[[f64; 1]]| {
+        a.iter().zip(b).map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f64::max)
+    };
+    assert!(apart(&framed, &heavier) < 0.02 * apart(&bare, &heavier));
+}
+
 /// The implicit method has its Jacobian from dual numbers: it would not converge with wrong ones.
 #[test]
 fn both_methods_of_integration_lead_to_the_same_with_memory() {
@@ -154,12 +213,14 @@ proptest! {
     #[test]
     fn every_effect_says_the_same_in_every_scalar(
         x in prop::array::uniform4(-0.03..0.03_f64),
-        memory in prop::array::uniform3(-1.0..1.0_f64),
+        memory in prop::array::uniform9(-1.0..1.0_f64),
         u in prop::array::uniform3(-0.01..0.01_f64),
         seeds in prop::collection::vec(-1.0..1.0_f64, <Parameters<f64> as Bundle<f64>>::LEN),
     ) {
         let nominal = list(&every_effect());
-        let x = [x[0], 10.0 * x[1], x[2], 10.0 * x[3], 60.0 * memory[0], 0.01 * memory[1], 1e-3 * memory[2]];
+        let motion = [x[0], 10.0 * x[1], x[2], 10.0 * x[3]];
+        let magnitudes = [60.0, 0.01, 1e-3, 5.0, 5.0, 5.0, 1e-4, 0.01, 0.01];
+        let x = std::array::from_fn(|i| if i < 4 { motion[i] } else { magnitudes[i - 4] * memory[i - 4] });
         let plain = with_memory(&every_effect(), x, u);
         let lanes: Parameters<Lanes> = Bundle::from_fn(|i| Lanes::from(nominal[i]));
         let lanes = with_memory(&lanes, x.map(Lanes::from), u.map(Lanes::from));
@@ -189,14 +250,14 @@ proptest! {
         let nominal = list(&table_10());
         let p: Parameters<Dual64> = Bundle::from_fn(|i| Dual64::new(nominal[i], 1.0));
         for x in [[0.0; 4], x] {
-            let x: [f64; 7] = std::array::from_fn(|i| x.get(i).copied().unwrap_or(0.0));
+            let x: [f64; STATES] = std::array::from_fn(|i| x.get(i).copied().unwrap_or(0.0));
             let plain = with_memory(&table_10(), x, u);
             for (number, plain) in with_memory(&p, x.map(Dual64::from), u.map(Dual64::from)).into_iter().zip(plain) {
                 // States of effects that are being varied move; all else is as it was.
                 prop_assert!(number.re.is_finite() && number.eps.is_finite(), "{number} {plain}");
             }
             let outputs = with_memory(&p, x.map(Dual64::from), u.map(Dual64::from));
-            for (number, plain) in outputs.into_iter().zip(with_memory(&table_10(), x, u)).skip(7) {
+            for (number, plain) in outputs.into_iter().zip(with_memory(&table_10(), x, u)).skip(STATES) {
                 prop_assert!((number.re - plain).abs() < 1e-9 * (1.0 + plain.abs()));
             }
         }

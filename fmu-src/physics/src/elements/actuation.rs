@@ -1,0 +1,106 @@
+//! What lies between an actuator's command and its force.
+
+use strut_model::{Real, Variables};
+
+use crate::effects::{CommandCurve, DelayState, LagState, Saturation, delayed, lagged, switched_on};
+
+/// An actuator that does not quite do what it is told: `F = sat(k T(D(u)) + F_0) + s f(·)` with the delay D, the lag T and an
+/// unnamed curve over what is sent into the limit (catalogue of diagnosis, 23–26, 41, G).
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct Actuation<R> {
+    /// Force over the commanded one (k)
+    #[var(unit = ONE, start = 1.0)]
+    pub gain: R,
+    /// Force without a command (F_0)
+    #[var(unit = N, start = 0.0)]
+    pub offset: R,
+    /// Delay
+    #[var(unit = S, start = 0.0, min = 0.0)]
+    pub delay: R,
+    /// Time constant of the lag
+    #[var(unit = S, start = 0.0, min = 0.0)]
+    pub lag: R,
+    /// Limit
+    pub saturation: Saturation<R>,
+    /// Unnamed force
+    pub curve: CommandCurve<R>,
+}
+
+/// What is on its way from command to force.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct ActuationState<R> {
+    /// Delay
+    pub delay: DelayState<R>,
+    /// Lag
+    pub lag: LagState<R>,
+}
+
+impl<R: Real> Actuation<R> {
+    /// The force that acts, and the rates of what is on its way; `further` is zero if the actuator does what it is told.
+    #[inline]
+    pub fn force(&self, state: ActuationState<R>, command: R, further: R) -> (R, ActuationState<R>) {
+        if further.vanishes() {
+            return (command, Self::rest());
+        }
+        let (late, delay) = delayed(self.delay, state.delay, command);
+        let (late, lag) = lagged(self.lag, state.lag, late);
+        let asked = self.gain * late + self.offset;
+        (self.saturation.limited(asked) + self.curve.force(asked), ActuationState { delay, lag })
+    }
+
+    /// How many effects are on.
+    pub fn further_effects(&self) -> R {
+        switched_on([
+            self.gain - 1.0,
+            self.offset,
+            self.delay,
+            self.lag,
+            self.saturation.ratio,
+            self.curve.scale,
+        ])
+    }
+
+    /// Nothing on its way.
+    #[inline]
+    pub fn rest() -> ActuationState<R> {
+        let zero = R::from(0.0);
+        ActuationState { delay: DelayState { slow: zero, fast: zero }, lag: LagState { arrived: zero } }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::POINTS;
+    use proptest::prelude::*;
+
+    fn neutral() -> Actuation<f64> {
+        let curve = CommandCurve { scale: 0.0, force_range: 1.0, over_force: [0.0; POINTS] };
+        let saturation = Saturation { ratio: 0.0, force: 100.0 };
+        Actuation { gain: 1.0, offset: 0.0, delay: 0.0, lag: 0.0, saturation, curve }
+    }
+
+    #[test]
+    fn the_limit_is_that_of_the_force_not_of_the_command() {
+        let weak = Actuation {
+            gain: 0.5,
+            offset: 10.0,
+            saturation: Saturation { ratio: 1.0, force: 100.0 },
+            ..neutral()
+        };
+        let of = |command| weak.force(Actuation::rest(), command, weak.further_effects()).0;
+        assert_eq!((of(100.0), of(180.0), of(300.0), of(-300.0)), (60.0, 100.0, 100.0, -100.0));
+        assert_eq!(weak.further_effects(), 3.0);
+    }
+
+    proptest! {
+        #[test]
+        fn a_neutral_one_does_what_it_is_told(command in -1e4..1e4_f64) {
+            prop_assert_eq!(neutral().further_effects(), 0.0);
+            for further in [0.0, 1.0] {
+                let (force, rates) = neutral().force(Actuation::rest(), command, further);
+                prop_assert_eq!((force, rates), (command, Actuation::rest()));
+            }
+        }
+    }
+}
