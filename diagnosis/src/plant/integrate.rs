@@ -94,11 +94,13 @@ impl<'a, M: Model, R: Real> Run<'a, M, R> {
             }
             let x = self.state;
             let (k1, _) = self.equations(R::from(time(0.0)), &x, &first);
-            let (k2, _) = self.equations(R::from(time(0.5)), &along::<M, R>(&x, &[(0.5 * h, &k1)]), &middle);
-            let (k3, _) = self.equations(R::from(time(0.5)), &along::<M, R>(&x, &[(0.5 * h, &k2)]), &middle);
-            let (k4, _) = self.equations(R::from(time(1.0)), &along::<M, R>(&x, &[(h, &k3)]), &last);
+            let (k2, _) =
+                self.equations(R::from(time(0.5)), &along::<M, R, 1>(&x, [0.5 * h], [&k1]), &middle);
+            let (k3, _) =
+                self.equations(R::from(time(0.5)), &along::<M, R, 1>(&x, [0.5 * h], [&k2]), &middle);
+            let (k4, _) = self.equations(R::from(time(1.0)), &along::<M, R, 1>(&x, [h], [&k3]), &last);
             let (sixth, third) = (h / 6.0, h / 3.0);
-            self.state = along::<M, R>(&x, &[(sixth, &k1), (third, &k2), (third, &k3), (sixth, &k4)]);
+            self.state = along::<M, R, 4>(&x, [sixth, third, third, sixth], [&k1, &k2, &k3, &k4]);
         }
     }
 
@@ -125,23 +127,24 @@ impl<'a, M: Model, R: Real> Run<'a, M, R> {
 }
 
 /// `x + Σ h k`.
-#[inline]
-fn along<M: Model, R: Real>(x: &M::State<R>, slopes: &[(f64, &M::State<R>)]) -> M::State<R> {
-    let mut moved = [R::from(0.0); MOST_STATES];
-    x.for_each(|i, value| moved[i] = value);
-    for (h, slope) in slopes {
-        slope.for_each(|i, rate| moved[i] += rate * *h);
-    }
-    Bundle::from_fn(|i| moved[i])
+#[inline(always)]
+fn along<M: Model, R: Real, const N: usize>(
+    x: &M::State<R>,
+    h: [f64; N],
+    slopes: [&M::State<R>; N],
+) -> M::State<R> {
+    x.combine(slopes, &mut |x, slopes| {
+        let mut moved = *x;
+        for (slope, h) in slopes.into_iter().zip(h) {
+            moved += *slope * h;
+        }
+        moved
+    })
 }
-
-/// States that a plant may have.
-const MOST_STATES: usize = 32;
 
 /// Steps between two samples that the model needs: none is longer than [`LONGEST_STEP`], and the fastest mode about
 /// rest, where friction is stiffest, is integrated stably.
 fn steps<M: Model>(model: &M, parameters: &M::Parameters<f64>, drive: &Drive) -> usize {
-    const { assert!(<M::State<f64> as Bundle<f64>>::LEN <= MOST_STATES, "raise MOST_STATES") };
     let states = <M::State<f64> as Bundle<f64>>::LEN;
     if states == 0 {
         return 1;

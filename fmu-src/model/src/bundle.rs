@@ -74,6 +74,8 @@ pub trait Bundle<R>: Copy {
     fn gather(next: &mut impl FnMut() -> R) -> Self;
     /// Hands out the variables in order of declaration.
     fn scatter(&self, put: &mut impl FnMut(R));
+    /// Makes each variable of its own value and those of the others.
+    fn combine<const N: usize>(&self, others: [&Self; N], f: &mut impl FnMut(&R, [&R; N]) -> R) -> Self;
     /// Declares the variables in order.
     fn declare(declarations: &mut Declarations);
 
@@ -111,6 +113,10 @@ impl<R> Bundle<R> for Nothing {
     }
     #[inline]
     fn scatter(&self, _: &mut impl FnMut(R)) {}
+    #[inline]
+    fn combine<const N: usize>(&self, _: [&Self; N], _: &mut impl FnMut(&R, [&R; N]) -> R) -> Self {
+        Self
+    }
     fn declare(_: &mut Declarations) {}
 }
 
@@ -159,6 +165,14 @@ mod tests {
         /// Table
         #[var(unit = N, start = [1.0, 2.0])]
         table: [R; 2],
+    }
+
+    #[test]
+    fn combining_meets_each_variable_with_its_own_in_the_others() {
+        let numbered = |from: f64| -> Element<f64> { Bundle::from_fn(|i| from + i as f64) };
+        let [x, y, z] = [0.0, 100.0, 1000.0].map(numbered);
+        let found = x.combine([&y, &z], &mut |x, [y, z]| x + 2.0 * y - z);
+        assert_eq!(found, Bundle::from_fn(|i| 2.0 * i as f64 - 800.0));
     }
 
     #[test]

@@ -75,6 +75,10 @@ macro_rules! bundle_of {
             fn scatter(&self, put: &mut impl FnMut(R)) {
                 $(Bundle::<R>::scatter(&self.$field, put);)*
             }
+            #[inline]
+            fn combine<const N: usize>(&self, others: [&Self; N], f: &mut impl FnMut(&R, [&R; N]) -> R) -> Self {
+                Self { $($field: Bundle::<R>::combine(&self.$field, others.map(|it| &it.$field), f)),* }
+            }
             fn declare(declarations: &mut Declarations) {
                 $(declarations.group::<$group<f64>>(stringify!($field), $doc);)*
             }

@@ -27,7 +27,8 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
             ));
         }
     };
-    let (mut count, mut gather, mut scatter, mut declare) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut count, mut gather, mut scatter, mut combine, mut declare) =
+        (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for field in &crate::fields(input)?.named {
         let ident = field.ident.as_ref().expect("a named field has a name");
         // A field may be `r#yield`; its variable is not.
@@ -39,6 +40,7 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
             count.push(quote!(1));
             gather.push(quote!(#ident: next()));
             scatter.push(quote!(put(self.#ident);));
+            combine.push(quote!(#ident: f(&self.#ident, others.map(|it| &it.#ident))));
             declare.push(quote!(declarations.variable(::strut_model::Declaration {
                 name: #text.into(), doc: #doc.into(), unit: #unit, start: #start,
                 min: #min, max: #max, nominal: #nominal, fixed: #fixed, output: #output,
@@ -54,6 +56,9 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
             count.push(quote!(#length));
             gather.push(quote!(#ident: ::core::array::from_fn(|_| next())));
             scatter.push(quote!(self.#ident.into_iter().for_each(&mut *put);));
+            combine.push(quote!(#ident: ::core::array::from_fn(|i| {
+                f(&self.#ident[i], others.map(|it| &it.#ident[i]))
+            })));
             declare.push(quote!(for index in 0..#length {
                 declarations.variable(::strut_model::Declaration {
                     name: format!("{}[{}]", #text, index + 1), doc: format!("{}, {}", #doc, index + 1),
@@ -67,6 +72,9 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
             count.push(quote!(<#concrete>::COUNT));
             gather.push(quote!(#ident: <#ty as ::strut_model::Bundle<#scalar>>::gather(next)));
             scatter.push(quote!(::strut_model::Bundle::<#scalar>::scatter(&self.#ident, put);));
+            combine.push(quote!(#ident: ::strut_model::Bundle::<#scalar>::combine(
+                &self.#ident, others.map(|it| &it.#ident), f,
+            )));
             declare.push(quote!(declarations.group::<#concrete>(#text, #doc);));
         }
     }
@@ -85,6 +93,12 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
             #[inline]
             fn scatter(&self, put: &mut impl FnMut(#scalar)) {
                 #(#scatter)*
+            }
+            #[inline(always)]
+            fn combine<const N: usize>(
+                &self, others: [&Self; N], f: &mut impl FnMut(&#scalar, [&#scalar; N]) -> #scalar,
+            ) -> Self {
+                Self { #(#combine),* }
             }
             fn declare(declarations: &mut ::strut_model::Declarations) {
                 #(#declare)*
