@@ -139,7 +139,8 @@ impl Diagnosis<'_> {
     fn measured(&self, terms: &[Term], point: &Point) -> Option<(Point, Residuals)> {
         let dynamics = self.world.dynamics(terms).ok()?;
         let fit = self.world.fit(&*dynamics, self.measured, Vec::new());
-        let mut point = Point { starts: self.world.starts(self.measured), ..point.clone() };
+        let mut point =
+            Point { starts: self.world.starts(self.measured), ..point.within(&self.world.rig.plant) };
         // What any master finds with the extended model, which knows nothing of what measuring did to the signals.
         for handle in self.found.extended.coordinates.iter().map(|it| it.handle) {
             if self.world.usual(handle).is_some() && !terms.contains(&Term::Fault(handle)) {
@@ -221,8 +222,20 @@ impl Diagnosis<'_> {
         let own = self.world.own_coordinates(accepted.term);
         let parameters = self.intervals.iter().filter(|it| own.iter().any(|own| own.handle == it.handle));
         let parameters = parameters.map(|it| {
-            let (name, unit) = naming::handle(it.handle, plant);
-            EffectParameter { name, value: it.value, unit, low: it.low(), high: it.high() }
+            let (point, ends) = (&self.found.extended.point, [it.value, it.low(), it.high()]);
+            let held = match it.handle {
+                Handle::Input(input, fault) => point.holds(plant, input, fault),
+                _ => None,
+            };
+            let (handle, ends) = match held {
+                Some(held) => {
+                    let before = point.parameters[held.parameter];
+                    (Handle::Parameter(held.parameter), ends.map(|end| held.with(before, end)))
+                }
+                None => (it.handle, ends),
+            };
+            let ((name, unit), [value, low, high]) = (naming::handle(handle, plant), ends);
+            EffectParameter { name, value, unit, low, high }
         });
         let rivals: Vec<naming::Name> = accepted.rivals.iter().map(|term| name(*term, plant)).collect();
         Effect {

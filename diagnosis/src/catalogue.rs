@@ -1,10 +1,14 @@
 //! The catalogue of causes: which parameters they switch on, how large they may be, what they are confused with.
 
 mod guided;
+mod measured;
 mod strut;
+mod tables;
 mod tire;
 
 use crate::plant::Plant;
+
+pub use tables::Table;
 
 /// A cause with a name.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +51,14 @@ pub enum Element {
     Tire,
     /// Between two arms that turn about it: forces are moments in N.m, deflections angles in rad.
     Pivot,
+    /// From a command to the force; it deflects and moves as the strut does.
+    Actuator,
+    /// The valve of a hydraulic actuator: it deflects as its spool does.
+    Valve,
+    /// What carries the guides, and swings with the body.
+    Frame,
+    /// The cell that measures the wheel's force.
+    ForceCell,
 }
 
 impl Element {
@@ -58,7 +70,16 @@ impl Element {
             Self::WheelGuide => "wheel_guide",
             Self::Tire => "tire",
             Self::Pivot => "pivot",
+            Self::Actuator => "actuator",
+            Self::Valve => "valve",
+            Self::Frame => "frame",
+            Self::ForceCell => "wheel.force",
         }
+    }
+
+    /// Whether it measures, so that the plant is not at fault.
+    pub fn is_sensor(self) -> bool {
+        self == Self::ForceCell
     }
 }
 
@@ -139,39 +160,14 @@ const fn addend(parameter: &'static str, scale: Scale, bounds: (f64, f64), probe
     Part { addend: true, ..part(parameter, scale, bounds, probes) }
 }
 
-/// A force without a name, over a variable: a table in the plant.
-#[derive(Clone, Copy, Debug)]
-pub struct Table {
-    /// Its number.
-    pub id: &'static str,
-    /// The element that it acts on.
-    pub element: Element,
-    /// What it is over.
-    pub variable: &'static str,
-    /// The parameter that switches it on.
-    pub switch: &'static str,
-    /// The parameter that is the range of the variable, to both sides.
-    pub range: &'static str,
-    /// The parameter that is the table: its points are `table[1]`, `table[2]`, …
-    pub points: &'static str,
-    /// Whether the variable is a deflection or a velocity.
-    pub scale: Scale,
-}
-
-impl Table {
-    /// Whether it is over the velocity of its element.
-    pub fn is_over_velocity(&self) -> bool {
-        self.scale == Scale::VELOCITY
-    }
-}
-
 /// Every named cause that acts through a plant's parameters.
 pub fn causes(plant: &Plant) -> impl Iterator<Item = &'static Cause> {
     let has = |cause: &&Cause| {
         cause.parts.iter().all(|part| plant.parameter(part.parameter).is_some())
             && cause.setting.is_none_or(|setting| plant.setting(setting).is_some())
     };
-    strut::CAUSES.iter().chain(tire::CAUSES).chain(guided::CAUSES).filter(has)
+    let all = [strut::CAUSES, tire::CAUSES, guided::CAUSES, measured::CAUSES];
+    all.into_iter().flatten().filter(has)
 }
 
 /// Every cause without a name that a plant can have.
@@ -179,44 +175,5 @@ pub fn tables(plant: &Plant) -> impl Iterator<Item = &'static Table> {
     let has = |table: &&Table| {
         plant.parameter(table.switch).is_some() && plant.parameter(&format!("{}[1]", table.points)).is_some()
     };
-    TABLES.iter().filter(has)
+    tables::TABLES.iter().filter(has)
 }
-
-const TABLES: &[Table] = &[
-    Table {
-        id: "G1",
-        element: Element::Strut,
-        variable: "deflection",
-        switch: "strut.curve.scale",
-        range: "strut.curve.deflection_range",
-        points: "strut.curve.over_deflection",
-        scale: Scale::DEFLECTION,
-    },
-    Table {
-        id: "G1",
-        element: Element::Strut,
-        variable: "velocity",
-        switch: "strut.curve.scale",
-        range: "strut.curve.velocity_range",
-        points: "strut.curve.over_velocity",
-        scale: Scale::VELOCITY,
-    },
-    Table {
-        id: "G1",
-        element: Element::Guide,
-        variable: "velocity",
-        switch: "guide.curve.scale",
-        range: "guide.curve.velocity_range",
-        points: "guide.curve.over_velocity",
-        scale: Scale::VELOCITY,
-    },
-    Table {
-        id: "G1",
-        element: Element::Tire,
-        variable: "deflection",
-        switch: "tire.curve.scale",
-        range: "tire.curve.deflection_range",
-        points: "tire.curve.over_deflection",
-        scale: Scale::DEFLECTION,
-    },
-];

@@ -1,4 +1,4 @@
-//! What a sensor or an actuator makes of a signal: gain, offset, drift, lag, delay, curvature.
+//! What a sensor or an actuator makes of a signal: gain, offset, drift, lag, delay, wrong rate, curvature.
 
 use crate::recorded::derivative;
 
@@ -22,12 +22,22 @@ pub enum Fault {
     Quadratic,
     /// Cubic part, in one over the signal's unit squared.
     Cubic,
+    /// Relative error of the sampling rate: samples are taken at `(1 + rate) t`.
+    Rate,
 }
 
 impl Fault {
     /// All of them.
-    pub const ALL: [Self; 7] =
-        [Self::Gain, Self::Offset, Self::Drift, Self::Lag, Self::Delay, Self::Quadratic, Self::Cubic];
+    pub const ALL: [Self; 8] = [
+        Self::Gain,
+        Self::Offset,
+        Self::Drift,
+        Self::Lag,
+        Self::Delay,
+        Self::Quadratic,
+        Self::Cubic,
+        Self::Rate,
+    ];
 
     /// Its name, as the last part of a parameter's.
     pub fn name(self) -> &'static str {
@@ -39,13 +49,14 @@ impl Fault {
             Self::Delay => "delay",
             Self::Quadratic => "quadratic",
             Self::Cubic => "cubic",
+            Self::Rate => "rate",
         }
     }
 
     /// Unit of its parameter for a signal of a unit.
     pub fn unit(self, signal: &str) -> String {
         match self {
-            Self::Gain => "1".into(),
+            Self::Gain | Self::Rate => "1".into(),
             Self::Offset => signal.into(),
             Self::Drift => format!("{signal}/s"),
             Self::Lag | Self::Delay => "s".into(),
@@ -55,10 +66,27 @@ impl Fault {
     }
 }
 
-/// Every change of one signal: `(1 + gain) lag(delay(y + q y² + c y³)) + offset + drift t`.
+/// Which samples of a record a signal's are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Samples {
+    /// Time between two of them in seconds.
+    pub step: f64,
+    /// Number of the first one in the record: drifts and wrong rates grow from the record's beginning.
+    pub first: usize,
+}
+
+impl Samples {
+    /// Time of a sample since the record's beginning.
+    fn time(self, index: usize) -> f64 {
+        self.step * (self.first + index) as f64
+    }
+}
+
+/// Every change of one signal: `(1 + gain) lag(y(t')) + offset + drift t` with `t' = (1 + rate) t − delay` and the signal bent
+/// before, `y + q y² + c y³`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Correction {
-    amounts: [f64; 7],
+    amounts: [f64; 8],
 }
 
 impl Correction {
@@ -77,22 +105,24 @@ impl Correction {
         self.amounts.iter().all(|amount| *amount == 0.0)
     }
 
-    /// What becomes of a signal that is sampled every `step` seconds.
-    pub fn applied(&self, signal: &[f64], step: f64) -> Vec<f64> {
-        self.through(signal, step, true)
+    /// What becomes of a signal.
+    pub fn applied(&self, signal: &[f64], samples: Samples) -> Vec<f64> {
+        self.through(signal, samples, true)
     }
 
     /// What a signal was before this became of it: the inverse of [`Self::applied`], a lag by the signal's derivative.
-    pub fn removed(&self, signal: &[f64], step: f64) -> Vec<f64> {
-        let [gain, offset, drift, lag, delay, quadratic, cubic] = self.amounts;
-        let linear = |(index, y): (usize, &f64)| (y - offset - drift * step * index as f64) / (1.0 + gain);
+    pub fn removed(&self, signal: &[f64], samples: Samples) -> Vec<f64> {
+        let [gain, offset, drift, lag, delay, quadratic, cubic, rate] = self.amounts;
+        let linear = |(index, y): (usize, &f64)| (y - offset - drift * samples.time(index)) / (1.0 + gain);
         let mut result: Vec<f64> = signal.iter().enumerate().map(linear).collect();
         if lag > 0.0 {
-            let rates = derivative(&result, step);
+            let rates = derivative(&result, samples.step);
             result.iter_mut().zip(rates).for_each(|(y, rate)| *y += lag * rate);
         }
-        if delay != 0.0 {
-            result = delayed(&result, -delay / step);
+        if delay != 0.0 || rate != 0.0 {
+            result = resampled(&result, |index| {
+                (delay - rate * samples.time(index)) / (1.0 + rate) / samples.step
+            });
         }
         if quadratic != 0.0 || cubic != 0.0 {
             for bent in &mut result {
@@ -108,10 +138,10 @@ impl Correction {
     }
 
     /// What becomes of a small change of a signal.
-    pub fn tangent(&self, signal: &[f64], change: &[f64], step: f64) -> Vec<f64> {
+    pub fn tangent(&self, signal: &[f64], change: &[f64], samples: Samples) -> Vec<f64> {
         let (quadratic, cubic) = (self.get(Fault::Quadratic), self.get(Fault::Cubic));
         if quadratic == 0.0 && cubic == 0.0 {
-            return self.through(change, step, false);
+            return self.through(change, samples, false);
         }
         let bent: Vec<f64> = signal
             .iter()
@@ -126,41 +156,41 @@ impl Correction {
                 a
             },
         };
-        straight.through(&bent, step, false)
+        straight.through(&bent, samples, false)
     }
 
-    fn through(&self, signal: &[f64], step: f64, constants: bool) -> Vec<f64> {
-        let [gain, offset, drift, lag, delay, quadratic, cubic] = self.amounts;
+    fn through(&self, signal: &[f64], samples: Samples, constants: bool) -> Vec<f64> {
+        let [gain, offset, drift, lag, delay, quadratic, cubic, rate] = self.amounts;
         let mut result: Vec<f64> = if quadratic == 0.0 && cubic == 0.0 {
             signal.to_vec()
         } else {
             signal.iter().map(|y| y * (1.0 + y * (quadratic + y * cubic))).collect()
         };
-        if delay != 0.0 {
-            result = delayed(&result, delay / step);
+        if delay != 0.0 || rate != 0.0 {
+            result = resampled(&result, |index| (rate * samples.time(index) - delay) / samples.step);
         }
         if lag > 0.0 {
-            lagged(&mut result, lag / step);
+            lagged(&mut result, lag / samples.step);
         }
         if gain != 0.0 {
             result.iter_mut().for_each(|y| *y *= 1.0 + gain);
         }
         if constants && (offset != 0.0 || drift != 0.0) {
             for (index, y) in result.iter_mut().enumerate() {
-                *y += offset + drift * step * index as f64;
+                *y += offset + drift * samples.time(index);
             }
         }
         result
     }
 }
 
-/// A signal some samples later, by cubic interpolation between them; the ends are held.
-fn delayed(signal: &[f64], samples: f64) -> Vec<f64> {
+/// A signal at so many samples after each of its own, by cubic interpolation between them; the ends are held.
+fn resampled(signal: &[f64], later: impl Fn(usize) -> f64) -> Vec<f64> {
     let last = signal.len() as isize - 1;
     let at = |index: isize| signal[index.clamp(0, last) as usize];
     (0..=last)
         .map(|index| {
-            let position = index as f64 - samples;
+            let position = index as f64 + later(index as usize);
             let before = position.floor();
             let (k, s) = (before as isize, position - before);
             let (a, b, c, d) = (at(k - 1), at(k), at(k + 1), at(k + 2));
@@ -192,12 +222,31 @@ mod tests {
         (0..n).map(|k| at(k as f64 * step)).collect()
     }
 
+    fn every(step: f64) -> Samples {
+        Samples { step, first: 0 }
+    }
+
+    #[test]
+    fn drift_and_wrong_rate_grow_from_the_record_s_beginning() {
+        let mut correction = Correction::default();
+        correction.set(Fault::Drift, 0.3);
+        correction.set(Fault::Rate, 2e-3);
+        let whole = sine(4000, 1e-3, |t| (20.0 * t).sin());
+        let all = correction.applied(&whole, every(1e-3));
+        let part = correction.applied(&whole[2000..], Samples { step: 1e-3, first: 2000 });
+        for k in 10..1980 {
+            let t = 2.0 + k as f64 * 1e-3;
+            let expected = (20.0 * 1.002 * t).sin() + 0.3 * t;
+            assert!((part[k] - expected).abs() < 1e-4 && (part[k] - all[2000 + k]).abs() < 1e-12, "{k}");
+        }
+    }
+
     #[test]
     fn a_lag_delays_a_slow_sine_by_its_time_constant_and_weakens_a_fast_one() {
         let mut correction = Correction::default();
         correction.set(Fault::Lag, 0.01);
         let omega = 100.0;
-        let lagged = correction.applied(&sine(4000, 1e-4, |t| (omega * t).sin()), 1e-4);
+        let lagged = correction.applied(&sine(4000, 1e-4, |t| (omega * t).sin()), every(1e-4));
         let (gain, phase) = (1.0 / 2.0_f64.sqrt(), -std::f64::consts::FRAC_PI_4);
         for k in (2000..4000).step_by(7) {
             let expected = gain * (omega * k as f64 * 1e-4 + phase).sin();
@@ -211,32 +260,33 @@ mod tests {
             let mut correction = Correction::default();
             correction.set(Fault::Delay, delay);
             let y = |t: f64| (20.0 * t).sin() + 0.3 * (55.0 * t).cos();
-            let delayed = correction.applied(&sine(1000, 1e-3, y), 1e-3);
+            let delayed = correction.applied(&sine(1000, 1e-3, y), every(1e-3));
             for (k, value) in delayed.iter().enumerate().skip(30).take(940) {
                 prop_assert!((value - y(k as f64 * 1e-3 - delay)).abs() < 1e-4);
             }
         }
 
         #[test]
-        fn what_is_removed_is_what_was_applied(amounts in prop::array::uniform7(-0.1..0.1_f64)) {
+        fn what_is_removed_is_what_was_applied(amounts in prop::array::uniform8(-0.1..0.1_f64)) {
             let mut correction = Correction { amounts };
+            correction.set(Fault::Rate, 0.05 * amounts[7]);
             correction.set(Fault::Lag, 0.05 * amounts[3].abs());
             correction.set(Fault::Delay, 0.1 * amounts[4]);
             let signal = sine(2000, 1e-3, |t| (20.0 * t).sin() + 0.3 * (55.0 * t).cos());
-            let found = correction.removed(&correction.applied(&signal, 1e-3), 1e-3);
+            let found = correction.removed(&correction.applied(&signal, every(1e-3)), every(1e-3));
             for (found, value) in found.iter().zip(&signal).skip(60).take(1880) {
                 prop_assert!((found - value).abs() < 2e-3, "{found} {value}");
             }
         }
 
         #[test]
-        fn the_tangent_is_the_derivative(amounts in prop::array::uniform7(-0.2..0.2_f64), h in 1e-6..1e-5_f64) {
+        fn the_tangent_is_the_derivative(amounts in prop::array::uniform8(-0.2..0.2_f64), h in 1e-6..1e-5_f64) {
             let correction = Correction { amounts };
             let y = sine(50, 1e-2, |t| (9.0 * t).sin());
             let change = sine(50, 1e-2, |t| (4.0 * t).cos());
             let moved: Vec<f64> = y.iter().zip(&change).map(|(y, d)| y + h * d).collect();
-            let (a, b) = (correction.applied(&y, 1e-2), correction.applied(&moved, 1e-2));
-            for ((a, b), t) in a.iter().zip(&b).zip(correction.tangent(&y, &change, 1e-2)) {
+            let (a, b) = (correction.applied(&y, every(1e-2)), correction.applied(&moved, every(1e-2)));
+            for ((a, b), t) in a.iter().zip(&b).zip(correction.tangent(&y, &change, every(1e-2))) {
                 prop_assert!(((b - a) / h - t).abs() < 1e-3);
             }
         }

@@ -19,6 +19,7 @@ impl Diagnosis<'_> {
     pub fn parameter_set(&self) -> String {
         let rig = self.world.rig;
         let extended = &self.found.extended;
+        let point = extended.point.within(&rig.plant);
         let choices = self.world.choices(&extended.terms);
         let mut text = format!(
             "fmu = \"{NAME}\"\nmodel = \"{}\"\ntitle = \"{} as a diagnosis has extended it\"\nsource = \"diagnosis\"\n\n\
@@ -26,8 +27,9 @@ impl Diagnosis<'_> {
             rig.plant.name, rig.fmu
         );
         for (index, declared) in rig.plant.parameters.iter().enumerate() {
-            let value = extended.point.parameters[index];
-            let fitted = extended.coordinates.iter().any(|it| it.handle == Handle::Parameter(index));
+            let value = point.parameters[index];
+            let own = extended.coordinates.iter().any(|it| it.handle == Handle::Parameter(index));
+            let fitted = own || value != extended.point.parameters[index];
             if fitted || value != declared.start {
                 let source = if fitted { "fitted to the records" } else { "starting model" };
                 let unit = declared.unit.symbol;
@@ -68,10 +70,10 @@ impl Diagnosis<'_> {
         let signals: Vec<String> = extended
             .coordinates
             .iter()
-            .filter(|it| !matches!(it.handle, Handle::Parameter(_)))
+            .filter(|it| !matches!(it.handle, Handle::Parameter(_)) && point.get(it.handle) != 0.0)
             .map(|it| {
                 let (name, unit) = naming::handle(it.handle, &rig.plant);
-                format!("# {name} = {:?} {unit}\n", extended.point.get(it.handle))
+                format!("# {name} = {:?} {unit}\n", point.get(it.handle))
             })
             .collect();
         if !signals.is_empty() {
@@ -87,13 +89,13 @@ impl Diagnosis<'_> {
     /// The fitted values as a parameter set of SSP 1.0, for the starting model's FMU.
     pub fn ssv(&self) -> String {
         let rig: &Rig = self.world.rig;
-        let extended = &self.found.extended;
+        let point = self.found.extended.point.within(&rig.plant);
         let mut text = String::from(
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ssv:ParameterSet version=\"1.0\" name=\"extended\" \
              xmlns:ssv=\"http://ssp-standard.org/SSP1/SystemStructureParameterValues\">\n  <ssv:Parameters>\n",
         );
         for (index, declared) in rig.plant.parameters.iter().enumerate() {
-            let value = extended.point.parameters[index];
+            let value = point.parameters[index];
             if value != rig.parameters[index] {
                 let _ = writeln!(
                     text,

@@ -17,8 +17,16 @@ use normal::Elimination;
 
 /// What the names of states begin with whose values at the start are not estimated: they are forgotten within
 /// milliseconds, or act only after long.
-const FORGOTTEN: &[&str] =
-    &["hysteresis.", "current", "overload", "velocity_loop.command", "velocity_loop.output"];
+const FORGOTTEN: &[&str] = &[
+    "hysteresis.",
+    "actuator.",
+    "frame.",
+    "enveloping.",
+    "current",
+    "overload",
+    "velocity_loop.command",
+    "velocity_loop.output",
+];
 
 /// How far a state at the start may go in a step on a standard deviation's gain, in its nominal values. What is
 /// forgotten within milliseconds hardly shows: without a bound it would be sent as far as a limiter.
@@ -140,7 +148,11 @@ impl<'a> Fit<'a> {
             .map(|measured| {
                 let signal = std::mem::take(&mut outputs[measured.output]);
                 let correction = &point.outputs[measured.output];
-                if correction.is_neutral() { signal } else { correction.applied(&signal, record.step) }
+                if correction.is_neutral() {
+                    signal
+                } else {
+                    correction.applied(&signal, record.samples(section))
+                }
             })
             .collect()
     }
@@ -193,15 +205,21 @@ impl<'a> Fit<'a> {
     }
 
     /// The normal equations `H d = −g` of the coordinates and of the amounts of changes of the predicted signals, without
-    /// the states at the start. Each change has its signals for each record.
-    pub fn beside(&self, point: &Point, changes: &[Residuals]) -> (DMatrix<f64>, DVector<f64>) {
+    /// the states at the start. Each change has its signals for each record; entries of changes in different groups are
+    /// not computed.
+    pub fn beside(
+        &self,
+        point: &Point,
+        changes: &[Residuals],
+        groups: &[Range<usize>],
+    ) -> (DMatrix<f64>, DVector<f64>) {
         let (own, extra) = (self.coordinates.len(), changes.len());
         let (mut h, mut g) = (DMatrix::zeros(own + extra, own + extra), DVector::zeros(own + extra));
         let numbered = self.records.iter().enumerate();
         let records: Vec<usize> = numbered.flat_map(|(number, it)| vec![number; it.sections.len()]).collect();
         for ((index, record, section), number) in self.sections().into_iter().zip(records) {
             let signals: Vec<&Signals> = changes.iter().map(|change| &change[number]).collect();
-            let part = self.section(point, &point.starts[index], record, section, &signals);
+            let part = self.section(point, &point.starts[index], record, section, (&signals, groups));
             h += part.h;
             g += part.g;
         }
@@ -214,10 +232,15 @@ impl<'a> Fit<'a> {
     }
 
     /// How much of each change of the predicted signals the residuals contain, beyond what the coordinates and the
-    /// states at the start can do: the normal equations `H a = g` of the amounts.
-    pub fn contained(&self, point: &Point, changes: &[Residuals]) -> (DMatrix<f64>, DVector<f64>) {
+    /// states at the start can do: the normal equations `H a = g` of the amounts, within each of the groups.
+    pub fn contained(
+        &self,
+        point: &Point,
+        changes: &[Residuals],
+        groups: &[Range<usize>],
+    ) -> (DMatrix<f64>, DVector<f64>) {
         let (own, extra) = (self.coordinates.len(), changes.len());
-        let (h, g) = self.beside(point, changes);
+        let (h, g) = self.beside(point, changes, groups);
         // At the minimum the coordinates' own gradient is zero, up to what bounds hold.
         let mut block = h.view((0, 0), (own, own)).into_owned();
         for index in 0..own {
@@ -263,7 +286,7 @@ impl Problem for Fit<'_> {
         let mut trace = Trace { sections: Vec::new(), scores: Vec::new() };
         // One section at a time: its derivatives are many, and they are what is parallel.
         for (index, record, section) in self.sections() {
-            let part = self.section(point, &point.starts[index], record, section, &[]);
+            let part = self.section(point, &point.starts[index], record, section, (&[], &[]));
             h += part.h;
             g += part.g;
             trace.scores.extend(part.scores);

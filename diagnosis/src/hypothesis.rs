@@ -234,15 +234,15 @@ impl World<'_> {
                 parts.collect()
             }
             Term::Table(table) => {
-                let force = self.typical(table.element).force;
+                let typical = table.point.of(&self.typical(table.element));
                 let points =
                     (1..=POINTS).filter_map(|number| plant.parameter(&format!("{}[{number}]", table.points)));
                 points
                     .map(|index| Coordinate {
                         handle: Handle::Parameter(index),
-                        bounds: (-10.0 * force, 10.0 * force),
+                        bounds: (-10.0 * typical, 10.0 * typical),
                         // A ridge: points that nothing reaches stay at zero.
-                        prior: Some((0.0, force)),
+                        prior: Some((0.0, typical)),
                     })
                     .collect()
             }
@@ -266,6 +266,7 @@ impl World<'_> {
             Fault::Gain => (-0.9, 4.0),
             Fault::Lag => (0.0, 0.2),
             Fault::Delay => (-0.05, 0.05),
+            Fault::Rate => (-0.02, 0.02),
             Fault::Offset | Fault::Drift | Fault::Quadratic | Fault::Cubic => {
                 (f64::NEG_INFINITY, f64::INFINITY)
             }

@@ -14,10 +14,10 @@ use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::fit::{Coordinate, Handle, Point};
-use crate::hypothesis::{Fitted, World};
+use crate::hypothesis::{Fitted, POINTS, World};
 use crate::lsq::Problem;
 use crate::recorded::Recorded;
-use crate::screening::Changes;
+use crate::screening::{Changes, groups};
 use crate::search::worth;
 
 /// Excitations that are compared at least: fewer records are cut in pieces.
@@ -25,6 +25,9 @@ const EXCITATIONS: usize = 4;
 /// Share of a column's square below which it does nothing that the coordinates could not do: it is another name for one of
 /// them, as a force cell's offset is for a preload, and nothing that is left speaks of it.
 const ITS_OWN: f64 = 1e-6;
+/// The same of a table's points: held beyond its ends, it comes only near to the straight line that is another name for a
+/// gain or a rate.
+const POINTS_OWN: f64 = 1e-3;
 /// Quantile of the normal distribution for 95 % within.
 const NORMAL: f64 = 1.96;
 
@@ -92,7 +95,7 @@ impl World<'_> {
         let Changes { terms, probes, columns } = self.changes(fitted)?;
         let dynamics = self.dynamics(&fitted.terms)?;
         let fit = self.fit(&*dynamics, self.train, fitted.coordinates.clone());
-        let (h, g) = fit.beside(&fitted.point, &columns);
+        let (h, g) = fit.beside(&fitted.point, &columns, &groups(&probes));
         let mut most: Vec<Option<(f64, DVector<f64>)>> = vec![None; terms.len()];
         for (probe, range) in &probes {
             let found =
@@ -153,7 +156,8 @@ fn pull(
     let right = DVector::from_fn(all.len(), |i, _| if i < own { 0.0 } else { -g[all[i]] / norm[i] });
     let factor = scaled.cholesky()?;
     // Squares of the pivots: what of each column neither the coordinates nor the columns before it can do.
-    if (own..all.len()).any(|it| factor.l_dirty()[(it, it)].powi(2) < ITS_OWN) {
+    let least = if columns.len() < POINTS { ITS_OWN } else { POINTS_OWN };
+    if (own..all.len()).any(|it| factor.l_dirty()[(it, it)].powi(2) < least) {
         return None;
     }
     let step = factor.solve(&right);

@@ -17,6 +17,7 @@ pub mod extend;
 pub mod file;
 pub mod findings;
 pub mod fit;
+pub mod held;
 pub mod hypothesis;
 pub mod import;
 pub mod intervals;

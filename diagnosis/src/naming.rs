@@ -39,12 +39,12 @@ pub fn name(term: Term, plant: &Plant) -> Name {
             name: cause.name.into(),
             equation: cause.equation.into(),
             experiment: cause.experiment.into(),
-            sensor: false,
+            sensor: cause.element.is_sensor(),
         },
         Term::Table(table) => Name {
             id: table.id.into(),
             element: table.element.name().into(),
-            name: format!("unnamed force over {}", table.variable),
+            name: format!("unnamed {} over {}", table.quantity(), table.variable),
             equation: format!("a table over {}", table.variable),
             experiment: "sweep the variable slowly through the covered range and beyond".into(),
             sensor: false,
@@ -81,11 +81,12 @@ fn of_fault(handle: Handle, plant: &Plant) -> Name {
         (Fault::Lag, true, true) => "24",
         (Fault::Offset | Fault::Drift, true, true) => "41",
         (Fault::Offset | Fault::Drift, _, _) => "33",
-        (_, true, false) => "42",
+        (_, true, false) if fault != Fault::Rate => "42",
         (Fault::Gain, _, _) => "34",
         (Fault::Lag, _, _) => "35",
         (Fault::Delay, _, _) => "36",
         (Fault::Quadratic | Fault::Cubic, _, _) => "39",
+        (Fault::Rate, _, _) => "40",
     };
     let (what, equation, experiment) = match fault {
         Fault::Gain => ("gain", "(1 + gain) y", "weigh the masses, or turn the sensor over"),
@@ -97,6 +98,7 @@ fn of_fault(handle: Handle, plant: &Plant) -> Name {
         Fault::Delay => ("delay", "y(t - delay)", "strike once and compare the signals' onsets"),
         Fault::Quadratic => ("curvature", "y + quadratic y^2", "calibrate with gauge blocks"),
         Fault::Cubic => ("curvature", "y + cubic y^3", "calibrate with gauge blocks"),
+        Fault::Rate => ("sampling rate", "y((1 + rate) t)", "compare the clocks, or record for longer"),
     };
     Name {
         id: id.into(),

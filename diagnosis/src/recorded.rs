@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::correction::Correction;
+use crate::correction::{Correction, Samples};
 use crate::plant::{Between, Drive};
 
 /// A record on a plant's inputs and outputs, evenly sampled.
@@ -63,13 +63,20 @@ impl Recorded {
         self.len() == 0
     }
 
+    /// Which samples those of a section are.
+    pub fn samples(&self, section: &Range<usize>) -> Samples {
+        Samples { step: self.step, first: section.start }
+    }
+
     /// What drives the plant in a section, the inputs' signals being corrected.
     pub fn drive(&self, section: &Range<usize>, corrections: &[Correction]) -> Drive {
         let mut inputs: Vec<Vec<f64>> = Vec::with_capacity(self.inputs.len());
         for (source, correction) in self.inputs.iter().zip(corrections) {
             inputs.push(match source {
                 Source::Measured(values) if correction.is_neutral() => values[section.clone()].to_vec(),
-                Source::Measured(values) => correction.applied(&values[section.clone()], self.step),
+                Source::Measured(values) => {
+                    correction.applied(&values[section.clone()], self.samples(section))
+                }
                 Source::Constant(value) => vec![*value; section.len()],
                 Source::DerivativeOf(_) => Vec::new(),
             });

@@ -107,6 +107,8 @@ pub struct ElementSignals {
 pub enum ForceOf {
     /// In an output.
     Output(&'static str),
+    /// In an input.
+    Input(&'static str),
     /// A stiffness times the deflection and a damping rate times the velocity.
     SpringAndDamper(&'static str, &'static str),
     /// An output times a parameter, the lever with which it turns something.
@@ -124,6 +126,16 @@ pub struct Missing {
     pub factor: Option<(&'static str, f64)>,
     /// The elements over whose motions it is shown.
     pub over: &'static [Element],
+}
+
+impl ForceOf {
+    /// The signal that is the force, if there is one.
+    pub fn signal(self) -> Option<&'static str> {
+        match self {
+            Self::Output(name) | Self::Input(name) => Some(name),
+            Self::SpringAndDamper(..) | Self::Moment(..) => None,
+        }
+    }
 }
 
 impl Rig {

@@ -1,16 +1,22 @@
 //! Which causes the residuals of a fit may contain: every term is tried out, and compared to what is missing.
 
+mod probes;
+mod typical;
+
 use std::ops::Range;
 
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use crate::catalogue::{self, Cause, Element, Part, Table};
-use crate::correction::Fault;
+use crate::catalogue;
+use crate::correction::{Correction, Fault};
 use crate::fit::{Handle, Point, Residuals};
-use crate::hypothesis::{Fitted, POINTS, Term, World};
+use crate::hypothesis::{Fitted, Term, World};
 use crate::naming::name;
 use crate::recorded::{Recorded, Source};
+
+pub use probes::Probe;
+pub use typical::typical;
 
 /// A term that may explain something.
 #[derive(Clone, Debug)]
@@ -23,14 +29,6 @@ pub struct Screened {
     pub starts: Vec<Point>,
     /// The size of its first parameter that would be seen for certain: five standard deviations.
     pub detectable: f64,
-}
-
-/// A point with a term tried out, and what its signals are differenced against being the fit's.
-pub struct Probe {
-    /// Index of the term.
-    pub term: usize,
-    /// The point; for a sum one for each of its addends, as a table's points are.
-    pub points: Vec<Point>,
 }
 
 /// What every term would change beside a fit, in the signals predicted of the training data.
@@ -73,9 +71,16 @@ impl World<'_> {
         }
         for (input, source) in record.inputs.iter().enumerate() {
             if matches!(source, Source::Measured(_)) && !self.twofold(record, input) {
-                // Positions count from wherever equilibrium is.
-                let offset = (!plant.inputs[input].name.ends_with("position")).then_some(Fault::Offset);
-                for fault in [Fault::Gain, Fault::Delay, Fault::Lag].into_iter().chain(offset) {
+                let name = &plant.inputs[input].name;
+                // Positions count from wherever equilibrium is, and what an actuator pushes with on its own is the strut's
+                // constant force, too.
+                let constant = name.ends_with("position")
+                    || name == "actuator.force" && plant.parameter("strut.preload").is_some();
+                let offset = (!constant).then_some(Fault::Offset);
+                // A road that arrives behind a low-pass is a tyre's, where the plant knows of it.
+                let enveloped = name.starts_with("road") && plant.parameter("enveloping.time").is_some();
+                let lag = (!enveloped).then_some(Fault::Lag);
+                for fault in [Fault::Gain, Fault::Delay].into_iter().chain(lag).chain(offset) {
                     terms.push(Term::Fault(Handle::Input(input, fault)));
                 }
             }
@@ -101,13 +106,19 @@ impl World<'_> {
     pub fn changes(&self, fitted: &Fitted) -> Result<Changes, String> {
         let terms: Vec<Term> = self.terms().into_iter().filter(|term| !fitted.terms.contains(term)).collect();
         let dynamics = self.dynamics(&fitted.terms)?;
-        let predicted = self.fit(&*dynamics, self.train, Vec::new()).predictions(&fitted.point);
+        let fit = self.fit(&*dynamics, self.train, Vec::new());
+        let predicted = fit.predictions(&fitted.point);
+        let outputs = vec![Correction::default(); self.rig.plant.outputs.len()];
+        let unseen = fit.predictions(&Point { outputs, ..fitted.point.clone() });
         let probes: Vec<Probe> = terms
             .iter()
             .enumerate()
             .flat_map(|(index, term)| self.probes(index, *term, &fitted.point))
             .collect();
         let changed = |term: Term, point: &Point| -> Option<Residuals> {
+            if let Term::Fault(Handle::Output(output, _)) = term {
+                return Some(self.seen(output, &point.outputs[output], &unseen, &predicted));
+            }
             let mut all = fitted.terms.clone();
             all.push(term);
             let dynamics = self.dynamics(&all).ok()?;
@@ -139,6 +150,30 @@ impl World<'_> {
         Ok(Changes { terms, probes: kept, columns })
     }
 
+    /// What another correction of an output changes of the signals, which are the plant's and need not be simulated again.
+    fn seen(
+        &self,
+        output: usize,
+        correction: &Correction,
+        unseen: &Residuals,
+        before: &Residuals,
+    ) -> Residuals {
+        let mut changes = Residuals::new();
+        for ((record, unseen), before) in self.train.iter().zip(unseen).zip(before) {
+            let mut signals: Vec<Vec<f64>> = vec![vec![0.0; record.len()]; record.measured.len()];
+            for (row, _) in record.measured.iter().enumerate().filter(|(_, it)| it.output == output) {
+                for section in &record.sections {
+                    let after = correction.applied(&unseen[row][section.clone()], record.samples(section));
+                    let pairs = after.iter().zip(&before[row][section.clone()]);
+                    let change = pairs.map(|(after, before)| after - before);
+                    signals[row][section.clone()].iter_mut().zip(change).for_each(|(to, from)| *to = from);
+                }
+            }
+            changes.push(signals);
+        }
+        changes
+    }
+
     /// Compares every term to what a fit misses.
     ///
     /// # Errors
@@ -147,7 +182,7 @@ impl World<'_> {
         let Changes { terms, probes, columns } = self.changes(fitted)?;
         let dynamics = self.dynamics(&fitted.terms)?;
         let fit = self.fit(&*dynamics, self.train, fitted.coordinates.clone());
-        let (h, g) = fit.contained(&fitted.point, &columns);
+        let (h, g) = fit.contained(&fitted.point, &columns, &groups(&probes));
 
         let mut screened: Vec<Screened> = terms
             .iter()
@@ -181,112 +216,6 @@ impl World<'_> {
         }
         screened.sort_by(|a, b| b.gain.total_cmp(&a.gain));
         Ok(screened)
-    }
-
-    fn probes(&self, index: usize, term: Term, at: &Point) -> Vec<Probe> {
-        match term {
-            Term::Cause(cause) => self
-                .shapes(cause, at)
-                .into_iter()
-                .map(|shape| Probe { term: index, points: self.addends(cause, shape, at) })
-                .collect(),
-            Term::Table(table) => vec![Probe { term: index, points: self.knots(table, at) }],
-            Term::Fault(handle) => {
-                let mut point = at.clone();
-                point.set(handle, at.get(handle) + self.typical_fault(handle));
-                vec![Probe { term: index, points: vec![point] }]
-            }
-        }
-    }
-
-    /// A shape of a cause, and each of its addends without the others.
-    fn addends(&self, cause: &Cause, shape: Point, at: &Point) -> Vec<Point> {
-        let typical = self.typical(cause.element);
-        let index = |part: &Part| self.rig.plant.parameter(part.parameter);
-        let alone = |part: &Part| {
-            let (amount, first) = (index(part)?, index(cause.parts.first()?)?);
-            let mut point = shape.clone();
-            point.parameters[first] = at.parameters[first];
-            point.parameters[amount] += part.probes.first()? * part.scale.of(&typical);
-            Some(point)
-        };
-        let others: Vec<Point> = cause.parts.iter().filter(|part| part.addend).filter_map(alone).collect();
-        std::iter::once(shape).chain(others).collect()
-    }
-
-    /// A cause from every combination of its probes, without its addends.
-    fn shapes(&self, cause: &Cause, at: &Point) -> Vec<Point> {
-        let typical = self.typical(cause.element);
-        let mut points = vec![at.clone()];
-        for part in cause.parts.iter().filter(|part| !part.addend) {
-            let Some(index) = self.rig.plant.parameter(part.parameter) else { continue };
-            // What another cause has brought already stays.
-            let there = at.parameters[index] != self.rig.parameters[index];
-            let values: Vec<f64> = if there {
-                vec![at.parameters[index]]
-            } else {
-                let declared = &self.rig.plant.parameters[index];
-                let (low, high) = (declared.min.unwrap_or(f64::MIN), declared.max.unwrap_or(f64::MAX));
-                part.probes.iter().map(|probe| (probe * part.scale.of(&typical)).clamp(low, high)).collect()
-            };
-            points = points
-                .iter()
-                .flat_map(|point| {
-                    values.iter().map(|value| {
-                        let mut point = point.clone();
-                        point.parameters[index] = *value;
-                        point
-                    })
-                })
-                .collect();
-        }
-        points
-    }
-
-    /// A table's points, each a tenth of the typical force.
-    fn knots(&self, table: &Table, at: &Point) -> Vec<Point> {
-        let plant = &self.rig.plant;
-        let force = 0.1 * self.typical(table.element).force;
-        let mut flat = at.clone();
-        let indices = (plant.parameter(table.switch), plant.parameter(table.range));
-        let (Some(switch), Some(range)) = indices else { return Vec::new() };
-        flat.parameters[switch] = 1.0;
-        // Three times the root mean square is about the largest value.
-        flat.parameters[range] = 3.0 * table.scale.of(&self.typical(table.element));
-        let points =
-            (1..=POINTS).filter_map(|number| plant.parameter(&format!("{}[{number}]", table.points)));
-        points
-            .map(|index| {
-                let mut point = flat.clone();
-                point.parameters[index] = force;
-                point
-            })
-            .collect()
-    }
-
-    /// A fault that would be noticed.
-    fn typical_fault(&self, handle: Handle) -> f64 {
-        let Some(record) = self.train.first() else { return 0.0 };
-        let (fault, magnitude) = match handle {
-            Handle::Input(input, fault) => match &record.inputs[input] {
-                Source::Measured(values) => (fault, rms(values)),
-                Source::DerivativeOf(_) | Source::Constant(_) => (fault, 1.0),
-            },
-            Handle::Output(output, fault) => {
-                let measured = record.measured.iter().find(|it| it.output == output);
-                (fault, measured.map_or(1.0, |measured| rms(&measured.values)))
-            }
-            Handle::Parameter(_) => return 0.0,
-        };
-        let magnitude = magnitude.max(f64::MIN_POSITIVE);
-        match fault {
-            Fault::Gain => 0.05,
-            Fault::Offset => 0.1 * magnitude,
-            Fault::Drift => 0.1 * magnitude / (record.len() as f64 * record.step),
-            Fault::Lag | Fault::Delay => record.step.max(1e-3),
-            Fault::Quadratic => 0.05 / magnitude,
-            Fault::Cubic => 0.05 / magnitude.powi(2),
-        }
     }
 
     /// By how much a probe differs from the fit in the term's first parameter.
@@ -325,7 +254,7 @@ impl World<'_> {
                 let step = amounts[0] * (probe.points[0].get(first.handle) - before);
                 let (low, high) = first.bounds;
                 // What would have to be negative is not there; it is tried from a small amount all the same.
-                let possible = (before + step).clamp(low, high) != before;
+                let possible = (before + step).clamp(low.min(before), high) != before;
                 let least = 0.1 * (probe.points[0].get(first.handle) - before);
                 let amount = if possible { step } else { least };
                 point.set(first.handle, (before + amount).clamp(low, high));
@@ -335,55 +264,15 @@ impl World<'_> {
     }
 }
 
+/// The columns of each probe.
+pub fn groups(probes: &[(Probe, Range<usize>)]) -> Vec<Range<usize>> {
+    probes.iter().map(|(_, range)| range.clone()).collect()
+}
+
 /// Root mean square of the known values about their mean.
 pub fn rms(values: &[f64]) -> f64 {
     let known: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     let n = known.len().max(1) as f64;
     let mean = known.iter().sum::<f64>() / n;
     (known.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / n).sqrt()
-}
-
-/// Typical magnitudes of an element over records, from predicted signals of all outputs.
-pub fn typical(
-    world_rig: &crate::rig::Rig,
-    records: &[Recorded],
-    outputs: &[Vec<Vec<f64>>],
-) -> Vec<(Element, catalogue::Typical)> {
-    use crate::rig::ForceOf;
-    let plant = &world_rig.plant;
-    let signal = |name: &str| -> Vec<Vec<f64>> {
-        let index = plant.output(name);
-        outputs.iter().map(|record| index.map_or_else(Vec::new, |index| record[index].clone())).collect()
-    };
-    let magnitude = |signals: &[Vec<f64>]| rms(&signals.concat()).max(1e-12);
-    let value = |name: &str| plant.parameter(name).map_or(0.0, |index| world_rig.parameters[index]);
-    let of = |element: &crate::rig::ElementSignals| {
-        let positions = signal(element.deflection);
-        let velocities = match element.velocity {
-            Some(name) => signal(name),
-            None => {
-                let pairs = positions.iter().zip(records);
-                pairs.map(|(x, record)| crate::recorded::derivative(x, record.step)).collect()
-            }
-        };
-        let (deflection, velocity) = (magnitude(&positions), magnitude(&velocities));
-        let force = match element.force {
-            ForceOf::Output(name) => {
-                // Measured rather than simulated, where it is measured: the model may be far off.
-                let index = plant.output(name);
-                let measured: Vec<f64> = records
-                    .iter()
-                    .flat_map(|record| record.measured.iter().filter(|it| Some(it.output) == index))
-                    .flat_map(|measured| measured.values.clone())
-                    .collect();
-                if measured.is_empty() { magnitude(&signal(name)) } else { rms(&measured).max(1e-12) }
-            }
-            ForceOf::Moment(force, lever) => (value(lever) * magnitude(&signal(force))).max(1e-12),
-            ForceOf::SpringAndDamper(stiffness, damping) => {
-                (value(stiffness) * deflection).hypot(value(damping) * velocity)
-            }
-        };
-        (element.element, catalogue::Typical { force, deflection, velocity })
-    };
-    world_rig.kind.elements.iter().map(of).collect()
 }

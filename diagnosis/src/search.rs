@@ -306,7 +306,7 @@ pub(crate) fn worth(base: &Fitted) -> f64 {
 }
 
 /// Numbers of the causes that begin to act beyond a threshold.
-const THRESHOLDS: &[&str] = &["09", "12", "20"];
+const THRESHOLDS: &[&str] = &["09", "12", "20", "26"];
 
 /// Whether nothing shows of a term while it is absent, and of what it does only now and then.
 fn has_threshold(term: Term) -> bool {

@@ -39,14 +39,18 @@ def derivative(signal, step):
     return np.gradient(signal, step, edge_order=1)
 
 
-def corrected(report, signals, step, into):
-    """Signals on their way into the model, or out of it: (1 + gain) lag(delay(y + q y² + c y³)) + offset + drift t."""
+def corrected(report, signals, step, first, into):
+    """Signals on their way into the model, or out of it: (1 + gain) lag(y(t')) + offset + drift t, t' = (1 + rate) t - delay.
+
+    They are bent before, y + q y² + c y³; t counts from the record's beginning, `first` samples earlier.
+    """
     signals = dict(signals)
     for it in (it for it in report["corrections"] if it["input"] == into and it["signal"] in signals):
         y = np.asarray(signals[it["signal"]], dtype=float)
         y = y * (1.0 + y * (it["quadratic"] + y * it["cubic"]))
-        y = lagged(delayed(y, it["delay"] / step), it["lag"] / step)
-        signals[it["signal"]] = (1.0 + it["gain"]) * y + it["offset"] + it["drift"] * step * np.arange(len(y))
+        time = step * (first + np.arange(len(y)))
+        y = lagged(delayed(y, (it["delay"] - it["rate"] * time) / step), it["lag"] / step)
+        signals[it["signal"]] = (1.0 + it["gain"]) * y + it["offset"] + it["drift"] * time
     return signals
 
 
@@ -104,9 +108,9 @@ def errors(fmu, report, folder, changed):
         step = (time[-1] - time[0]) / (len(time) - 1)
         first, last = round(stretch["time"] / step), round(stretch["end"] / step)
         signals = {name: values[first:last] for name, values in signals.items()}
-        rows = inputs(fmu, corrected(report, signals, step, True), step)
+        rows = inputs(fmu, corrected(report, signals, step, first, True), step)
         simulated = dict(zip(names, simulate(fmu, rows, step, stretch["states"] | changed, names)))
-        simulated = corrected(report, simulated, step, False)
+        simulated = corrected(report, simulated, step, first, False)
         for errors_of_one, name in zip(left, names):
             errors_of_one.extend(signals[name] - simulated[name])
     return {name: float(np.sqrt(np.mean(np.square(values)))) for name, values in zip(names, left)}

@@ -1,6 +1,6 @@
 //! What is told of a cause that has no name.
 
-use crate::catalogue::{Element, Table};
+use crate::catalogue::{Element, Scale, Table};
 use crate::diagnosis::Diagnosis;
 use crate::findings::Curve;
 use crate::fit::Handle;
@@ -15,29 +15,35 @@ const EXPLAINED: f64 = 0.6;
 const ADEQUATE: f64 = 0.8;
 
 impl Diagnosis<'_> {
-    /// An element's velocity or deflection, by the FMU's name where the FMU has it.
-    fn variable(&self, element: Element, over_velocity: bool) -> String {
+    /// An element's velocity or deflection, by the FMU's name where the FMU has it, with its unit; or what goes into it.
+    fn variable(&self, element: Element, scale: Scale) -> (String, &'static str) {
         let signals = self.world.rig.kind.elements.iter().find(|it| it.element == element);
-        let signal = signals.and_then(|it| if over_velocity { it.velocity } else { Some(it.deflection) });
-        signal.unwrap_or(if over_velocity { "velocity" } else { "deflection" }).to_owned()
+        let (signal, otherwise, unit) = match scale {
+            Scale::FORCE => (signals.and_then(|it| it.force.signal()), "force", "N"),
+            Scale::VELOCITY => (signals.and_then(|it| it.velocity), "velocity", "m/s"),
+            _ => (signals.map(|it| it.deflection), "deflection", "m"),
+        };
+        (signal.unwrap_or(otherwise).to_owned(), unit)
     }
 
     /// Where something acts, and over what, if no more is known of it than a law that comes near.
     pub(super) fn place(&self, term: Term) -> Curve {
-        let (location, over_velocity) = match term {
-            Term::Cause(cause) => (Some(cause.element), cause.is_over_velocity()),
-            Term::Table(table) => (Some(table.element), table.is_over_velocity()),
-            Term::Fault(_) => (None, false),
+        let of_cause = |velocity: bool| if velocity { Scale::VELOCITY } else { Scale::DEFLECTION };
+        let (location, over, point) = match term {
+            Term::Cause(cause) => (Some(cause.element), of_cause(cause.is_over_velocity()), Scale::FORCE),
+            Term::Table(table) => (Some(table.element), table.scale, table.point),
+            Term::Fault(_) => (None, Scale::ONE, Scale::ONE),
         };
         let Some(element) = location else {
             let signal = name(term, &self.world.rig.plant).element;
             return Curve { location: signal.clone(), variable: signal, ..Curve::default() };
         };
+        let (variable, variable_unit) = self.variable(element, over);
         Curve {
             location: element.name().into(),
-            variable: self.variable(element, over_velocity),
-            variable_unit: if over_velocity { "m/s" } else { "m" }.into(),
-            unit: "N".into(),
+            variable,
+            variable_unit: variable_unit.into(),
+            unit: if point == Scale::DAMPING { "N.s/m" } else { "N" }.into(),
             ..Curve::default()
         }
     }
@@ -51,8 +57,8 @@ impl Diagnosis<'_> {
             let index = plant.parameter(&format!("{}[{number}]", table.points));
             let found = self.intervals.iter().find(|it| index.map(Handle::Parameter) == Some(it.handle));
             let Some(Interval { value, half, .. }) = found else { continue };
-            // A point whose force is not determined is not covered by the data.
-            if *half < self.world.typical(table.element).force {
+            // A point that is not determined is not covered by the data.
+            if *half < table.point.of(&self.world.typical(table.element)) {
                 curve.x.push(range * (2.0 * (number - 1) as f64 / (POINTS - 1) as f64 - 1.0));
                 curve.y.push(*value);
                 curve.low.push(value - half);

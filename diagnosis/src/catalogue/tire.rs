@@ -36,4 +36,14 @@ pub(super) const CAUSES: &[Cause] = &[
         ],
         experiment: "sweep the frequency",
     },
+    Cause {
+        id: "22",
+        element: Element::Tire,
+        name: "enveloping (low-pass of the road)",
+        equation: "T z' = z_r - z, F = f(z - z_u)",
+        contains: &[],
+        setting: None,
+        parts: &[part("enveloping.time", Scale::ONE, (5e-4, 0.05), &[3e-3])],
+        experiment: "drive over a step, and compare with a second sensor of the road",
+    },
 ];

@@ -54,14 +54,14 @@ impl Fit<'_> {
     }
 
     /// The normal equations of a section; `extra` are changes of the record's predicted signals whose amounts are
-    /// further coordinates.
+    /// further coordinates, in groups of which nobody asks what they have in common.
     pub(super) fn section(
         &self,
         point: &Point,
         start: &[f64],
         record: &Recorded,
         section: &Range<usize>,
-        extra: &[&Signals],
+        (extra, groups): (&[&Signals], &[Range<usize>]),
     ) -> Section {
         let (own, states) = (self.coordinates.len(), self.states.len());
         let n = own + extra.len();
@@ -82,7 +82,7 @@ impl Fit<'_> {
             let output = measured.output;
             let correction = &point.outputs[output];
             let weight = 1.0 / self.sigma[output];
-            let signal = correction.applied(&outputs[output], record.step);
+            let signal = correction.applied(&outputs[output], record.samples(section));
             let mut jacobian = DMatrix::<f64>::zeros(section.len(), n + states);
             let mut put = |column: usize, slopes: &[f64]| {
                 for (entry, slope) in jacobian.column_mut(column).iter_mut().zip(slopes) {
@@ -95,14 +95,17 @@ impl Fit<'_> {
                 if correction.is_neutral() {
                     put(column, &signals[output]);
                 } else {
-                    put(column, &correction.tangent(&outputs[output], &signals[output], record.step));
+                    put(
+                        column,
+                        &correction.tangent(&outputs[output], &signals[output], record.samples(section)),
+                    );
                 }
             }
             for (column, coordinate) in self.coordinates.iter().enumerate() {
                 if let Handle::Output(of, fault) = coordinate.handle
                     && of == output
                 {
-                    let change = |it: &Correction| it.applied(&outputs[output], record.step);
+                    let change = |it: &Correction| it.applied(&outputs[output], record.samples(section));
                     put(column, &slope(correction, fault, record.step, change));
                 }
             }
@@ -117,7 +120,7 @@ impl Fit<'_> {
                     jacobian.row_mut(k).fill(0.0);
                 }
             }
-            h += jacobian.tr_mul(&jacobian);
+            add_products(&mut h, &jacobian, (own, n), groups);
             for (number, score) in scores.iter_mut().enumerate() {
                 let first = number * block;
                 let rows = block.min(section.len() - first);
@@ -125,6 +128,32 @@ impl Fit<'_> {
             }
         }
         eliminate(&h, &scores, n, &self.ridge)
+    }
+}
+
+/// Adds the products of the Jacobian's columns: of those before `own` and from `n` on with all, of those between them within
+/// their groups only. They are many, and most of the work would be for what nobody asks.
+fn add_products(
+    h: &mut DMatrix<f64>,
+    jacobian: &DMatrix<f64>,
+    (own, n): (usize, usize),
+    groups: &[Range<usize>],
+) {
+    let mut add = |rows: Range<usize>, columns: Range<usize>| {
+        let product = jacobian.columns_range(rows.clone()).tr_mul(&jacobian.columns_range(columns.clone()));
+        let mut part = h.view_mut((rows.start, columns.start), (rows.len(), columns.len()));
+        part += product;
+    };
+    let all = jacobian.ncols();
+    add(0..own, 0..all);
+    add(n..all, 0..all);
+    if n > own {
+        add(own..n, 0..own);
+        add(own..n, n..all);
+    }
+    for group in groups {
+        let columns = own + group.start..own + group.end;
+        add(columns.clone(), columns);
     }
 }
 
@@ -157,6 +186,8 @@ fn slope(at: &Correction, fault: Fault, step: f64, applied: impl Fn(&Correction)
         Fault::Delay => 0.05 * step,
         // A lag is not negative: beside zero, the difference is taken around a lag that is small.
         Fault::Lag => 0.05 * step,
+        // Fine enough for the end of any section.
+        Fault::Rate => 1e-7,
         _ => 1e-3,
     };
     let middle = if fault == Fault::Lag { value.max(0.1 * step) } else { value };

@@ -37,7 +37,7 @@ impl Fit<'_> {
     ) -> Vec<f64> {
         let mut cost = self.section_cost(point, &start, record, section);
         for _ in 0..STEPS {
-            let step = self.section(point, &start, record, section, &[]).elimination.constant;
+            let step = self.section(point, &start, record, section, (&[], &[])).elimination.constant;
             let tried = (0..=HALVINGS).map(|halvings| {
                 let mut moved = start.clone();
                 for (state, change) in self.states.iter().zip(step.iter()) {

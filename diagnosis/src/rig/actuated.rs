@@ -44,6 +44,12 @@ pub(super) const SERVO_SUSPENSION: Kind = Kind {
             velocity: None,
             force: ForceOf::Output("wheel.force"),
         },
+        ElementSignals {
+            element: Element::Valve,
+            deflection: "spool.position",
+            velocity: None,
+            force: ForceOf::Output("actuator.force"),
+        },
     ],
     aliases: &[
         ("road.position", &["road"]),

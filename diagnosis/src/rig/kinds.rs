@@ -51,6 +51,12 @@ pub(super) const KINDS: &[Kind] = &[
                 velocity: None,
                 force: ForceOf::Output("wheel.force"),
             },
+            ElementSignals {
+                element: Element::Actuator,
+                deflection: "suspension.deflection",
+                velocity: Some("suspension.velocity"),
+                force: ForceOf::Input("actuator.force"),
+            },
         ],
         aliases: &[("road.position", &["road"]), ("actuator.force", &["force"])],
         trivial: &[],

@@ -99,7 +99,7 @@ impl World<'_> {
         if enough
             && named > 0
             && (named > 1 || self.apart(fitted, &found.extended) > 4.0)
-            && !self.is_needed(found, fitted, first.term)
+            && self.is_the_cause(found, (table.term, fitted), (first.term, named))
         {
             let accepted = Accepted { term: table.term, evidence: table.evidence, rivals: Vec::new() };
             found.extended = fitted.clone();
@@ -107,15 +107,25 @@ impl World<'_> {
         }
     }
 
-    /// Whether a term that was found is needed beside a table, too: then they are about different things.
-    fn is_needed(&self, found: &Found, table: &Fitted, term: Term) -> bool {
-        let mut terms = table.terms.clone();
-        terms.push(term);
-        let mut start = table.point.clone();
-        for coordinate in self.own_coordinates(term) {
+    /// Whether a table is the cause itself. If what was found first is needed beside it, they are about different things; and
+    /// where it adds nothing of its own to the one name that was found, what it explains more is of the small effects that
+    /// every rig has.
+    fn is_the_cause(
+        &self,
+        found: &Found,
+        (table, fitted): (Term, &Fitted),
+        (first, named): (Term, usize),
+    ) -> bool {
+        let mut terms = fitted.terms.clone();
+        terms.push(first);
+        let mut start = fitted.point.clone();
+        for coordinate in self.own_coordinates(first) {
             start.set(coordinate.handle, found.extended.point.get(coordinate.handle));
         }
-        let both = self.fitted(&terms, &[start], Stop::ROUGH);
-        both.is_ok_and(|both| self.evidence(term, &found.base, table, &both).refusal().is_none())
+        let Ok(both) = self.fitted(&terms, &[start], Stop::ROUGH) else { return true };
+        let counts = |term: Term, without: &Fitted| {
+            self.evidence(term, &found.base, without, &both).refusal().is_none()
+        };
+        !counts(first, fitted) && (named > 1 || counts(table, &found.extended))
     }
 }

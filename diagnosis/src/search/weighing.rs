@@ -13,7 +13,7 @@ use super::{has_threshold, is_table};
 
 /// Numbers of what every rig has a little of: memory and compliance in its rubber, springs that are not quite straight, cogging,
 /// sensors' filters and timing, of what is measured of the drive, too. What has no name is as common.
-const USUAL: &[&str] = &["07", "08", "09", "13", "27", "35", "36"];
+const USUAL: &[&str] = &["07", "08", "09", "13", "22", "27", "35", "36"];
 
 impl World<'_> {
     fn block(&self) -> usize {

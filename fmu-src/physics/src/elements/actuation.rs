@@ -4,16 +4,13 @@ use strut_model::{Real, Variables};
 
 use crate::effects::{CommandCurve, DelayState, LagState, Saturation, delayed, lagged, switched_on};
 
-/// An actuator that does not quite do what it is told: `F = sat(k T(D(u)) + F_0) + s f(·)` with the delay D, the lag T and an
-/// unnamed curve over what is sent into the limit (catalogue of diagnosis, 23–26, 41, G).
+/// An actuator that does not quite do what it is told: `F = sat(k T(D(u))) + s f(k T(D(u)))` with the delay D, the lag T
+/// and an unnamed curve (catalogue of diagnosis, 23–26, G). A force without a command is a strut's preload.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Actuation<R> {
     /// Force over the commanded one (k)
     #[var(unit = ONE, start = 1.0)]
     pub gain: R,
-    /// Force without a command (F_0)
-    #[var(unit = N, start = 0.0)]
-    pub offset: R,
     /// Delay
     #[var(unit = S, start = 0.0, min = 0.0)]
     pub delay: R,
@@ -44,20 +41,13 @@ impl<R: Real> Actuation<R> {
         }
         let (late, delay) = delayed(self.delay, state.delay, command);
         let (late, lag) = lagged(self.lag, state.lag, late);
-        let asked = self.gain * late + self.offset;
+        let asked = self.gain * late;
         (self.saturation.limited(asked) + self.curve.force(asked), ActuationState { delay, lag })
     }
 
     /// How many effects are on.
     pub fn further_effects(&self) -> R {
-        switched_on([
-            self.gain - 1.0,
-            self.offset,
-            self.delay,
-            self.lag,
-            self.saturation.ratio,
-            self.curve.scale,
-        ])
+        switched_on([self.gain - 1.0, self.delay, self.lag, self.saturation.ratio, self.curve.scale])
     }
 
     /// Nothing on its way.
@@ -77,20 +67,15 @@ mod tests {
     fn neutral() -> Actuation<f64> {
         let curve = CommandCurve { scale: 0.0, force_range: 1.0, over_force: [0.0; POINTS] };
         let saturation = Saturation { ratio: 0.0, force: 100.0 };
-        Actuation { gain: 1.0, offset: 0.0, delay: 0.0, lag: 0.0, saturation, curve }
+        Actuation { gain: 1.0, delay: 0.0, lag: 0.0, saturation, curve }
     }
 
     #[test]
     fn the_limit_is_that_of_the_force_not_of_the_command() {
-        let weak = Actuation {
-            gain: 0.5,
-            offset: 10.0,
-            saturation: Saturation { ratio: 1.0, force: 100.0 },
-            ..neutral()
-        };
+        let weak = Actuation { gain: 0.5, saturation: Saturation { ratio: 1.0, force: 100.0 }, ..neutral() };
         let of = |command| weak.force(Actuation::rest(), command, weak.further_effects()).0;
-        assert_eq!((of(100.0), of(180.0), of(300.0), of(-300.0)), (60.0, 100.0, 100.0, -100.0));
-        assert_eq!(weak.further_effects(), 3.0);
+        assert_eq!((of(100.0), of(180.0), of(300.0), of(-300.0)), (50.0, 90.0, 100.0, -100.0));
+        assert_eq!(weak.further_effects(), 2.0);
     }
 
     proptest! {

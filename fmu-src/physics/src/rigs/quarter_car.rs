@@ -170,9 +170,9 @@ impl Model for QuarterCar {
                 source: "TUM eq. 5, 4.3.2, Table 7; curve: catalogue of diagnosis: G",
             },
             Equation {
-                text: "F_act = S(k T(D(u)) + F_a) + s f(k T(D(u)) + F_a): delay D (1 - t s/2 + t^2 s^2/12)/(1 + t s/2 + t^2 \
+                text: "F_act = S(k T(D(u))) + s f(k T(D(u))): delay D (1 - t s/2 + t^2 s^2/12)/(1 + t s/2 + t^2 \
                     s^2/12), lag T' y' + y = u, limit S(F) = F - r dz(F, F_m)",
-                source: "catalogue of diagnosis: 23-26, 41, G",
+                source: "catalogue of diagnosis: 23-26, G",
             },
             Equation {
                 text: "frame: + m_f (w^2 y + 2 z w y') on the body, y'' + 2 z w y' + w^2 y = -a_s, w = 2 pi f",

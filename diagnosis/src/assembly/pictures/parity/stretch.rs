@@ -146,11 +146,11 @@ impl Rigged<'_> {
 
     /// What a channel's signal really was, by the model's corrections, and its noise.
     fn channel(&self, name: &str, section: &Range<usize>) -> Option<(Vec<f64>, f64)> {
-        let (step, plant) = (self.record.step, self.plant);
+        let (samples, plant) = (self.record.samples(section), self.plant);
         let output = plant.output(name);
         if let Some(it) = self.record.measured.iter().find(|it| Some(it.output) == output) {
             let values = self.with_noise(&it.values[section.clone()], it.noise_floor, it.output as u64);
-            return Some((self.point.outputs[it.output].removed(&values, step), it.noise_floor));
+            return Some((self.point.outputs[it.output].removed(&values, samples), it.noise_floor));
         }
         let input = plant.input(name)?;
         match &self.record.inputs[input] {
@@ -159,7 +159,7 @@ impl Rigged<'_> {
                 // Channels of inputs are numbered behind those of outputs.
                 let number = (plant.outputs.len() + input) as u64;
                 let values = self.with_noise(&values[section.clone()], noise, number);
-                Some((self.point.inputs[input].applied(&values, step), noise))
+                Some((self.point.inputs[input].applied(&values, samples), noise))
             }
             Source::Constant(value) => Some((vec![*value; section.len()], 0.0)),
             Source::DerivativeOf(_) => None,

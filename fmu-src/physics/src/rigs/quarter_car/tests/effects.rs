@@ -30,7 +30,7 @@ fn every_effect() -> Parameters<f64> {
     p.hysteresis.maxwell.stiffness = 2e4;
     (p.hysteresis.mount.gap, p.hysteresis.mount.compliance) = (0.5e-3, 2e-6);
     (p.strut.curve.over_deflection[6], p.strut.curve.damping_over_deflection[4]) = (8.0, 90.0);
-    (p.actuator.gain, p.actuator.offset, p.actuator.delay, p.actuator.lag) = (0.9, 4.0, 3e-3, 2e-3);
+    (p.actuator.gain, p.actuator.delay, p.actuator.lag) = (0.9, 3e-3, 2e-3);
     (p.actuator.saturation.ratio, p.actuator.saturation.force) = (0.7, 2.0);
     (p.actuator.curve.scale, p.actuator.curve.over_force[6]) = (1.0, 3.0);
     (p.frame.mass, p.enveloping.time, p.force_cell.mass) = (2.0, 5e-3, 4.0);

@@ -1,0 +1,58 @@
+//! Causes on the way from the command to the force, in the frame, and in the cells that measure.
+
+use super::{Cause, Element, Scale, part};
+
+/// Natural frequencies in Hz, so close that a lightly damped mode between two of them still shows.
+const FREQUENCIES: &[f64] =
+    &[10.0, 11.5, 13.2, 15.2, 17.5, 20.0, 23.0, 26.5, 30.5, 35.0, 40.0, 46.0, 53.0, 61.0, 70.0, 80.0];
+
+pub(super) const CAUSES: &[Cause] = &[
+    Cause {
+        id: "18",
+        element: Element::Frame,
+        name: "frame mode",
+        equation: "F = m_f (w^2 y + 2 z w y'), y'' + 2 z w y' + w^2 y = -a_s",
+        contains: &[],
+        setting: None,
+        parts: &[
+            part("frame.mass", Scale::ONE, (0.0, 50.0), &[1.0]),
+            part("frame.frequency", Scale::ONE, (8.0, 95.0), FREQUENCIES),
+            part("frame.damping_ratio", Scale::ONE, (2e-3, 0.4), &[0.06]),
+        ],
+        experiment: "dwell on sines about the resonance, and tap the frame",
+    },
+    Cause {
+        id: "26",
+        element: Element::Actuator,
+        name: "saturation of the actuator",
+        equation: "F = u - r dz(u, F_m)",
+        contains: &[],
+        setting: None,
+        parts: &[
+            part("actuator.saturation.ratio", Scale::ONE, (0.0, 1.0), &[0.5]),
+            // A limit far below the usual forces would be a gain.
+            part("actuator.saturation.force", Scale::FORCE, (0.8, 6.0), &[1.0, 1.5, 2.2]),
+        ],
+        experiment: "repeat the run with half the command",
+    },
+    Cause {
+        id: "28",
+        element: Element::Valve,
+        name: "overlap of the valve",
+        equation: "opening = dz(x_v, delta)",
+        contains: &[],
+        setting: None,
+        parts: &[part("actuator.spool.overlap", Scale::DEFLECTION, (0.0, 2.0), &[0.1])],
+        experiment: "drive the valve by a random signal of small amplitude",
+    },
+    Cause {
+        id: "41",
+        element: Element::ForceCell,
+        name: "inertia of the force cell",
+        equation: "y = F_tire - m_c a_u",
+        contains: &[],
+        setting: None,
+        parts: &[part("force_cell.mass", Scale::ONE, (0.0, 60.0), &[1.0])],
+        experiment: "lift the wheel off the road and shake it: what the cell shows then is its own",
+    },
+];

@@ -1,0 +1,137 @@
+//! How terms are tried out: by which amounts, and in which shapes.
+
+use crate::catalogue::{Cause, Part, Table};
+use crate::correction::Fault;
+use crate::fit::{Handle, Point};
+use crate::hypothesis::{POINTS, Term, World};
+use crate::recorded::Source;
+
+use super::rms;
+
+/// Relative errors of a sampling rate from which they are looked for.
+const RATES: &[f64] = &[1e-4, 1e-3, -1e-3, 3e-3, -3e-3, 6e-3, -6e-3, 1e-2, -1e-2];
+
+/// A point with a term tried out, and what its signals are differenced against being the fit's.
+pub struct Probe {
+    /// Index of the term.
+    pub term: usize,
+    /// The point; for a sum one for each of its addends, as a table's points are.
+    pub points: Vec<Point>,
+}
+
+impl World<'_> {
+    /// A term tried out, in several shapes where it has some.
+    pub(super) fn probes(&self, index: usize, term: Term, at: &Point) -> Vec<Probe> {
+        match term {
+            Term::Cause(cause) => self
+                .shapes(cause, at)
+                .into_iter()
+                .map(|shape| Probe { term: index, points: self.addends(cause, shape, at) })
+                .collect(),
+            Term::Table(table) => vec![Probe { term: index, points: self.knots(table, at) }],
+            Term::Fault(handle) => {
+                let probe = |amount: f64| {
+                    let mut point = at.clone();
+                    point.set(handle, at.get(handle) + amount);
+                    Probe { term: index, points: vec![point] }
+                };
+                match handle {
+                    // From zero, a signal whose phase has run away shows no way back.
+                    Handle::Output(_, Fault::Rate) => RATES.iter().map(|rate| probe(*rate)).collect(),
+                    _ => vec![probe(self.typical_fault(handle))],
+                }
+            }
+        }
+    }
+
+    /// A shape of a cause, and each of its addends without the others.
+    fn addends(&self, cause: &Cause, shape: Point, at: &Point) -> Vec<Point> {
+        let typical = self.typical(cause.element);
+        let index = |part: &Part| self.rig.plant.parameter(part.parameter);
+        let alone = |part: &Part| {
+            let (amount, first) = (index(part)?, index(cause.parts.first()?)?);
+            let mut point = shape.clone();
+            point.parameters[first] = at.parameters[first];
+            point.parameters[amount] += part.probes.first()? * part.scale.of(&typical);
+            Some(point)
+        };
+        let others: Vec<Point> = cause.parts.iter().filter(|part| part.addend).filter_map(alone).collect();
+        std::iter::once(shape).chain(others).collect()
+    }
+
+    /// A cause from every combination of its probes, without its addends.
+    fn shapes(&self, cause: &Cause, at: &Point) -> Vec<Point> {
+        let typical = self.typical(cause.element);
+        let mut points = vec![at.clone()];
+        for part in cause.parts.iter().filter(|part| !part.addend) {
+            let Some(index) = self.rig.plant.parameter(part.parameter) else { continue };
+            // What another cause has brought already stays.
+            let there = at.parameters[index] != self.rig.parameters[index];
+            let values: Vec<f64> = if there {
+                vec![at.parameters[index]]
+            } else {
+                let declared = &self.rig.plant.parameters[index];
+                let (low, high) = (declared.min.unwrap_or(f64::MIN), declared.max.unwrap_or(f64::MAX));
+                part.probes.iter().map(|probe| (probe * part.scale.of(&typical)).clamp(low, high)).collect()
+            };
+            points = points
+                .iter()
+                .flat_map(|point| {
+                    values.iter().map(|value| {
+                        let mut point = point.clone();
+                        point.parameters[index] = *value;
+                        point
+                    })
+                })
+                .collect();
+        }
+        points
+    }
+
+    /// A table's points, each a tenth of what is typical.
+    fn knots(&self, table: &Table, at: &Point) -> Vec<Point> {
+        let plant = &self.rig.plant;
+        let typical = self.typical(table.element);
+        let point = 0.1 * table.point.of(&typical);
+        let mut flat = at.clone();
+        let indices = (plant.parameter(table.switch), plant.parameter(table.range));
+        let (Some(switch), Some(range)) = indices else { return Vec::new() };
+        flat.parameters[switch] = 1.0;
+        // Three times the root mean square is about the largest value.
+        flat.parameters[range] = 3.0 * table.scale.of(&typical);
+        let knots = (1..=POINTS).filter_map(|number| plant.parameter(&format!("{}[{number}]", table.points)));
+        knots
+            .map(|index| {
+                let mut moved = flat.clone();
+                moved.parameters[index] = point;
+                moved
+            })
+            .collect()
+    }
+
+    /// A fault that would be noticed.
+    fn typical_fault(&self, handle: Handle) -> f64 {
+        let Some(record) = self.train.first() else { return 0.0 };
+        let (fault, magnitude) = match handle {
+            Handle::Input(input, fault) => match &record.inputs[input] {
+                Source::Measured(values) => (fault, rms(values)),
+                Source::DerivativeOf(_) | Source::Constant(_) => (fault, 1.0),
+            },
+            Handle::Output(output, fault) => {
+                let measured = record.measured.iter().find(|it| it.output == output);
+                (fault, measured.map_or(1.0, |measured| rms(&measured.values)))
+            }
+            Handle::Parameter(_) => return 0.0,
+        };
+        let magnitude = magnitude.max(f64::MIN_POSITIVE);
+        match fault {
+            Fault::Gain => 0.05,
+            Fault::Offset => 0.1 * magnitude,
+            Fault::Drift => 0.1 * magnitude / (record.len() as f64 * record.step),
+            Fault::Lag | Fault::Delay => record.step.max(1e-3),
+            Fault::Rate => RATES[0],
+            Fault::Quadratic => 0.05 / magnitude,
+            Fault::Cubic => 0.05 / magnitude.powi(2),
+        }
+    }
+}

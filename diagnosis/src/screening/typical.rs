@@ -1,0 +1,58 @@
+//! How large the forces and motions of a rig's elements are.
+
+use crate::catalogue::{Element, Typical};
+use crate::recorded::{Recorded, Source, derivative};
+use crate::rig::{ElementSignals, ForceOf, Rig};
+
+use super::rms;
+
+/// Typical magnitudes of an element over records, from predicted signals of all outputs.
+pub fn typical(rig: &Rig, records: &[Recorded], outputs: &[Vec<Vec<f64>>]) -> Vec<(Element, Typical)> {
+    let plant = &rig.plant;
+    let signal = |name: &str| -> Vec<Vec<f64>> {
+        let index = plant.output(name);
+        outputs.iter().map(|record| index.map_or_else(Vec::new, |index| record[index].clone())).collect()
+    };
+    let magnitude = |signals: &[Vec<f64>]| rms(&signals.concat()).max(1e-12);
+    let value = |name: &str| plant.parameter(name).map_or(0.0, |index| rig.parameters[index]);
+    let of = |element: &ElementSignals| {
+        let positions = signal(element.deflection);
+        let velocities = match element.velocity {
+            Some(name) => signal(name),
+            None => {
+                let pairs = positions.iter().zip(records);
+                pairs.map(|(x, record)| derivative(x, record.step)).collect()
+            }
+        };
+        let (deflection, velocity) = (magnitude(&positions), magnitude(&velocities));
+        let force = match element.force {
+            ForceOf::Output(name) => {
+                // Measured rather than simulated, where it is measured: the model may be far off.
+                let index = plant.output(name);
+                let measured: Vec<f64> = records
+                    .iter()
+                    .flat_map(|record| record.measured.iter().filter(|it| Some(it.output) == index))
+                    .flat_map(|measured| measured.values.clone())
+                    .collect();
+                if measured.is_empty() { magnitude(&signal(name)) } else { rms(&measured).max(1e-12) }
+            }
+            ForceOf::Input(name) => {
+                let index = plant.input(name);
+                let sources = records.iter().filter_map(|record| record.inputs.get(index?));
+                let driven: Vec<f64> = sources
+                    .flat_map(|source| match source {
+                        Source::Measured(values) => values.clone(),
+                        Source::DerivativeOf(_) | Source::Constant(_) => Vec::new(),
+                    })
+                    .collect();
+                rms(&driven).max(1e-12)
+            }
+            ForceOf::Moment(force, lever) => (value(lever) * magnitude(&signal(force))).max(1e-12),
+            ForceOf::SpringAndDamper(stiffness, damping) => {
+                (value(stiffness) * deflection).hypot(value(damping) * velocity)
+            }
+        };
+        (element.element, Typical { force, deflection, velocity })
+    };
+    rig.kind.elements.iter().map(of).collect()
+}
