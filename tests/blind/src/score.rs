@@ -1,12 +1,15 @@
 //! What a diagnosis made of a case.
 
 mod report;
+mod spot;
 mod table;
 #[cfg(test)]
 mod tests;
 
 use crate::case::{Present, Truth, Value};
 use crate::catalogue::Place;
+
+use spot::Spot;
 
 pub use report::{Fitted, Interval, Named, Problem, Report, Signal, Unnamed};
 pub use table::{confusion, markdown, wilson};
@@ -79,18 +82,16 @@ pub fn score(truth: &Truth, report: &str) -> Result<Score, String> {
         .map_err(|error| format!("case {}: report.json is not a report: {error}", truth.case.name))?;
     let effects = &truth.effects;
     let out_of_catalogue = effects.iter().any(|effect| effect.id.starts_with('U'));
-    let first = first_cause(&report);
-    let first_place = report.effects.first().map(|named| named.element.as_str());
-    let first_place = first_place.or(report.unnamed.as_ref().map(|unnamed| unnamed.location.as_str()));
+    let first = Spot::of(&report, truth);
     let outcome = outcome(&report, effects);
-    let found = first_place.filter(|_| !effects.is_empty());
+    let found = first.as_ref().filter(|_| !effects.is_empty());
     let sensors: Vec<bool> = effects.iter().map(|effect| effect.place == Place::Sensor).collect();
-    let said_sensor = report.verdict == "sensor_fault" || first_place.is_some_and(is_signal);
+    let said_sensor = report.verdict == "sensor_fault" || first.as_ref().is_some_and(Spot::is_sensor);
     let variable = report.unnamed.as_ref().filter(|_| out_of_catalogue).map(|unnamed| &unnamed.variable);
     Ok(Score {
         case: truth.case.name.clone(),
         truth: if effects.is_empty() { "-".into() } else { joined(effects) },
-        first,
+        first: first.as_ref().map_or_else(|| without_cause(&report), Spot::label),
         outcome,
         effects: effects.len(),
         out_of_catalogue,
@@ -100,7 +101,7 @@ pub fn score(truth: &Truth, report: &str) -> Result<Score, String> {
             report.effects.first().is_some_and(right)
                 || effects.iter().any(|e| is_known_otherwise(e, &report))
         }),
-        location_right: found.map(|place| effects.iter().any(|effect| is_at(effect, place))),
+        location_right: found.map(|spot| effects.iter().any(|effect| spot.is_of(effect))),
         variable_right: variable.map(|name| effects.iter().any(|effect| effect.variable == *name)),
         sensor_or_plant: found.map(|_| sensors.contains(&said_sensor)),
         covered: coverage(&report, effects),
@@ -124,18 +125,9 @@ fn number(id: &str) -> &str {
     if id == "38d" { "38" } else { id }
 }
 
-fn is_signal(place: &str) -> bool {
-    place.contains('.')
-}
-
-fn first_cause(report: &Report) -> String {
-    match (report.effects.first(), &report.unnamed) {
-        (Some(named), _) if is_signal(&named.element) => format!("{} {}", named.id, named.element),
-        (Some(named), _) => named.id.clone(),
-        (None, Some(unnamed)) => format!("unnamed {}", unnamed.location),
-        (None, None) if report.verdict == "no_effect" => "-".into(),
-        (None, None) => report.verdict.clone(),
-    }
+/// What a report says that has neither a named nor an unnamed cause.
+fn without_cause(report: &Report) -> String {
+    if report.verdict == "no_effect" { "-".into() } else { report.verdict.clone() }
 }
 
 fn is_named(effect: &Present, named: &Named) -> bool {
@@ -163,17 +155,6 @@ fn is_meant(effect: &Present, text: &str) -> bool {
     let words: Vec<&str> = text.split(|c: char| c.is_whitespace() || "()@,:".contains(c)).collect();
     let at_place = effect.signal.is_empty() || words.len() < 2 || words.contains(&effect.signal.as_str());
     words.first() == Some(&number(&effect.id)) && at_place
-}
-
-fn is_at(effect: &Present, place: &str) -> bool {
-    match effect.place {
-        Place::Strut => place.starts_with("strut"),
-        Place::Guide => place.starts_with("guide") || place == "body_guide",
-        Place::WheelGuide => place.starts_with("wheel_guide"),
-        Place::Tire => place.starts_with("tire"),
-        Place::Actuator => place.starts_with("actuator") && !is_signal(place),
-        Place::Sensor => place == effect.signal,
-    }
 }
 
 fn outcome(report: &Report, effects: &[Present]) -> Outcome {

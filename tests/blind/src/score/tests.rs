@@ -75,6 +75,25 @@ fn a_sensor_is_told_by_its_signal() {
 }
 
 #[test]
+fn what_an_actuator_does_is_told_by_its_signal_and_is_the_plants() {
+    let of = |effect, id: &str, element: &str| {
+        let judged = score(&truth(&[effect]), &named(&[(id, element, &[])])).unwrap();
+        (judged.outcome, judged.location_right, judged.sensor_or_plant)
+    };
+    for id in ["23", "24", "25"] {
+        let there = (id, Place::Actuator, "");
+        for element in ["actuator.force", "actuator"] {
+            assert_eq!(of(there, id, element), (Outcome::Correct, Some(true), Some(true)), "{id} {element}");
+        }
+    }
+    let gain = ("25", Place::Actuator, "");
+    assert_eq!(of(gain, "24", "voltage"), (Outcome::WrongName, Some(true), Some(true)));
+    assert_eq!(of(gain, "34", "wheel.force"), (Outcome::WrongName, Some(false), Some(false)));
+    assert_eq!(of(gain, "36", "actuator.force"), (Outcome::WrongName, Some(false), Some(false)));
+    assert_eq!(of(GAIN, "25", "actuator.force"), (Outcome::WrongName, Some(false), Some(false)));
+}
+
+#[test]
 fn a_curve_beside_what_is_there_is_too_much() {
     let damping = ("21", Place::Tire, "");
     let report = |unnamed: &str| {
