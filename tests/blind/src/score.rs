@@ -7,7 +7,7 @@ mod table;
 mod tests;
 
 use crate::case::{Present, Truth, Value};
-use crate::catalogue::Place;
+use crate::catalogue::{Place, number};
 
 use spot::Spot;
 
@@ -120,31 +120,33 @@ fn joined(effects: &[Present]) -> String {
     effects.iter().map(label).collect::<Vec<_>>().join("+")
 }
 
-/// The catalogue's number: dropouts and saturation share one.
-fn number(id: &str) -> &str {
-    if id == "38d" { "38" } else { id }
-}
-
 /// What a report says that has neither a named nor an unnamed cause.
 fn without_cause(report: &Report) -> String {
     if report.verdict == "no_effect" { "-".into() } else { report.verdict.clone() }
 }
 
 fn is_named(effect: &Present, named: &Named) -> bool {
-    let at_place = effect.signal.is_empty() || named.element == effect.signal;
+    // Of a place in the plant a constant force has the number of a sensor's offset.
+    let at_place = if effect.signal.is_empty() {
+        named.id != "33" || named.element.starts_with("guide")
+    } else {
+        named.element == effect.signal
+    };
     // The laws of actuators' own share a number, with a letter each.
     let of_family = effect.id == "32" && named.id.trim_end_matches(|c: char| c.is_ascii_lowercase()) == "32";
     (named.id == number(&effect.id) || of_family) && at_place
 }
 
-/// Whether the report says so in another way than by an effect: the tyre's damping is a parameter of the model,
-/// and steps, flat tops and holes in a signal are found before any model is fitted.
+/// Whether the report says so in another way than by an effect: the tyre's damping, the valve's gain and the
+/// cylinder's leakage are parameters of the model, and steps, flat tops and holes in a signal are found before any model is fitted.
 fn is_known_otherwise(effect: &Present, report: &Report) -> bool {
+    let another = |name: &str| {
+        report.base_parameters.iter().any(|fitted| fitted.interval.name == name && fitted.mismatch)
+    };
     match number(&effect.id) {
-        "21" => report
-            .base_parameters
-            .iter()
-            .any(|fitted| fitted.interval.name == "tire.damping" && fitted.mismatch),
+        "21" => another("tire.damping"),
+        "29" => another("actuator.spool.gain"),
+        "30" => another("actuator.cylinder.leakage"),
         "37" | "38" => report.data_problems.iter().any(|problem| problem.signal == effect.signal),
         _ => false,
     }

@@ -51,6 +51,7 @@ impl<'a> Spot<'a> {
             Place::Guide => place.starts_with("guide") || place == "body_guide",
             Place::WheelGuide => place.starts_with("wheel_guide"),
             Place::Tire => place.starts_with("tire"),
+            Place::Frame => place.starts_with("frame"),
             Place::Actuator => self.is_actuator(),
             Place::Sensor => place == effect.signal,
         }
