@@ -1,16 +1,18 @@
 //! What a diagnosis made of a case.
 
+mod breakdown;
 mod report;
 mod spot;
 mod table;
 #[cfg(test)]
 mod tests;
 
-use crate::case::{Present, Truth, Value};
+use crate::case::{Plant, Present, Truth, Value};
 use crate::catalogue::{Place, number};
 
 use spot::Spot;
 
+pub use breakdown::breakdown;
 pub use report::{Fitted, Interval, Named, Problem, Report, Signal, Unnamed};
 pub use table::{confusion, markdown, wilson};
 
@@ -42,6 +44,10 @@ pub enum Outcome {
 pub struct Score {
     /// The case.
     pub case: String,
+    /// The rig.
+    pub plant: Plant,
+    /// See [`Case::condition`](crate::Case::condition).
+    pub condition: String,
     /// What is there: `01`, `01+08`, `34 wheel.force`, `-`.
     pub truth: String,
     /// What comes first in the report, in the same form.
@@ -67,7 +73,7 @@ pub struct Score {
     /// How many of the base parameters' cover it, where all that is there is named.
     pub base_covered: (usize, usize),
     /// The rise of Φ on the held-out data, summed over the signals, and that of an oracle which knows parameters and
-    /// effects; none if there are no effects with a name.
+    /// effects; none if there are no effects with a name, or no oracle.
     pub gained: Option<(f64, f64)>,
     /// How long the diagnosis took.
     pub seconds: f64,
@@ -90,6 +96,8 @@ pub fn score(truth: &Truth, report: &str) -> Result<Score, String> {
     let variable = report.unnamed.as_ref().filter(|_| out_of_catalogue).map(|unnamed| &unnamed.variable);
     Ok(Score {
         case: truth.case.name.clone(),
+        plant: truth.case.plant,
+        condition: truth.case.condition(),
         truth: if effects.is_empty() { "-".into() } else { joined(effects) },
         first: first.as_ref().map_or_else(|| without_cause(&report), Spot::label),
         outcome,
@@ -106,7 +114,8 @@ pub fn score(truth: &Truth, report: &str) -> Result<Score, String> {
         sensor_or_plant: found.map(|_| sensors.contains(&said_sensor)),
         covered: coverage(&report, effects),
         base_covered: if outcome == Outcome::Correct { base_coverage(&report, truth) } else { (0, 0) },
-        gained: (!effects.is_empty() && !out_of_catalogue).then(|| gained(&report, truth)),
+        gained: (!effects.is_empty() && !out_of_catalogue && !truth.oracle.is_empty())
+            .then(|| gained(&report, truth)),
         seconds: report.seconds,
     })
 }
@@ -133,7 +142,7 @@ fn is_named(effect: &Present, named: &Named) -> bool {
         named.element == effect.signal
     };
     // The laws of actuators' own share a number, with a letter each.
-    let of_family = effect.id == "32" && named.id.trim_end_matches(|c: char| c.is_ascii_lowercase()) == "32";
+    let of_family = number(&effect.id) == "32" && number(&named.id) == "32";
     (named.id == number(&effect.id) || of_family) && at_place
 }
 

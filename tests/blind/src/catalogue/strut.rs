@@ -116,4 +116,14 @@ pub(super) static ENTRIES: &[Entry] = &[
             drawn("strut.yield.slope", "1/m", (20.0, 60.0), SHAPE, ANY),
         ],
     ),
+    entry(
+        "32h",
+        "yield force of a magnetorheological damper, with the hysteresis of a shaker's strokes",
+        Place::Strut,
+        &[
+            drawn("strut.yield.force", "N", (150.0, 400.0), ZERO, (0.0, 1000.0)),
+            drawn("strut.yield.velocity", "m/s", (0.02, 0.06), SHAPE, ANY),
+            drawn("strut.yield.slope", "1/m", (80.0, 200.0), SHAPE, ANY),
+        ],
+    ),
 ];

@@ -82,7 +82,7 @@ impl Rig {
             "26" => self.car.actuator.limit = first,
             "27" => drive.cogging = Some((first, values[1], values[2])),
             "28" | "29" | "30" => put_in_valve(self.car.servo.as_mut(), entry.id, first),
-            "32" => strut.yielding = Some((first, values[1], values[2])),
+            "32" | "32h" => strut.yielding = Some((first, values[1], values[2])),
             "33g" => drive.constant_load = first,
             "U1" => strut.hump = Some(hump(values)),
             "U2" => strut.thick_spot = Some(hump(values)),
