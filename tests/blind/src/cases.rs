@@ -180,6 +180,9 @@ mod tests {
     use std::collections::HashSet;
 
     use super::*;
+    use crate::catalogue::{Entry, Place};
+    use crate::random::Random;
+    use crate::rig::{Rig, start};
 
     #[test]
     fn every_case_has_its_own_name() {
@@ -190,12 +193,24 @@ mod tests {
     }
 
     #[test]
-    fn every_effect_of_a_case_exists() {
+    fn every_effect_of_a_case_exists_and_fits_into_its_rig() {
         for case in compact().iter().chain(&full(1000..1001)) {
             for hidden in &case.effects {
-                let entry = crate::catalogue::Entry::find(&hidden.id).unwrap();
-                assert_eq!(entry.place == crate::catalogue::Place::Sensor, !hidden.signal.is_empty());
+                let entry = Entry::find(&hidden.id).unwrap();
+                assert_eq!(entry.place == Place::Sensor, !hidden.signal.is_empty());
+                let mut rig = Rig::new(case.plant, &start(case.plant));
+                let values = entry.draw(&mut Random::new(case.seed, "test"));
+                rig.put_in(entry, &values, &hidden.signal).unwrap();
             }
         }
+    }
+
+    /// The list that runs each time is not to change under whoever compares two versions with it.
+    #[test]
+    fn the_compact_list_is_what_it_was() {
+        let names: Vec<String> =
+            compact().into_iter().map(|case| format!("{}/{}", case.name, case.seed)).collect();
+        assert_eq!(names.len(), 21);
+        assert_eq!([&names[0], &names[20]], ["single-01/1", "mismatch/26"]);
     }
 }

@@ -58,7 +58,8 @@ fn records(data: &Path, kind: &str) -> Result<Vec<PathBuf>, String> {
     Ok(paths)
 }
 
-/// The page: figures, confusion matrix, figures by condition and plant, and every case that did not come out as it should.
+/// The page: figures, confusion matrix, figures by condition and plant, and every case that did not come out as it
+/// should.
 pub fn page(command: &str, scores: &[Score]) -> String {
     let mut text = format!(
         "# Results of the blind benchmark\n\n{} cases, by\n\n```\n{command}\n```\n\n{}\n{}\n## Not as it should be\n\n\

@@ -134,16 +134,20 @@ fn without_cause(report: &Report) -> String {
     if report.verdict == "no_effect" { "-".into() } else { report.verdict.clone() }
 }
 
+/// Whether a place is the one that the effect's number needs besides: a sensor's faults need their signal, and a
+/// constant force in the plant has the number of a sensor's offset. Other numbers are places themselves.
+fn fits(effect: &Present, place: &str) -> bool {
+    match (effect.place, number(&effect.id)) {
+        (Place::Sensor, _) => place == effect.signal,
+        (_, "33") => place.starts_with("guide"),
+        _ => true,
+    }
+}
+
 fn is_named(effect: &Present, named: &Named) -> bool {
-    // Of a place in the plant a constant force has the number of a sensor's offset.
-    let at_place = if effect.signal.is_empty() {
-        named.id != "33" || named.element.starts_with("guide")
-    } else {
-        named.element == effect.signal
-    };
     // The laws of actuators' own share a number, with a letter each.
     let of_family = number(&effect.id) == "32" && number(&named.id) == "32";
-    (named.id == number(&effect.id) || of_family) && at_place
+    (named.id == number(&effect.id) || of_family) && fits(effect, &named.element)
 }
 
 /// Whether the report says so in another way than by an effect: the tyre's damping, the valve's gain and the
@@ -164,7 +168,7 @@ fn is_known_otherwise(effect: &Present, report: &Report) -> bool {
 /// Whether `text`, a number with perhaps a place, is the effect.
 fn is_meant(effect: &Present, text: &str) -> bool {
     let words: Vec<&str> = text.split(|c: char| c.is_whitespace() || "()@,:".contains(c)).collect();
-    let at_place = effect.signal.is_empty() || words.len() < 2 || words.contains(&effect.signal.as_str());
+    let at_place = words.len() < 2 || words.iter().any(|word| fits(effect, word));
     words.first() == Some(&number(&effect.id)) && at_place
 }
 

@@ -16,7 +16,8 @@ pub struct Sensor {
     pub skew: f64,
     /// How much later its samples are taken than their number says, as a share of the time.
     pub rate_error: f64,
-    /// Mass between cell and tyre in kg, of a force cell in the wheel: it shows the tyre's force less what that mass takes.
+    /// Mass between cell and tyre in kg, of a force cell in the wheel: it shows the tyre's force less what that
+    /// mass takes.
     pub moved_mass: f64,
     /// Shown over true.
     pub gain: f64,

@@ -219,6 +219,8 @@ fn a_constant_load_is_no_offset_of_a_sensor() {
     let load = ("33g", Place::Guide, "");
     assert_eq!(came_out(&[load], &named(&[("33", "guide", &[])])), Outcome::Correct);
     assert_eq!(came_out(&[load], &named(&[("33", "position", &[])])), Outcome::WrongName);
+    assert_eq!(came_out(&[load], &named(&[("33", "position", &["33 force"])])), Outcome::WrongName);
+    assert_eq!(came_out(&[load], &named(&[("33", "force", &["33 guide"])])), Outcome::OneOfTwo);
     let place = |element: &str| {
         let mut truth = truth(&[("33", Place::Sensor, "position")]);
         truth.case.plant = Plant::LinearDrive;
