@@ -1,7 +1,10 @@
 //! The quarter vehicle on its rig, integrated at 20 kHz.
 
+use std::f64::consts::TAU;
+
 use crate::excitation::Profile;
 use crate::friction::{Contact, settle};
+use crate::servo::Servo;
 use crate::strut::{Inner, Strut};
 
 /// Steps per second of all plants.
@@ -29,10 +32,35 @@ pub struct Car {
     pub tire_quadratic: f64,
     /// Tyre, in N s/m.
     pub tire_damping: f64,
+    /// Time constant in s with which the tyre smooths the road; zero is none.
+    pub enveloping: f64,
+    /// A mass that swings on the body.
+    pub frame: Option<Frame>,
     /// Dry friction.
     pub contacts: Vec<Contact>,
-    /// Actuator.
+    /// Actuator whose force is commanded.
     pub actuator: Actuator,
+    /// A servo valve and its cylinder instead: the command is a voltage.
+    pub servo: Option<Servo>,
+}
+
+/// A mode of the frame: a mass on a spring and a damper on the body, beside the sprung mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// In kg.
+    pub mass: f64,
+    /// Of the mass on the body held fast, in Hz.
+    pub frequency: f64,
+    /// Damping over the critical one.
+    pub damping_ratio: f64,
+}
+
+impl Frame {
+    /// The acceleration of its mass that is `y` m above its place on the body and rises over it by `rate` m/s.
+    fn acceleration(&self, y: f64, rate: f64) -> f64 {
+        let omega = TAU * self.frequency;
+        -omega * (omega * y + 2.0 * self.damping_ratio * rate)
+    }
 }
 
 /// From the commanded force to the one that acts.
@@ -44,11 +72,20 @@ pub struct Actuator {
     pub lag: f64,
     /// Force for a commanded newton.
     pub gain: f64,
+    /// Largest force to each side, in N.
+    pub limit: f64,
+}
+
+impl Actuator {
+    /// The force that it makes of a command in N, before its lag.
+    fn made_of(&self, command: f64) -> f64 {
+        (self.gain * command).clamp(-self.limit, self.limit)
+    }
 }
 
 impl Default for Actuator {
     fn default() -> Self {
-        Self { delay: 0.0, lag: 0.0, gain: 1.0 }
+        Self { delay: 0.0, lag: 0.0, gain: 1.0, limit: f64::INFINITY }
     }
 }
 
@@ -59,7 +96,7 @@ pub struct Motion {
     pub road: Vec<f64>,
     /// In m/s.
     pub road_velocity: Vec<f64>,
-    /// Commanded, in N.
+    /// The command: a force in N, or a voltage in V.
     pub command: Vec<f64>,
     /// In m.
     pub body: Vec<f64>,
@@ -75,10 +112,13 @@ pub struct Motion {
     pub wheel_acceleration: Vec<f64>,
     /// Dynamic, in N.
     pub tire_force: Vec<f64>,
+    /// Difference of the cylinder's chambers, in Pa.
+    pub pressure: Vec<f64>,
 }
 
-/// Positions and velocities of body and wheel, hidden states of the strut, force of the actuator.
-type State = [f64; 9];
+/// Positions and velocities of body and wheel, hidden states of the strut, force of the actuator; position and
+/// velocity of the frame's mass, the road as the tyre smooths it, the cylinder's pressure, the valve's spool.
+type State = [f64; 14];
 
 /// What acts from outside at one instant.
 #[derive(Clone, Copy)]
@@ -90,9 +130,15 @@ struct Outside<'a> {
 }
 
 impl Car {
+    /// What presses on the road at rest, in N.
+    pub fn load(&self) -> f64 {
+        let frame = self.frame.map_or(0.0, |frame| frame.mass);
+        (self.sprung_mass + self.unsprung_mass + frame) * GRAVITY
+    }
+
     /// Dynamic force that presses on the road; the tyre cannot pull.
     fn tire_force(&self, compression: f64, velocity: f64) -> f64 {
-        let load = (self.sprung_mass + self.unsprung_mass) * GRAVITY;
+        let load = self.load();
         // Beyond its vertex the parabola turns up again: there the tyre is long in the air.
         let turned =
             self.tire_quadratic > 0.0 && compression < -self.tire_stiffness / (2.0 * self.tire_quadratic);
@@ -104,29 +150,49 @@ impl Car {
     }
 
     fn rates(&self, state: &State, outside: Outside<'_>) -> (State, f64) {
-        let [body, body_velocity, wheel, wheel_velocity, a, b, c, d, lagged] = *state;
+        let [body, body_velocity, wheel, wheel_velocity, a, b, c, d, lagged, ..] = *state;
+        let [.., frame, frame_velocity, smoothed, pressure, spool] = *state;
         let inner: Inner = [a, b, c, d];
         let (x, v) = (body - wheel, body_velocity - wheel_velocity);
         // The lever turns deflection into the strut's own length, and its force back (virtual work).
         let lever = 1.0 + self.strut.linkage * x;
         let length = x * (1.0 + 0.5 * self.strut.linkage * x);
         let (passive, inner_rates) = self.strut.force(outside.time, length, lever * v, &inner);
-        let (active, lag_rate) = if self.actuator.lag > 0.0 {
-            (lagged, (self.actuator.gain * outside.command - lagged) / self.actuator.lag)
-        } else {
-            (self.actuator.gain * outside.command, 0.0)
-        };
+        let made = self.actuator.made_of(outside.command);
+        let (mut active, lag_rate) =
+            if self.actuator.lag > 0.0 { (lagged, (made - lagged) / self.actuator.lag) } else { (made, 0.0) };
+        let (mut pressure_rate, mut spool_rate) = (0.0, 0.0);
+        if let Some(servo) = &self.servo {
+            active = servo.area * pressure;
+            (pressure_rate, spool_rate) = servo.rates(pressure, spool, outside.command, lever * v);
+        }
         let pulling = lever * (passive - active);
-        let tire = self.tire_force(outside.road.0 - wheel, outside.road.1 - wheel_velocity);
+        let (ground, smoothed_rate) = if self.enveloping > 0.0 {
+            let rate = (outside.road.0 - smoothed) / self.enveloping;
+            ((smoothed, rate), rate)
+        } else {
+            (outside.road, 0.0)
+        };
+        let tire = self.tire_force(ground.0 - wheel, ground.1 - wheel_velocity);
         let mut on_body = -pulling - self.guide_damping * body_velocity;
         let mut on_wheel = pulling + tire - self.wheel_guide_damping * wheel_velocity;
+        let frame_rate = self.frame.map_or(0.0, |it| {
+            let rate = it.acceleration(frame - body, frame_velocity - body_velocity);
+            on_body -= it.mass * rate;
+            rate
+        });
         for (contact, force) in self.contacts.iter().zip(outside.friction) {
             on_body -= contact.along[0] * force;
             on_wheel -= contact.along[1] * force;
         }
         let [ra, rb, rc, rd] = inner_rates;
         let (body_rate, wheel_rate) = (on_body / self.sprung_mass, on_wheel / self.unsprung_mass);
-        ([body_velocity, body_rate, wheel_velocity, wheel_rate, ra, rb, rc, rd, lag_rate], tire)
+        let car = [body_velocity, body_rate, wheel_velocity, wheel_rate, ra, rb, rc, rd, lag_rate];
+        let further = [frame_velocity, frame_rate, smoothed_rate, pressure_rate, spool_rate];
+        let mut rates = [0.0; 14];
+        rates[..9].copy_from_slice(&car);
+        rates[9..].copy_from_slice(&further);
+        (rates, tire)
     }
 
     /// Runs for `duration` seconds from `start`: positions and velocities of body and wheel.
@@ -134,8 +200,10 @@ impl Car {
         let step = 1.0 / RATE;
         let masses = [self.sprung_mass, self.unsprung_mass];
         let count = (duration * RATE).round() as usize + 1;
-        let mut state: State = [0.0; 9];
+        let mut state: State = [0.0; 14];
         state[..4].copy_from_slice(&start);
+        // The frame's mass moves with the body.
+        state[9..11].copy_from_slice(&start[..2]);
         let mut friction = vec![0.0; self.contacts.len()];
         let mut motion = Motion::default();
         let mut now = road.at(0.0);
@@ -193,6 +261,7 @@ impl Motion {
         self.wheel_velocity.push(state[3]);
         self.wheel_acceleration.push(rates[3]);
         self.tire_force.push(tire);
+        self.pressure.push(state[12]);
     }
 }
 

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde::{Deserialize, Serialize};
 
-use crate::catalogue::Place;
+use crate::catalogue::{Place, RATE_ERROR};
 
 /// A rig.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -17,6 +17,31 @@ pub enum Plant {
     PublishedQuarter,
     /// Its strut alone: moved at one end, the force measured.
     StrutDyno,
+    /// A quarter vehicle with a cylinder and a servo valve, driven by a voltage (Konieczny).
+    ServoQuarter,
+    /// A damper of those whose friction a coil changes, on a dyno as the strut.
+    MrDyno,
+    /// A carriage whose motor follows a position in closed loop; the motor's force is measured.
+    LinearDrive,
+}
+
+impl Plant {
+    /// Whether it is a body and a wheel on a road.
+    pub fn is_car(self) -> bool {
+        matches!(self, Self::LinearQuarter | Self::PublishedQuarter | Self::ServoQuarter)
+    }
+
+    /// As the page of results calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::LinearQuarter => "quarter car, linear",
+            Self::PublishedQuarter => "quarter car, published",
+            Self::StrutDyno => "strut on a dyno",
+            Self::ServoQuarter => "quarter car with a servo valve",
+            Self::MrDyno => "magnetorheological damper on a dyno",
+            Self::LinearDrive => "linear drive in closed loop",
+        }
+    }
 }
 
 /// An effect to hide.
@@ -102,6 +127,51 @@ impl Case {
             road_velocity: false,
             seed,
         }
+    }
+}
+
+impl Case {
+    /// Samples in each record.
+    pub fn samples(&self) -> usize {
+        (self.duration * self.rate).round() as usize + 1
+    }
+
+    /// How long the rig must run, in s: a sensor whose clock is slow sees more than the record's duration.
+    pub fn reach(&self) -> f64 {
+        let slow = self.effects.iter().any(|hidden| hidden.id == "40");
+        if slow { self.duration * (1.0 + 2.0 * RATE_ERROR) } else { self.duration }
+    }
+
+    /// In which it differs from [`Case::standard`], except for rig and effects: `30 dB, 100 Hz`, say.
+    pub fn condition(&self) -> String {
+        let mut parts = vec![];
+        match self.noise_db {
+            Some(40.0) => {}
+            Some(noise) => parts.push(format!("noise {noise} dB below")),
+            None => parts.push("no noise".into()),
+        }
+        if self.rate != 1000.0 {
+            parts.push(format!("{} Hz", self.rate));
+        }
+        if self.clutter != 1 {
+            parts.push(format!("clutter {}", self.clutter));
+        }
+        if self.nominal_off != 0.03 {
+            parts.push(format!("parameters {:.0} % off", 100.0 * self.nominal_off));
+        }
+        match self.sensors {
+            Sensors::Full => {}
+            Sensors::NoForceCell => parts.push("no force cell".into()),
+            Sensors::Poor => parts.push("body acceleration and deflection only".into()),
+        }
+        if self.ratio > 0.0 && self.ratio != 3.0 {
+            parts.push(format!("ratio to the clutter {}", self.ratio));
+        }
+        if self.ratio == 0.0 {
+            let sizes = self.effects.iter().map(|hidden| hidden.size.to_string());
+            parts.push(format!("size {}", sizes.collect::<Vec<_>>().join(" and ")));
+        }
+        if parts.is_empty() { "standard".into() } else { parts.join(", ") }
     }
 }
 

@@ -14,6 +14,15 @@ const PARTS: [&str; 21] = [
     "21", "23", "24", "25",
 ];
 
+/// Further effects of the quarter car's parts: frame, road and force as they act.
+const FURTHER: [&str; 3] = ["18", "22", "26"];
+
+/// Effects of a quarter car with a servo valve.
+const WITH_VALVE: [&str; 4] = ["01", "28", "29", "30"];
+
+/// Effects of a linear drive.
+const OF_DRIVE: [&str; 4] = ["02g", "16", "27", "33g"];
+
 /// Effects of a strut on a dyno.
 const ON_DYNO: [&str; 9] = ["01", "03", "04", "05", "06", "07", "08", "09", "32"];
 
@@ -60,7 +69,7 @@ pub fn full(seeds: Range<u64>) -> Vec<Case> {
 
 fn full_of(seed: u64) -> Vec<Case> {
     let mut all = vec![];
-    for id in PARTS {
+    for id in PARTS.into_iter().chain(FURTHER) {
         all.push(standard(format!("single-{id}-{seed}"), vec![Hidden::new(id)], seed));
         let published = ["01", "02", "04", "16", "19"].contains(&id);
         if !published {
@@ -69,11 +78,13 @@ fn full_of(seed: u64) -> Vec<Case> {
         }
     }
     all.push(standard(format!("single-20-{seed}"), vec![Hidden::new("20")], seed));
-    for id in ["33", "34", "35", "36", "37", "38", "38d"] {
+    for id in ["33", "34", "35", "36", "37", "38", "38d", "40"] {
         for signal in SIGNALS {
             all.push(standard(format!("sensor-{id}-{signal}-{seed}"), vec![Hidden::at(id, signal)], seed));
         }
     }
+    let cell = vec![Hidden::at("41", "wheel.force")];
+    all.push(standard(format!("sensor-41-wheel.force-{seed}"), cell, seed));
     all.push(standard(format!("sensor-42-{seed}"), vec![Hidden::at("42", "road.position")], seed));
     for id in ["U1", "U2", "U3", "U4"] {
         all.push(standard(format!("unnamed-{id}-{seed}"), vec![Hidden::new(id)], seed));
@@ -99,7 +110,39 @@ fn full_of(seed: u64) -> Vec<Case> {
     let offset = standard(format!("dyno-33-{seed}"), vec![Hidden::at("33", "force")], seed);
     all.push(Case { plant: Plant::StrutDyno, ..offset });
     all.push(Case { plant: Plant::StrutDyno, ..standard(format!("dyno-none-{seed}"), vec![], seed) });
+    other_rigs(seed, &mut all);
     all
+}
+
+/// Rigs beside TUM's.
+fn other_rigs(seed: u64, all: &mut Vec<Case>) {
+    for id in [&["none"][..], &WITH_VALVE].concat() {
+        let case = standard(format!("servo-{id}-{seed}"), hidden(id), seed);
+        all.push(Case { plant: Plant::ServoQuarter, ..case });
+    }
+    // A scale tells positions more finely than an accelerometer accelerations.
+    for id in [&["none"][..], &OF_DRIVE].concat() {
+        let case = standard(format!("drive-{id}-{seed}"), hidden(id), seed);
+        all.push(Case { plant: Plant::LinearDrive, noise_db: Some(60.0), ..case });
+    }
+    // A damper without a spring to speak of makes force of the motion's noise, so that the scale must be as fine here.
+    let yielding = Hidden::new("32h");
+    let offset = Hidden::at("33", "force");
+    for (name, effects) in [
+        ("none", vec![]),
+        ("01", vec![Hidden::new("01")]),
+        ("32", vec![yielding.clone()]),
+        ("33", vec![offset.clone()]),
+        ("32-33", vec![yielding, offset]),
+    ] {
+        let case = standard(format!("mr-{name}-{seed}"), effects, seed);
+        all.push(Case { plant: Plant::MrDyno, noise_db: Some(60.0), ..case });
+    }
+}
+
+/// The effect of that number, or nothing.
+fn hidden(id: &str) -> Vec<Hidden> {
+    if id == "none" { vec![] } else { vec![Hidden::new(id)] }
 }
 
 /// One condition at a time made worse, or better, for a few effects.
@@ -137,6 +180,9 @@ mod tests {
     use std::collections::HashSet;
 
     use super::*;
+    use crate::catalogue::{Entry, Place};
+    use crate::random::Random;
+    use crate::rig::{Rig, start};
 
     #[test]
     fn every_case_has_its_own_name() {
@@ -147,12 +193,24 @@ mod tests {
     }
 
     #[test]
-    fn every_effect_of_a_case_exists() {
+    fn every_effect_of_a_case_exists_and_fits_into_its_rig() {
         for case in compact().iter().chain(&full(1000..1001)) {
             for hidden in &case.effects {
-                let entry = crate::catalogue::Entry::find(&hidden.id).unwrap();
-                assert_eq!(entry.place == crate::catalogue::Place::Sensor, !hidden.signal.is_empty());
+                let entry = Entry::find(&hidden.id).unwrap();
+                assert_eq!(entry.place == Place::Sensor, !hidden.signal.is_empty());
+                let mut rig = Rig::new(case.plant, &start(case.plant));
+                let values = entry.draw(&mut Random::new(case.seed, "test"));
+                rig.put_in(entry, &values, &hidden.signal).unwrap();
             }
         }
+    }
+
+    /// The list that runs each time is not to change under whoever compares two versions with it.
+    #[test]
+    fn the_compact_list_is_what_it_was() {
+        let names: Vec<String> =
+            compact().into_iter().map(|case| format!("{}/{}", case.name, case.seed)).collect();
+        assert_eq!(names.len(), 21);
+        assert_eq!([&names[0], &names[20]], ["single-01/1", "mismatch/26"]);
     }
 }

@@ -96,7 +96,18 @@ pub fn multisine(random: &mut Random, duration: f64, slope: f64, peak: f64) -> P
 
 /// A random binary sequence: every `clock` seconds it may change its sign, within 4 ms.
 pub fn prbs(random: &mut Random, duration: f64, clock: f64, size: f64) -> Profile {
-    let levels: Vec<f64> = (0..=(duration / clock) as usize + 1).map(|_| random.sign() * size).collect();
+    let levels = (0..=(duration / clock) as usize + 1).map(|_| random.sign() * size);
+    held(duration, clock, &levels.collect::<Vec<_>>())
+}
+
+/// A random level between `-size` and `size` every `clock` seconds, reached within 4 ms.
+pub fn steps(random: &mut Random, duration: f64, clock: f64, size: f64) -> Profile {
+    let levels = (0..=(duration / clock) as usize + 1).map(|_| random.between(-size, size));
+    held(duration, clock, &levels.collect::<Vec<_>>())
+}
+
+/// Each level for `clock` seconds, reached within 4 ms.
+fn held(duration: f64, clock: f64, levels: &[f64]) -> Profile {
     Profile::new(duration, |t| {
         let tick = (t / clock) as usize;
         let edge = ((t - tick as f64 * clock) / 4e-3).min(1.0);
@@ -164,6 +175,7 @@ mod tests {
         let all = [
             multisine(&mut random, 4.0, 1.0, 0.006),
             prbs(&mut random, 4.0, 0.02, 150.0),
+            steps(&mut random, 4.0, 0.02, 150.0),
             bumps(&mut random, 4.0, 0.008),
             road(&mut random, 4.0, 0.006),
             sweep(4.0, 1.0, 0.006),

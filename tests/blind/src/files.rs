@@ -32,17 +32,22 @@ pub fn write(made: &Generated, below: &Path) -> Result<PathBuf, String> {
 
 /// The parameter set that the model starts with, in the form of the project's own.
 fn start(made: &Generated) -> String {
-    let (fmu, model, choice) = match made.truth.case.plant {
+    let element = "element = { value = \"Strut\", source = \"start\" }\n";
+    let (fmu, model, source, choice) = match made.truth.case.plant {
         // That the tyre cannot pull is for the diagnosis to find out.
-        Plant::LinearQuarter | Plant::PublishedQuarter => {
-            ("BlindQuarterVehicle", "QuarterCar", "tire.lift_off = { value = false, source = \"start\" }")
-        }
-        Plant::StrutDyno => {
-            ("BlindStrutDyno", "ElementDyno", "element = { value = \"Strut\", source = \"start\" }")
-        }
+        Plant::LinearQuarter | Plant::PublishedQuarter => (
+            "BlindQuarterVehicle",
+            "QuarterCar",
+            "TUM",
+            "tire.lift_off = { value = false, source = \"start\" }\n",
+        ),
+        Plant::StrutDyno => ("BlindStrutDyno", "ElementDyno", "TUM", element),
+        Plant::MrDyno => ("BlindMrDyno", "ElementDyno", "start", element),
+        Plant::ServoQuarter => ("BlindServoSuspension", "ServoSuspension", "Konieczny", ""),
+        Plant::LinearDrive => ("BlindLinearDrive", "LinearDrive", "start", ""),
     };
     let mut text = format!(
-        "fmu = \"{fmu}\"\nmodel = \"{model}\"\ntitle = \"What is known of the rig\"\nsource = \"TUM\"\n\n[values]\n{choice}\n"
+        "fmu = \"{fmu}\"\nmodel = \"{model}\"\ntitle = \"What is known of the rig\"\nsource = \"{source}\"\n\n[values]\n{choice}"
     );
     for value in &made.start {
         writeln!(

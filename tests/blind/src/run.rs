@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::case::Case;
-use crate::score::{Outcome, Score, markdown};
+use crate::score::{Outcome, Score, breakdown, markdown};
 use crate::{files, generate};
 
 /// What is run on which cases.
@@ -58,13 +58,15 @@ fn records(data: &Path, kind: &str) -> Result<Vec<PathBuf>, String> {
     Ok(paths)
 }
 
-/// The page: figures, confusion matrix, and every case that did not come out as it should.
+/// The page: figures, confusion matrix, figures by condition and plant, and every case that did not come out as it
+/// should.
 pub fn page(command: &str, scores: &[Score]) -> String {
     let mut text = format!(
-        "# Results of the blind benchmark\n\n{} cases, by\n\n```\n{command}\n```\n\n{}\n## Not as it should be\n\n\
+        "# Results of the blind benchmark\n\n{} cases, by\n\n```\n{command}\n```\n\n{}\n{}\n## Not as it should be\n\n\
          | case | outcome | there | called first |\n|---|---|---|---|\n",
         scores.len(),
-        markdown(scores)
+        markdown(scores),
+        breakdown(scores)
     );
     for it in scores.iter().filter(|it| !matches!(it.outcome, Outcome::Correct | Outcome::OneOfTwo)) {
         let asked = it.out_of_catalogue && it.outcome == Outcome::Unnamed && it.location_right == Some(true);

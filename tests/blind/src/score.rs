@@ -1,13 +1,18 @@
 //! What a diagnosis made of a case.
 
+mod breakdown;
 mod report;
+mod spot;
 mod table;
 #[cfg(test)]
 mod tests;
 
-use crate::case::{Present, Truth, Value};
-use crate::catalogue::Place;
+use crate::case::{Plant, Present, Truth, Value};
+use crate::catalogue::{Place, number};
 
+use spot::Spot;
+
+pub use breakdown::breakdown;
 pub use report::{Fitted, Interval, Named, Problem, Report, Signal, Unnamed};
 pub use table::{confusion, markdown, wilson};
 
@@ -39,6 +44,10 @@ pub enum Outcome {
 pub struct Score {
     /// The case.
     pub case: String,
+    /// The rig.
+    pub plant: Plant,
+    /// See [`Case::condition`](crate::Case::condition).
+    pub condition: String,
     /// What is there: `01`, `01+08`, `34 wheel.force`, `-`.
     pub truth: String,
     /// What comes first in the report, in the same form.
@@ -64,7 +73,7 @@ pub struct Score {
     /// How many of the base parameters' cover it, where all that is there is named.
     pub base_covered: (usize, usize),
     /// The rise of Φ on the held-out data, summed over the signals, and that of an oracle which knows parameters and
-    /// effects; none if there are no effects with a name.
+    /// effects; none if there are no effects with a name, or no oracle.
     pub gained: Option<(f64, f64)>,
     /// How long the diagnosis took.
     pub seconds: f64,
@@ -79,18 +88,18 @@ pub fn score(truth: &Truth, report: &str) -> Result<Score, String> {
         .map_err(|error| format!("case {}: report.json is not a report: {error}", truth.case.name))?;
     let effects = &truth.effects;
     let out_of_catalogue = effects.iter().any(|effect| effect.id.starts_with('U'));
-    let first = first_cause(&report);
-    let first_place = report.effects.first().map(|named| named.element.as_str());
-    let first_place = first_place.or(report.unnamed.as_ref().map(|unnamed| unnamed.location.as_str()));
+    let first = Spot::of(&report, truth);
     let outcome = outcome(&report, effects);
-    let found = first_place.filter(|_| !effects.is_empty());
+    let found = first.as_ref().filter(|_| !effects.is_empty());
     let sensors: Vec<bool> = effects.iter().map(|effect| effect.place == Place::Sensor).collect();
-    let said_sensor = report.verdict == "sensor_fault" || first_place.is_some_and(is_signal);
+    let said_sensor = report.verdict == "sensor_fault" || first.as_ref().is_some_and(Spot::is_sensor);
     let variable = report.unnamed.as_ref().filter(|_| out_of_catalogue).map(|unnamed| &unnamed.variable);
     Ok(Score {
         case: truth.case.name.clone(),
+        plant: truth.case.plant,
+        condition: truth.case.condition(),
         truth: if effects.is_empty() { "-".into() } else { joined(effects) },
-        first,
+        first: first.as_ref().map_or_else(|| without_cause(&report), Spot::label),
         outcome,
         effects: effects.len(),
         out_of_catalogue,
@@ -100,12 +109,13 @@ pub fn score(truth: &Truth, report: &str) -> Result<Score, String> {
             report.effects.first().is_some_and(right)
                 || effects.iter().any(|e| is_known_otherwise(e, &report))
         }),
-        location_right: found.map(|place| effects.iter().any(|effect| is_at(effect, place))),
+        location_right: found.map(|spot| effects.iter().any(|effect| spot.is_of(effect))),
         variable_right: variable.map(|name| effects.iter().any(|effect| effect.variable == *name)),
         sensor_or_plant: found.map(|_| sensors.contains(&said_sensor)),
         covered: coverage(&report, effects),
         base_covered: if outcome == Outcome::Correct { base_coverage(&report, truth) } else { (0, 0) },
-        gained: (!effects.is_empty() && !out_of_catalogue).then(|| gained(&report, truth)),
+        gained: (!effects.is_empty() && !out_of_catalogue && !truth.oracle.is_empty())
+            .then(|| gained(&report, truth)),
         seconds: report.seconds,
     })
 }
@@ -119,40 +129,37 @@ fn joined(effects: &[Present]) -> String {
     effects.iter().map(label).collect::<Vec<_>>().join("+")
 }
 
-/// The catalogue's number: dropouts and saturation share one.
-fn number(id: &str) -> &str {
-    if id == "38d" { "38" } else { id }
+/// What a report says that has neither a named nor an unnamed cause.
+fn without_cause(report: &Report) -> String {
+    if report.verdict == "no_effect" { "-".into() } else { report.verdict.clone() }
 }
 
-fn is_signal(place: &str) -> bool {
-    place.contains('.')
-}
-
-fn first_cause(report: &Report) -> String {
-    match (report.effects.first(), &report.unnamed) {
-        (Some(named), _) if is_signal(&named.element) => format!("{} {}", named.id, named.element),
-        (Some(named), _) => named.id.clone(),
-        (None, Some(unnamed)) => format!("unnamed {}", unnamed.location),
-        (None, None) if report.verdict == "no_effect" => "-".into(),
-        (None, None) => report.verdict.clone(),
+/// Whether a place is the one that the effect's number needs besides: a sensor's faults need their signal, and a
+/// constant force in the plant has the number of a sensor's offset. Other numbers are places themselves.
+fn fits(effect: &Present, place: &str) -> bool {
+    match (effect.place, number(&effect.id)) {
+        (Place::Sensor, _) => place == effect.signal,
+        (_, "33") => place.starts_with("guide"),
+        _ => true,
     }
 }
 
 fn is_named(effect: &Present, named: &Named) -> bool {
-    let at_place = effect.signal.is_empty() || named.element == effect.signal;
     // The laws of actuators' own share a number, with a letter each.
-    let of_family = effect.id == "32" && named.id.trim_end_matches(|c: char| c.is_ascii_lowercase()) == "32";
-    (named.id == number(&effect.id) || of_family) && at_place
+    let of_family = number(&effect.id) == "32" && number(&named.id) == "32";
+    (named.id == number(&effect.id) || of_family) && fits(effect, &named.element)
 }
 
-/// Whether the report says so in another way than by an effect: the tyre's damping is a parameter of the model,
-/// and steps, flat tops and holes in a signal are found before any model is fitted.
+/// Whether the report says so in another way than by an effect: the tyre's damping, the valve's gain and the
+/// cylinder's leakage are parameters of the model, and steps, flat tops and holes in a signal are found before any model is fitted.
 fn is_known_otherwise(effect: &Present, report: &Report) -> bool {
+    let another = |name: &str| {
+        report.base_parameters.iter().any(|fitted| fitted.interval.name == name && fitted.mismatch)
+    };
     match number(&effect.id) {
-        "21" => report
-            .base_parameters
-            .iter()
-            .any(|fitted| fitted.interval.name == "tire.damping" && fitted.mismatch),
+        "21" => another("tire.damping"),
+        "29" => another("actuator.spool.gain"),
+        "30" => another("actuator.cylinder.leakage"),
         "37" | "38" => report.data_problems.iter().any(|problem| problem.signal == effect.signal),
         _ => false,
     }
@@ -161,19 +168,8 @@ fn is_known_otherwise(effect: &Present, report: &Report) -> bool {
 /// Whether `text`, a number with perhaps a place, is the effect.
 fn is_meant(effect: &Present, text: &str) -> bool {
     let words: Vec<&str> = text.split(|c: char| c.is_whitespace() || "()@,:".contains(c)).collect();
-    let at_place = effect.signal.is_empty() || words.len() < 2 || words.contains(&effect.signal.as_str());
+    let at_place = words.len() < 2 || words.iter().any(|word| fits(effect, word));
     words.first() == Some(&number(&effect.id)) && at_place
-}
-
-fn is_at(effect: &Present, place: &str) -> bool {
-    match effect.place {
-        Place::Strut => place.starts_with("strut"),
-        Place::Guide => place.starts_with("guide") || place == "body_guide",
-        Place::WheelGuide => place.starts_with("wheel_guide"),
-        Place::Tire => place.starts_with("tire"),
-        Place::Actuator => place.starts_with("actuator") && !is_signal(place),
-        Place::Sensor => place == effect.signal,
-    }
 }
 
 fn outcome(report: &Report, effects: &[Present]) -> Outcome {

@@ -14,6 +14,11 @@ pub struct Sensor {
     pub bandwidth: f64,
     /// Time by which the signal comes late, in s; exact, and negative if the others are late.
     pub skew: f64,
+    /// How much later its samples are taken than their number says, as a share of the time.
+    pub rate_error: f64,
+    /// Mass between cell and tyre in kg, of a force cell in the wheel: it shows the tyre's force less what that
+    /// mass takes.
+    pub moved_mass: f64,
     /// Shown over true.
     pub gain: f64,
     /// In the signal's unit.
@@ -36,6 +41,8 @@ impl Default for Sensor {
             lag: 0.0,
             bandwidth: 0.0,
             skew: 0.0,
+            rate_error: 0.0,
+            moved_mass: 0.0,
             gain: 1.0,
             offset: 0.0,
             drift: 0.0,
@@ -51,7 +58,7 @@ impl Sensor {
     /// The samples that it shows of `signal`, which has [`RATE`] samples a second, at `rate` a second.
     pub fn measure(&self, signal: &[f64], rate: f64, random: &mut Random) -> Vec<f64> {
         let slow = delayed(&lagged(&lagged(signal, self.lag), self.bandwidth), self.skew);
-        let mut shown = decimated(&slow, rate);
+        let mut shown = decimated(&stretched(&slow, self.rate_error), rate);
         for (k, value) in shown.iter_mut().enumerate() {
             let drifted = self.offset + self.drift * k as f64 / rate;
             // Noise is drawn even if it is nothing, so that the rest of the stream stays where it is.
@@ -101,11 +108,21 @@ fn delayed(signal: &[f64], delay: f64) -> Vec<f64> {
     if delay == 0.0 {
         return signal.to_vec();
     }
+    taken_at(signal, |k| k - delay * RATE)
+}
+
+/// As a clock shows it that is slow by a share `error`: its samples are taken at (1 + error) t.
+fn stretched(signal: &[f64], error: f64) -> Vec<f64> {
+    if error == 0.0 { signal.to_vec() } else { taken_at(signal, |k| k * (1.0 + error)) }
+}
+
+/// Samples at other places, straight lines between those that are there.
+fn taken_at(signal: &[f64], place: impl Fn(f64) -> f64) -> Vec<f64> {
     let last = signal.len() - 1;
     let at = |k: f64| signal[(k.max(0.0) as usize).min(last)];
     (0..signal.len())
         .map(|k| {
-            let place = k as f64 - delay * RATE;
+            let place = place(k as f64);
             let share = place - place.floor();
             at(place.floor()) * (1.0 - share) + at(place.floor() + 1.0) * share
         })
@@ -190,6 +207,18 @@ mod tests {
         let (first, second) = (shown(&plain, &sine(7.0, 1.0)), shown(&late, &sine(7.0, 1.0)));
         for k in 100..900 {
             assert!((second[k] - first[k - 5]).abs() < 1e-12);
+        }
+    }
+
+    /// With half a percent the samples of the second at 4 s are those of 4.02 s.
+    #[test]
+    fn a_wrong_clock_is_wrong_by_its_share_of_the_time() {
+        for error in [0.005, -0.005] {
+            let seen = shown(&Sensor { rate_error: error, ..Sensor::default() }, &sine(5.0, 5.0));
+            for (k, seen) in seen.iter().enumerate().take(4500).skip(100) {
+                let truth = (TAU * 5.0 * (1.0 + error) * k as f64 / 1000.0).sin();
+                assert!((seen - truth).abs() < 1e-4, "{seen} for {truth} at {k}");
+            }
         }
     }
 

@@ -115,3 +115,91 @@ fn a_tyre_does_not_pull() {
     let least = motion.tire_force.iter().fold(0.0_f64, |least, f| least.min(*f));
     assert_eq!(least, -load);
 }
+
+/// Amplitude and phase of a signal at a frequency over its last whole periods, as real and imaginary part.
+fn line(signal: &[f64], frequency: f64, periods: f64) -> (f64, f64) {
+    let count = (periods / frequency * RATE).round() as usize;
+    let first = signal.len() - count;
+    (first..signal.len()).fold((0.0, 0.0), |sum, k| {
+        let (sine, cosine) = (TAU * frequency * k as f64 / RATE).sin_cos();
+        (sum.0 + 2.0 * signal[k] * cosine / count as f64, sum.1 - 2.0 * signal[k] * sine / count as f64)
+    })
+}
+
+/// Below its frequency the frame's mass makes the body heavier, above it lighter: m ω₀(ω₀ + 2iζω)/(ω₀² − ω² + 2iζω₀ω).
+#[test]
+fn the_frame_adds_its_apparent_mass_to_the_body() {
+    let frame = Frame { mass: 8.0, frequency: 40.0, damping_ratio: 0.05 };
+    let car = Car { frame: Some(frame), ..linear() };
+    for frequency in [1.0, 20.0, 38.0, 50.0] {
+        let road = Profile::new(6.0, |t| 0.5e-3 * (TAU * frequency * t).sin());
+        let motion = car.run(&road, &Profile::still(), 6.0, [0.0; 4]);
+        // What the road does to body and wheel together, less the wheel's own share.
+        let rest = |k: usize| motion.tire_force[k] - 23.92 * motion.wheel_acceleration[k];
+        let force: Vec<f64> = (0..motion.body.len()).map(rest).collect();
+        let (force, motion) =
+            (line(&force, frequency, frequency), line(&motion.body_acceleration, frequency, frequency));
+        let size = motion.0.powi(2) + motion.1.powi(2);
+        let mass = (
+            (force.0 * motion.0 + force.1 * motion.1) / size,
+            (force.1 * motion.0 - force.0 * motion.1) / size,
+        );
+        let ratio = frequency / 40.0;
+        let (real, imaginary) = (1.0 - ratio * ratio, 0.1 * ratio);
+        let below = real * real + imaginary * imaginary;
+        let told =
+            (94.38 + 8.0 * (real + imaginary * imaginary) / below, 8.0 * imaginary * (real - 1.0) / below);
+        let apart = (mass.0 - told.0).hypot(mass.1 - told.1);
+        assert!(apart < 0.01, "{frequency} Hz: {mass:?} kg for {told:?} kg");
+    }
+}
+
+#[test]
+fn a_rig_whose_tyre_smooths_the_road_moves_as_on_the_smoothed_road() {
+    let time_constant = 8e-3;
+    let sine = |lag: f64| {
+        let omega = TAU * 6.0;
+        let (size, phase) = (1.0 / (omega * lag).hypot(1.0), (omega * lag).atan());
+        Profile::new(6.0, move |t| 2e-3 * size * (omega * t - phase).sin())
+    };
+    let smoothed = linear().run(&sine(time_constant), &Profile::still(), 6.0, [0.0; 4]);
+    let car = Car { enveloping: time_constant, ..linear() };
+    let motion = car.run(&sine(0.0), &Profile::still(), 6.0, [0.0; 4]);
+    for k in 100_000..115_000 {
+        let apart = motion.wheel_acceleration[k] - smoothed.wheel_acceleration[k];
+        assert!(apart.abs() < 1e-4, "{apart} m/s² at {k}");
+    }
+}
+
+#[test]
+fn a_saturated_actuator_pushes_with_its_limit() {
+    let force = Profile::new(2.0, |t| 100.0 * (TAU * 3.0 * t).sin());
+    let mut car = linear();
+    car.actuator.limit = 60.0;
+    let motion = car.run(&Profile::still(), &force, 2.0, [0.0; 4]);
+    for k in 0..motion.body.len() {
+        let v = motion.body_velocity[k] - motion.wheel_velocity[k];
+        let strut = 8400.0 * (motion.body[k] - motion.wheel[k]) + 707.0 * v;
+        let acting = 94.38 * motion.body_acceleration[k] + strut;
+        assert!((acting - motion.command[k].clamp(-60.0, 60.0)).abs() < 1e-9);
+    }
+    assert!(motion.command.iter().any(|f| *f > 90.0));
+}
+
+/// The oil between body and wheel swings with 1581 rad/s, decaying with 393 1/s: the eigenvalues of the linearised
+/// rig with the valve shut, which follow from the seed's values.
+#[test]
+fn body_and_wheel_ring_on_the_oil() {
+    let rig =
+        crate::rig::Rig::new(crate::Plant::ServoQuarter, &crate::rig::start(crate::Plant::ServoQuarter));
+    let motion = free(&rig.car, 0.02, [0.0, 0.1, 0.0, -0.1]);
+    let crossings: Vec<f64> = (1..motion.pressure.len())
+        .filter(|&k| motion.pressure[k - 1] < 0.0 && motion.pressure[k] >= 0.0)
+        .map(|k| {
+            let (before, after) = (motion.pressure[k - 1], motion.pressure[k]);
+            ((k - 1) as f64 + before / (before - after)) / RATE
+        })
+        .collect();
+    let omega = TAU / (crossings[1] - crossings[0]);
+    assert!((omega / 1581.0 - 1.0).abs() < 0.01, "{omega} rad/s");
+}

@@ -75,6 +75,25 @@ fn a_sensor_is_told_by_its_signal() {
 }
 
 #[test]
+fn what_an_actuator_does_is_told_by_its_signal_and_is_the_plants() {
+    let of = |effect, id: &str, element: &str| {
+        let judged = score(&truth(&[effect]), &named(&[(id, element, &[])])).unwrap();
+        (judged.outcome, judged.location_right, judged.sensor_or_plant)
+    };
+    for id in ["23", "24", "25"] {
+        let there = (id, Place::Actuator, "");
+        for element in ["actuator.force", "actuator"] {
+            assert_eq!(of(there, id, element), (Outcome::Correct, Some(true), Some(true)), "{id} {element}");
+        }
+    }
+    let gain = ("25", Place::Actuator, "");
+    assert_eq!(of(gain, "24", "voltage"), (Outcome::WrongName, Some(true), Some(true)));
+    assert_eq!(of(gain, "34", "wheel.force"), (Outcome::WrongName, Some(false), Some(false)));
+    assert_eq!(of(gain, "36", "actuator.force"), (Outcome::WrongName, Some(false), Some(false)));
+    assert_eq!(of(GAIN, "25", "actuator.force"), (Outcome::WrongName, Some(false), Some(false)));
+}
+
+#[test]
 fn a_curve_beside_what_is_there_is_too_much() {
     let damping = ("21", Place::Tire, "");
     let report = |unnamed: &str| {
@@ -156,6 +175,60 @@ fn the_table_counts() {
     assert!(text.contains("| correct, or one of two | ≥ 95 % | 50.0 % | 1/2 |"), "{text}");
     assert!(text.contains("| false alarms with clutter | ≤ 5 % | 0.0 % | 0/1 |"), "{text}");
     assert!(text.contains("| 08 | 01 (1) |"), "{text}");
+}
+
+#[test]
+fn conditions_are_compared_by_the_effects_that_were_tried_under_several() {
+    let under = |change: &dyn Fn(Case) -> Case, effect, report: &str| {
+        let plain = truth(&[effect]);
+        score(&Truth { case: change(plain.case.clone()), ..plain }, report).unwrap()
+    };
+    let right = named(&[("01", "strut", &[])]);
+    let standard = |case| case;
+    let scores = [
+        under(&standard, FRICTION, &right),
+        under(&|case| Case { noise_db: Some(30.0), ..case }, FRICTION, &right),
+        under(&|case| Case { noise_db: Some(30.0), ..case }, FRICTION, &named(&[("16", "guide", &[])])),
+        under(&|case| Case { rate: 100.0, nominal_off: 0.2, ..case }, FRICTION, &right),
+        under(&standard, SPRING, &right),
+        under(&|case| Case { plant: Plant::ServoQuarter, ..case }, FRICTION, r#"{"verdict": "no_effect"}"#),
+    ];
+    let text = breakdown(&scores);
+    assert!(text.contains("| standard | 1 | 1 (100 %) | 0 |"), "{text}");
+    assert!(text.contains("| noise 30 dB below | 2 | 1 (50 %) | 1 |"), "{text}");
+    assert!(text.contains("| 100 Hz, parameters 20 % off | 1 | 1 (100 %) | 0 |"), "{text}");
+    assert!(text.contains("| quarter car, linear | 5 | 3 (60 %) | 2 |"), "{text}");
+    assert!(text.contains("| quarter car with a servo valve | 1 | 0 (0 %) | 0 |"), "{text}");
+}
+
+#[test]
+fn another_base_parameter_is_the_effect_of_the_valve() {
+    let leakage = ("30", Place::Actuator, "");
+    let report = |name: &str| {
+        format!(
+            r#"{{"verdict": "parameter_mismatch",
+            "base_parameters": [{{"name": "{name}", "low": 1e-11, "high": 4e-11, "mismatch": true}}]}}"#
+        )
+    };
+    assert_eq!(came_out(&[leakage], &report("actuator.cylinder.leakage")), Outcome::Correct);
+    assert_eq!(came_out(&[leakage], &report("sprung_mass")), Outcome::Missed);
+}
+
+#[test]
+fn a_constant_load_is_no_offset_of_a_sensor() {
+    let load = ("33g", Place::Guide, "");
+    assert_eq!(came_out(&[load], &named(&[("33", "guide", &[])])), Outcome::Correct);
+    assert_eq!(came_out(&[load], &named(&[("33", "position", &[])])), Outcome::WrongName);
+    assert_eq!(came_out(&[load], &named(&[("33", "position", &["33 force"])])), Outcome::WrongName);
+    assert_eq!(came_out(&[load], &named(&[("33", "force", &["33 guide"])])), Outcome::OneOfTwo);
+    let place = |element: &str| {
+        let mut truth = truth(&[("33", Place::Sensor, "position")]);
+        truth.case.plant = Plant::LinearDrive;
+        let judged = score(&truth, &named(&[("33", element, &[])])).unwrap();
+        (judged.first, judged.sensor_or_plant)
+    };
+    assert_eq!(place("position"), ("33 position".into(), Some(true)));
+    assert_eq!(place("guide"), ("33".into(), Some(false)));
 }
 
 #[test]

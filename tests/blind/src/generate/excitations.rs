@@ -1,0 +1,96 @@
+//! What moves the rigs in each record.
+
+use crate::case::{Case, Plant};
+use crate::excitation::{Profile, bumps, multisine, prbs, road, steps, sweep, triangle};
+use crate::random::Random;
+use crate::rig::Rig;
+
+/// A record to be made.
+pub(super) struct Excitation {
+    /// Its name in the file's.
+    pub(super) name: &'static str,
+    /// The road, the motion of a dyno's end, or what a drive shall follow; in m.
+    pub(super) road: Profile,
+    /// What the actuator is commanded.
+    pub(super) command: Profile,
+}
+
+/// The records to learn from, and those to judge with.
+pub(super) fn excitations(case: &Case, plain: &Rig) -> (Vec<Excitation>, Vec<Excitation>) {
+    let random = &mut Random::new(case.seed, "excitation");
+    let time = case.reach();
+    let still = Profile::still;
+    let mut all = match case.plant {
+        Plant::StrutDyno | Plant::MrDyno => [
+            ("multisine", multisine(random, time, 1.3, 0.015), still()),
+            ("triangle", triangle(time, 4.0, 0.012).plus(&multisine(random, time, 1.3, 0.003)), still()),
+            ("bumps", bumps(random, time, 0.015), still()),
+            ("road", road(random, time, 0.015), still()),
+            ("sweep", sweep(time, 1.0, 0.012), still()),
+        ],
+        Plant::LinearQuarter | Plant::PublishedQuarter => [
+            ("multisine", multisine(random, time, 0.5, 0.010), still()),
+            ("prbs", multisine(random, time, 0.5, 0.005), forces(case, random)),
+            ("bumps", bumps(random, time, 0.010), multisine(random, time, 0.3, 120.0)),
+            ("road", road(random, time, 0.010), still()),
+            ("sweep", still(), sweep(time, 0.0, 150.0)),
+        ],
+        // The shut valve nearly locks the suspension, and a constant voltage would drive it to its end.
+        Plant::ServoQuarter => [
+            ("multisine", multisine(random, time, 0.5, 0.006), multisine(random, time, 0.3, 2.0)),
+            ("steps", multisine(random, time, 0.5, 0.003), steps(random, time, 0.04, 1.5)),
+            ("bumps", bumps(random, time, 0.006), multisine(random, time, 0.3, 1.5)),
+            ("road", road(random, time, 0.006), multisine(random, time, 0.6, 1.0)),
+            ("sweep", still(), sweep(time, 0.0, 1.5)),
+        ],
+        Plant::LinearDrive => [
+            ("multisine", multisine(random, time, 1.6, 0.10), still()),
+            ("triangle", triangle(time, 5.0, 0.10).plus(&multisine(random, time, 1.6, 0.01)), still()),
+            ("bumps", bumps(random, time, 0.01), still()),
+            ("road", road(random, time, 0.02), still()),
+            ("sweep", sweep(time, 1.5, 0.08), still()),
+        ],
+    }
+    .map(|(name, road, command)| Excitation { name, road, command });
+    if case.plant.is_car() {
+        let lifting = case.effects.iter().any(|hidden| hidden.id == "20");
+        for excitation in &mut all {
+            limit_pull(case, plain, excitation, lifting);
+        }
+    }
+    let mut train = Vec::from(all);
+    let test = train.split_off(2);
+    (train, test)
+}
+
+/// Two levels of force; many where the actuator saturates, as of two levels a saturation is a gain.
+fn forces(case: &Case, random: &mut Random) -> Profile {
+    let saturates = case.effects.iter().any(|hidden| hidden.id == "26");
+    if saturates {
+        steps(random, case.reach(), 0.025, 150.0)
+    } else {
+        prbs(random, case.reach(), 0.025, 150.0)
+    }
+}
+
+/// Scales the road such that the tyre keeps a fifth of its static load, or, if it shall leave the road, such that
+/// the wheel flies well above it.
+fn limit_pull(case: &Case, plain: &Rig, excitation: &mut Excitation, lifting: bool) {
+    if excitation.road.is_still() {
+        return;
+    }
+    let car = &plain.car;
+    let load = car.load();
+    // Several times, as the relation is not linear: a wheel in the air flies far.
+    for _ in 0..8 {
+        let motion = plain.run(&excitation.road, &excitation.command, case.reach());
+        let pull = motion.road.iter().zip(&motion.wheel).fold(0.0_f64, |most, (z, w)| most.max(w - z));
+        let share = pull * car.tire_stiffness / load;
+        let factor = match () {
+            () if lifting && !(1.2..2.5).contains(&share) => (1.6 / share).sqrt().clamp(0.7, 2.0),
+            () if !lifting && share > 0.8 => 0.75 / share,
+            () => break,
+        };
+        excitation.road = excitation.road.scaled(factor);
+    }
+}

@@ -1,0 +1,138 @@
+//! How an effect gets into a rig.
+
+use super::{GUIDE, Rig, STRUT, WHEEL_GUIDE};
+use crate::car::Frame;
+use crate::case::Plant;
+use crate::catalogue::{Entry, Place};
+use crate::friction::{Contact, Limit};
+use crate::servo::Servo;
+use crate::strut::Hump;
+
+/// Whether a plant has the part that the effect sits in, and does not have the effect anyway.
+fn is_possible(plant: Plant, entry: &Entry) -> bool {
+    let id = entry.id;
+    let of_servo = ["28", "29", "30"].contains(&id);
+    let of_drive = ["02g", "27", "33g"].contains(&id);
+    match plant {
+        Plant::LinearQuarter => !of_servo && !of_drive,
+        Plant::PublishedQuarter => !of_servo && !of_drive && !["01", "02", "04", "16", "19"].contains(&id),
+        Plant::ServoQuarter => of_servo || !of_drive && entry.place != Place::Actuator,
+        Plant::StrutDyno | Plant::MrDyno => match entry.place {
+            Place::Strut => !["13", "14"].contains(&id),
+            Place::Sensor => id != "42",
+            Place::Guide | Place::WheelGuide | Place::Tire | Place::Frame | Place::Actuator => false,
+        },
+        Plant::LinearDrive => of_drive || id == "16" || entry.place == Place::Sensor && id != "42",
+    }
+}
+
+impl Rig {
+    /// Puts an effect in.
+    ///
+    /// # Errors
+    /// If the plant or its sensors cannot have it.
+    pub fn put_in(&mut self, entry: &Entry, values: &[f64], signal: &str) -> Result<(), String> {
+        if !is_possible(self.plant, entry) {
+            return Err(format!(
+                "effect {} cannot be hidden in {:?}: hide it in another plant",
+                entry.id, self.plant
+            ));
+        }
+        let (strut, drive) = (&mut self.car.strut, &mut self.drive);
+        let first = values.first().copied().unwrap_or_default();
+        let hump = |values: &[f64]| Hump { height: values[0], centre: values[1], width: values[2] };
+        let stribeck = |values: &[f64]| Limit::Stribeck {
+            at_rest: values[0] + values[1],
+            sliding: values[0],
+            velocity: values[2],
+        };
+        let contact = |along, limit| Contact { along, limit };
+        match entry.id {
+            "01" => self.car.contacts.push(contact(STRUT, Limit::Coulomb(first))),
+            "02" => self.car.contacts.push(contact(STRUT, stribeck(values))),
+            "02g" => drive.contacts.push(contact(GUIDE, stribeck(values))),
+            "03" => strut.bristles = Some((first, values[1], 0.0)),
+            "04" => strut.asymmetry = first,
+            "05" => strut.knee = Some((values[1], first)),
+            "06" => strut.orifice = first,
+            "07" => strut.maxwell[0] = Some((first, values[1])),
+            "08" => (strut.quadratic, strut.cubic) = (first, strut.cubic + values[1]),
+            "09" => strut.stop = Some((values[1], first)),
+            "10" => strut.fade = Some((first, values[1])),
+            "12" => strut.bush = Some((first, 1.0 / values[1])),
+            "13" => strut.bush = Some((0.0, 1.0 / first)),
+            "14" => strut.linkage = first,
+            "15" => self.car.guide_damping = first,
+            "16" if self.plant == Plant::LinearDrive => {
+                drive.contacts.push(contact(GUIDE, Limit::Coulomb(first)));
+            }
+            "16" => self.car.contacts.push(contact(GUIDE, Limit::Coulomb(first))),
+            "17" => self.car.contacts.push(contact(WHEEL_GUIDE, Limit::Coulomb(first))),
+            "18" => {
+                self.car.frame = Some(Frame { mass: first, frequency: values[1], damping_ratio: values[2] });
+            }
+            "19" => self.car.tire_quadratic = first,
+            // The tyre never pulls; whether it leaves the road is a matter of the excitation.
+            "20" => {}
+            "21" => self.car.tire_damping += first,
+            "22" => self.car.enveloping = first,
+            "23" => self.car.actuator.delay = first,
+            "24" => self.car.actuator.lag = first,
+            "25" => self.car.actuator.gain = first,
+            "26" => self.car.actuator.limit = first,
+            "27" => drive.cogging = Some((first, values[1], values[2])),
+            "28" | "29" | "30" => put_in_valve(self.car.servo.as_mut(), entry.id, first),
+            "32" | "32h" => strut.yielding = Some((first, values[1], values[2])),
+            "33g" => drive.constant_load = first,
+            "U1" => strut.hump = Some(hump(values)),
+            "U2" => strut.thick_spot = Some(hump(values)),
+            "U3" => self.car.contacts.push(contact(STRUT, Limit::Growing(first))),
+            "U4" => {
+                let limit = Limit::Periodic { force: first, period: values[1] };
+                self.car.contacts.push(contact(WHEEL_GUIDE, limit));
+            }
+            _ => return self.put_in_sensor(entry, values, signal),
+        }
+        Ok(())
+    }
+
+    fn put_in_sensor(&mut self, entry: &Entry, values: &[f64], signal: &str) -> Result<(), String> {
+        if entry.id == "41" && signal != "wheel.force" {
+            return Err(format!(
+                "effect 41 sits in the sensor of wheel.force, and not in that of `{signal}`"
+            ));
+        }
+        let known: Vec<String> = self.sensors.keys().cloned().collect();
+        let sensor = self.sensors.get_mut(signal).ok_or_else(|| {
+            format!(
+                "effect {} sits in a sensor, `{signal}` is none; there are {}",
+                entry.id,
+                known.join(", ")
+            )
+        })?;
+        for (drawn, value) in entry.parameters.iter().zip(values) {
+            match drawn.name {
+                "offset" => sensor.offset = *value,
+                "drift" => sensor.drift = *value,
+                "gain" => sensor.gain = *value,
+                "lag" => sensor.lag = *value,
+                "skew" => sensor.skew += value,
+                "quantum" => sensor.quantum = *value,
+                "range" => sensor.range = *value,
+                "rate" => sensor.rate_error = *value,
+                "force_cell.mass" => sensor.moved_mass = *value,
+                _ => sensor.dropout = *value,
+            }
+        }
+        Ok(())
+    }
+}
+
+fn put_in_valve(servo: Option<&mut Servo>, id: &str, value: f64) {
+    let Some(servo) = servo else { return };
+    match id {
+        "28" => servo.overlap = value,
+        "29" => servo.gain = value,
+        _ => servo.leakage = value,
+    }
+}

@@ -1,0 +1,91 @@
+//! What is published of each rig: the parameters that its model starts with.
+
+use crate::case::{Plant, Value};
+use crate::random::Random;
+
+/// A parameter as the FMU calls it, its unit and its value.
+type Published = (&'static str, &'static str, f64);
+
+/// TUM Table 10; damping 2 ζ √(c m) with ζ = 0.397, asymmetry from Table 9.
+const TUM: [Published; 10] = [
+    ("sprung_mass", "kg", 94.38),
+    ("unsprung_mass", "kg", 23.92),
+    ("strut.stiffness", "N/m", 8400.0),
+    ("strut.damping", "N.s/m", 707.0),
+    ("strut.asymmetry.ratio", "1", 0.312_211_221_122_112_2),
+    ("strut.coulomb.force", "N", 115.0),
+    ("guide.coulomb.force", "N", 20.0),
+    ("tire.stiffness", "N/m", 152_140.0),
+    ("tire.quadratic", "N/m2", 4_075_400.0),
+    ("tire.damping", "N.s/m", 50.0),
+];
+
+/// Konieczny, Notations.
+const KONIECZNY: [Published; 18] = [
+    ("sprung_mass", "kg", 86.0),
+    ("unsprung_mass", "kg", 11.5),
+    ("strut.stiffness", "N/m", 8652.0),
+    ("strut.damping", "N.s/m", 1161.2),
+    ("tire.stiffness", "N/m", 37_412.0),
+    ("tire.damping", "N.s/m", 72.0),
+    ("actuator.spool.gain", "m/V", 0.025e-3),
+    ("actuator.spool.time_constant", "s", 2.32e-3),
+    ("actuator.fluid.bulk_modulus", "Pa", 1.4e9),
+    ("actuator.cylinder.leakage", "m5/(N.s)", 15e-12),
+    ("actuator.supply.pressure", "Pa", 12e6),
+    ("actuator.fluid.density", "kg/m3", 880.0),
+    ("actuator.cylinder.area", "m2", 0.765_786e-3),
+    ("actuator.cylinder.volume", "m3", 45.9458e-6),
+    ("actuator.cylinder.hose_volume", "m3", 80.0398e-6),
+    ("actuator.valve.discharge_coefficient", "1", 0.611),
+    ("actuator.valve.perimeter", "m", 15.708e-3),
+    ("actuator.spool.stroke", "m", 0.5e-3),
+];
+
+/// What a gauge, a manometer or the oil's data sheet tells exactly.
+const EXACT: [&str; 8] = [
+    "actuator.supply.pressure",
+    "actuator.fluid.density",
+    "actuator.cylinder.area",
+    "actuator.cylinder.volume",
+    "actuator.cylinder.hose_volume",
+    "actuator.valve.discharge_coefficient",
+    "actuator.valve.perimeter",
+    "actuator.spool.stroke",
+];
+
+/// A damper of the size of those on shakers: some 1 kN s/m without current, a gas spring. No seed has one.
+const MAGNETORHEOLOGICAL: [Published; 2] =
+    [("strut.stiffness", "N/m", 1500.0), ("strut.damping", "N.s/m", 900.0)];
+
+/// A carriage of 20 kg on oiled rails. No seed has a drive.
+const DRIVE: [Published; 2] = [("moving_mass", "kg", 20.0), ("guide.damping", "N.s/m", 40.0)];
+
+/// What the linear rigs do not have.
+const BEYOND_LINEAR: [&str; 4] =
+    ["strut.asymmetry.ratio", "strut.coulomb.force", "guide.coulomb.force", "tire.quadratic"];
+
+/// Parameters that the model of a plant starts with.
+pub fn start(plant: Plant) -> Vec<Value> {
+    let published: &[Published] = match plant {
+        Plant::LinearQuarter | Plant::PublishedQuarter | Plant::StrutDyno => &TUM,
+        Plant::ServoQuarter => &KONIECZNY,
+        Plant::MrDyno => &MAGNETORHEOLOGICAL,
+        Plant::LinearDrive => &DRIVE,
+    };
+    let wanted = |name: &str| plant != Plant::StrutDyno || name.starts_with("strut.");
+    let value = |(name, unit, value): &Published| {
+        let off = plant != Plant::PublishedQuarter && BEYOND_LINEAR.contains(name);
+        Value { name: (*name).into(), unit: (*unit).into(), value: if off { 0.0 } else { *value } }
+    };
+    published.iter().filter(|(name, ..)| wanted(name)).map(value).collect()
+}
+
+/// The true base parameters: those of `start`, off by a share of `off`, at most twice that.
+pub fn true_base(start: &[Value], off: f64, random: &mut Random) -> Vec<Value> {
+    let mut base = start.to_vec();
+    for value in base.iter_mut().filter(|value| !EXACT.contains(&value.name.as_str())) {
+        value.value *= 1.0 + off * random.normal().clamp(-2.0, 2.0);
+    }
+    base
+}

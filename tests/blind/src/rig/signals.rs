@@ -1,0 +1,42 @@
+//! What is measured on each rig.
+
+use crate::car::Motion;
+use crate::case::{Plant, Sensors};
+
+/// Signals and their units, inputs first.
+pub fn signals(plant: Plant, sensors: Sensors) -> Vec<(&'static str, &'static str)> {
+    let command = match plant {
+        Plant::StrutDyno | Plant::MrDyno => return vec![("motion.position", "m"), ("force", "N")],
+        Plant::LinearDrive => return vec![("force", "N"), ("position", "m")],
+        Plant::LinearQuarter | Plant::PublishedQuarter => ("actuator.force", "N"),
+        Plant::ServoQuarter => ("voltage", "V"),
+    };
+    let mut all = vec![("road.position", "m"), command, ("body.acceleration", "m/s2")];
+    if sensors != Sensors::Poor {
+        all.push(("wheel.acceleration", "m/s2"));
+    }
+    all.push(("suspension.deflection", "m"));
+    if sensors == Sensors::Full {
+        all.push(("wheel.force", "N"));
+    }
+    if plant == Plant::ServoQuarter {
+        all.push(("pressure", "Pa"));
+    }
+    all
+}
+
+/// A signal of a plant without its sensor.
+pub fn true_signal(plant: Plant, motion: &Motion, name: &str) -> Vec<f64> {
+    match name {
+        "road.position" | "motion.position" => motion.road.clone(),
+        "actuator.force" | "voltage" => motion.command.clone(),
+        "force" if plant == Plant::LinearDrive => motion.command.clone(),
+        "position" => motion.body.clone(),
+        "body.acceleration" => motion.body_acceleration.clone(),
+        "wheel.acceleration" => motion.wheel_acceleration.clone(),
+        "suspension.deflection" => motion.body.iter().zip(&motion.wheel).map(|(z, w)| z - w).collect(),
+        "pressure" => motion.pressure.clone(),
+        // Of the rig's tyre, or of the dyno's end.
+        _ => motion.tire_force.clone(),
+    }
+}
