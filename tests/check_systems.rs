@@ -1,12 +1,9 @@
 //! `build-fmu check` of systems: nothing on one without fault, and each rule on one that breaks it.
 
-#[path = "check/subject.rs"]
-mod subject;
-
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-use subject::{Parts, archive, check, described, parts, problems};
+use crate::subject::{Parts, archive, check, described, parts, problems};
 use zip::CompressionMethod;
 
 const FMU: &str = "resources/Faulty one.fmu";
@@ -279,7 +276,7 @@ fn each_rule_for_systems_finds_what_breaks_it() {
     ];
     let cases: Vec<_> =
         cases.iter().map(|(name, ssp, rule, message)| (*name, ssp.bytes(), *rule, *message)).collect();
-    subject::each_has_its_problem(&cases, "ssp", &["--no-run"]);
+    crate::subject::each_has_its_problem(&cases, "ssp", &["--no-run"]);
 }
 
 #[test]
