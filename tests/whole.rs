@@ -4,12 +4,15 @@
 mod batches;
 mod check;
 mod check_systems;
+mod check_values;
 mod diagnosis;
 mod examples;
 mod fmus;
 mod masters;
 mod packages;
 mod platforms;
+#[path = "check/ssp.rs"]
+mod ssp;
 #[path = "check/subject.rs"]
 mod subject;
 mod systems;
