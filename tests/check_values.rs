@@ -1,13 +1,14 @@
 //! `build-fmu check` of what a system brings along: values for its parameters, and signals that its elements share.
 
 use crate::ssp::{DESCRIPTION, SIGNALS, VALUES, each_has_its_problem, replaced, with, with_own, without};
+use crate::subject::{check, problems};
 
 #[test]
 fn each_rule_for_values_finds_what_breaks_it() {
     let value = |to: &str| with(VALUES, "<ssv:Real value=\"1\" unit=\"m\"/>", to);
     let name = |to: &str| with(VALUES, "name=\"rate\"", &format!("name=\"{to}\""));
     let inline = |to: &str| with(DESCRIPTION, "<ssv:Real value=\"0.25\"/>", to);
-    let own = "source=\"resources/own.ssv\"";
+    let first = "source=\"resources/first.ssv\"";
     let mapping = |from: &str, to: &str| with("resources/mapping.ssm", from, to);
     let entry = "<ssm:MappingEntry source=\"their.shift\" target=\"offset\"/>";
     let cases = [
@@ -88,7 +89,7 @@ fn each_rule_for_values_finds_what_breaks_it() {
         ),
         (
             "no-own-values",
-            with(DESCRIPTION, own, "source=\"resources/none.ssv\""),
+            with(DESCRIPTION, first, "source=\"resources/none.ssv\" sourceBase=\"component\""),
             "system.parameters",
             "are in `resources/none.ssv` of `resources/Faulty one.fmu`, which does not have it",
         ),
@@ -120,7 +121,7 @@ fn each_rule_for_values_finds_what_breaks_it() {
         ),
         (
             "neither",
-            with(DESCRIPTION, own, ""),
+            with(DESCRIPTION, first, ""),
             "system.parameters",
             "a parameter binding of `first` has neither a file nor values in place",
         ),
@@ -230,7 +231,7 @@ fn each_rule_for_signal_dictionaries_finds_what_breaks_it() {
         ),
         (
             "two-signals",
-            with(SIGNALS, "name=\"number\"", "name=\"way\""),
+            with(SIGNALS, "name=\"lift\"", "name=\"way\""),
             "system.name",
             "the dictionary `signals` has two signals of the name `way`",
         ),
@@ -281,4 +282,15 @@ fn each_rule_for_signal_dictionaries_finds_what_breaks_it() {
         ),
     ];
     each_has_its_problem(&cases);
+}
+
+#[test]
+fn values_within_an_fmu_are_found_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("own.ssp");
+    std::fs::write(&path, with_own("0.5", "0.25").bytes()).unwrap();
+    let (code, answers) = check(&[path], &["--no-run", "--no-fmpy"]);
+    assert_eq!((code, problems(&answers[0])), (0, Vec::new()));
+    let done = answers[0]["report"]["done"].to_string();
+    assert!(done.contains("7 parameter values"), "{done}");
 }

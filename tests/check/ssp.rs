@@ -13,25 +13,20 @@ pub const VALUES: &str = "resources/first.ssv";
 /// What is shared by the elements of both systems.
 pub const SIGNALS: &str = "resources/signals.ssb";
 
-/// Two instances of the small FMU, one of them in a system within the system, with values from files, from within the FMU and
-/// in place, and signals that both systems share.
+/// Two instances of the small FMU, one of them in a system within the system, with values from files and in place, and signals
+/// that both systems share.
 pub struct Ssp(Vec<(&'static str, Vec<u8>)>);
 
 pub fn faultless() -> Ssp {
     static BYTES: OnceLock<Vec<u8>> = OnceLock::new();
     Ssp(vec![
         (DESCRIPTION, include_bytes!("SystemStructure.ssd").to_vec()),
-        (FMU, BYTES.get_or_init(|| with_values(parts(""), include_str!("own.ssv")).bytes()).clone()),
+        (FMU, BYTES.get_or_init(|| parts("").bytes()).clone()),
         (VALUES, include_bytes!("first.ssv").to_vec()),
         (SIGNALS, include_bytes!("signals.ssb").to_vec()),
         ("resources/mapped.ssv", include_bytes!("mapped.ssv").to_vec()),
         ("resources/mapping.ssm", include_bytes!("mapping.ssm").to_vec()),
     ])
-}
-
-fn with_values(mut fmu: Parts, values: &str) -> Parts {
-    fmu.files.push(("resources/own.ssv".into(), values.into(), CompressionMethod::Deflated));
-    fmu
 }
 
 /// The system with another text in one of its files.
@@ -59,15 +54,21 @@ pub fn without(file: &str) -> Ssp {
 }
 
 /// The system with another FMU.
-pub fn of(fmu: Parts) -> Ssp {
-    replaced(FMU, &with_values(fmu, include_str!("own.ssv")).bytes())
+pub fn of(fmu: &Parts) -> Ssp {
+    replaced(FMU, &fmu.bytes())
 }
 
-/// The system with another text in the values within its FMU.
+/// The system with values within its FMU, one text of which is another. FMPy does not look for them there.
 pub fn with_own(from: &str, to: &str) -> Ssp {
-    let values = include_str!("own.ssv");
+    let (file, values) = ("resources/own.ssv", include_str!("own.ssv"));
     assert_eq!(values.matches(from).count(), 1, "{from}");
-    replaced(FMU, &with_values(parts(""), &values.replace(from, to)).bytes())
+    let mut fmu = parts("");
+    fmu.files.push((file.into(), values.replace(from, to).into(), CompressionMethod::Deflated));
+    let binding = "<ssd:ParameterBinding source=\"resources/first.ssv\"/>";
+    let own = format!("{binding}<ssd:ParameterBinding source=\"{file}\" sourceBase=\"component\"/>");
+    let mut ssp = with(DESCRIPTION, binding, &own);
+    ssp.0.iter_mut().find(|(name, _)| *name == FMU).unwrap().1 = fmu.bytes();
+    ssp
 }
 
 impl Ssp {
