@@ -23,15 +23,14 @@ pub mod waveform;
 #[cfg(test)]
 mod testing;
 
-#[cfg(all(feature = "catalogue", not(test)))]
+#[cfg(feature = "catalogue")]
 use strut_model::Entry;
 
 /// Standard acceleration of gravity in m/s².
 pub const GRAVITY: f64 = 9.80665;
 
-/// All models. A static, so that they are compiled once and not by everyone who looks into it: nor once more for the tests
-/// within this crate, which know each model by its type.
-#[cfg(all(feature = "catalogue", not(test)))]
+/// All models. A static, so that they are compiled once and not by everyone who looks into it.
+#[cfg(feature = "catalogue")]
 pub static CATALOGUE: &[Entry] = &[
     Entry::of::<rigs::QuarterCar>(),
     Entry::of::<rigs::FullCar>(),
