@@ -294,3 +294,19 @@ fn values_within_an_fmu_are_found_there() {
     let done = answers[0]["report"]["done"].to_string();
     assert!(done.contains("7 parameter values"), "{done}");
 }
+
+/// FMPy does not read such dictionaries.
+#[test]
+fn signals_may_be_given_in_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("inline.ssp");
+    let declared = "<ssd:SignalDictionary name=\"signals\" source=\"resources/signals.ssb\"/>";
+    let more = "<ssd:SignalDictionary name=\"states\"><ssb:SignalDictionary version=\"1.0\">\
+                <ssb:DictionaryEntry name=\"on\"><ssc:Boolean/></ssb:DictionaryEntry>\
+                </ssb:SignalDictionary></ssd:SignalDictionary>";
+    std::fs::write(&path, with(DESCRIPTION, declared, &format!("{declared}{more}")).bytes()).unwrap();
+    let (code, answers) = check(&[path], &["--no-run", "--no-fmpy"]);
+    assert_eq!((code, problems(&answers[0])), (0, Vec::new()));
+    let done = answers[0]["report"]["done"].to_string();
+    assert!(done.contains("4 dictionary signals"), "{done}");
+}
