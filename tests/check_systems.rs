@@ -156,13 +156,17 @@ fn there_is_nothing_to_find_in_systems_without_fault() {
     let python = strut::interpreter();
     let options = ["--fmpy", python.to_str().unwrap()];
     let (code, answers) = check(std::slice::from_ref(&path), &options);
+    // Past the schema, FMPy 0.3 stumbles over the first signal dictionary, whatever is in it.
+    let found = problems(&answers[0]);
+    assert!(found.len() == 1 && found[0].ends_with("has no attribute 'type'"), "{found:?}");
+    assert_eq!(code, 1);
+    let (code, answers) = check(&[path], &["--no-fmpy"]);
     assert_eq!((code, problems(&answers[0])), (0, Vec::new()));
     assert_eq!(answers[0]["report"]["about"][1], "2 components of 1 FMU");
     let done = answers[0]["report"]["done"].to_string();
     for part in [
         "resources/Faulty one.fmu: co-simulation: the same results after fmi2Reset",
         "system: 12 connectors, 7 connections, 6 parameter values, 3 dictionary signals",
-        "\"validation of FMPy",
     ] {
         assert!(done.contains(part), "{part}: {done}");
     }

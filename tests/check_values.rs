@@ -295,7 +295,6 @@ fn values_within_an_fmu_are_found_there() {
     assert!(done.contains("7 parameter values"), "{done}");
 }
 
-/// FMPy does not read such dictionaries.
 #[test]
 fn signals_may_be_given_in_place() {
     let folder = tempfile::tempdir().unwrap();
