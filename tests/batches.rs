@@ -17,15 +17,9 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// A program of the workspace, compiled as the tests are.
-fn program(package: &str, name: &str) -> PathBuf {
-    strut::run(strut::cargo().args(["build", "--quiet", "--package", package, "--bin", name]));
-    strut::target().join("debug").join(name)
-}
-
 #[test]
 fn a_sweep_loses_nothing_when_a_worker_dies() {
-    let (out, program) = (folder("sweep"), program("sweep", "sweep"));
+    let (out, program) = (folder("sweep"), strut::program("sweep"));
     let arguments: [&OsStr; 4] = ["sweep".as_ref(), strut::fmus().as_ref(), program.as_ref(), out.as_ref()];
     print!("{}", strut::python("tests/masters/beyond_one_machine.py", arguments));
 }
@@ -33,7 +27,7 @@ fn a_sweep_loses_nothing_when_a_worker_dies() {
 #[test]
 fn a_batch_of_diagnoses_tells_of_every_record() {
     let (out, records) = (folder("diagnoses"), folder("records"));
-    let diagnose = program("strut-diagnosis", "diagnose");
+    let diagnose = strut::program("diagnose");
     let mut simulate = std::process::Command::new(&diagnose);
     simulate.args(["simulate", "--hide", "strut.coulomb.force=60", "--out"]).arg(records.join("friction"));
     strut::run(&mut simulate);

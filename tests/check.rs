@@ -1,18 +1,15 @@
 //! `build-fmu check`: nothing on our own FMUs and on one without fault, and each rule on one that breaks it.
 
-#[path = "check/subject.rs"]
-mod subject;
-
 use std::path::PathBuf;
 
-use subject::{Parts, check, described, parts, problems};
+use crate::subject::{Parts, check, described, parts, problems};
 use zip::CompressionMethod;
 
 /// Checks FMUs: each has problems of its rule, and no others.
 fn each_has_its_problem(cases: &[(&str, Parts, &str, &str)], options: &[&str]) {
     let packed: Vec<_> =
         cases.iter().map(|(name, parts, rule, message)| (*name, parts.bytes(), *rule, *message)).collect();
-    subject::each_has_its_problem(&packed, "fmu", options);
+    crate::subject::each_has_its_problem(&packed, "fmu", options);
 }
 
 /// Description, archive and files of libraries.

@@ -1,66 +1,11 @@
 //! `build-fmu check` of systems: nothing on one without fault, and each rule on one that breaks it.
 
-#[path = "check/subject.rs"]
-mod subject;
-
 use std::path::PathBuf;
-use std::sync::OnceLock;
 
-use subject::{Parts, archive, check, described, parts, problems};
-use zip::CompressionMethod;
-
-const FMU: &str = "resources/Faulty one.fmu";
-const DESCRIPTION: &str = "SystemStructure.ssd";
-const VALUES: &str = "resources/first.ssv";
-
-/// Two instances of the small FMU, one of them in a system within the system, with values from files and in place.
-struct Ssp(Vec<(&'static str, Vec<u8>)>);
-
-fn faultless() -> Ssp {
-    static BYTES: OnceLock<Vec<u8>> = OnceLock::new();
-    Ssp(vec![
-        (DESCRIPTION, include_bytes!("check/SystemStructure.ssd").to_vec()),
-        (FMU, BYTES.get_or_init(|| parts("").bytes()).clone()),
-        (VALUES, include_bytes!("check/first.ssv").to_vec()),
-        ("resources/mapped.ssv", include_bytes!("check/mapped.ssv").to_vec()),
-        ("resources/mapping.ssm", include_bytes!("check/mapping.ssm").to_vec()),
-    ])
-}
-
-/// The system with another text in one of its files.
-fn with(file: &str, from: &str, to: &str) -> Ssp {
-    let mut ssp = faultless();
-    let (_, bytes) = ssp.0.iter_mut().find(|(name, _)| *name == file).unwrap();
-    let text = String::from_utf8(bytes.clone()).unwrap();
-    assert_eq!(text.matches(from).count(), 1, "{from}");
-    *bytes = text.replace(from, to).into_bytes();
-    ssp
-}
-
-/// The system with other contents of one of its files.
-fn replaced(file: &str, contents: &[u8]) -> Ssp {
-    let mut ssp = faultless();
-    ssp.0.iter_mut().find(|(name, _)| *name == file).unwrap().1 = contents.to_vec();
-    ssp
-}
-
-/// The system without one of its files.
-fn without(file: &str) -> Ssp {
-    let mut ssp = faultless();
-    ssp.0.retain(|(name, _)| *name != file);
-    ssp
-}
-
-/// The system with another FMU.
-fn of(fmu: &Parts) -> Ssp {
-    replaced(FMU, &fmu.bytes())
-}
-
-impl Ssp {
-    fn bytes(&self) -> Vec<u8> {
-        archive(self.0.iter().map(|(name, bytes)| (*name, bytes.as_slice(), CompressionMethod::Deflated)))
-    }
-}
+use crate::ssp::{
+    DESCRIPTION, FMU, Ssp, VALUES, each_has_its_problem, faultless, of, replaced, with, without,
+};
+use crate::subject::{check, described, parts, problems};
 
 #[test]
 fn each_rule_for_systems_finds_what_breaks_it() {
@@ -83,8 +28,6 @@ fn each_rule_for_systems_finds_what_breaks_it() {
     };
     let drive = |to: &str| with(DESCRIPTION, "name=\"drive\" kind=\"input\"><ssc:Real unit=\"m\"/>", to);
     let driven = "name=\"drive\" kind=\"input\">";
-    let value = |to: &str| with(VALUES, "<ssv:Real value=\"1\" unit=\"m\"/>", to);
-    let name = |to: &str| with(VALUES, "name=\"rate\"", &format!("name=\"{to}\""));
     let mut exchange = parts("");
     let lines = exchange.xml.lines().filter(|line| !line.contains("<CoSimulation"));
     exchange.xml = lines.collect::<Vec<_>>().join("\n");
@@ -201,85 +144,8 @@ fn each_rule_for_systems_finds_what_breaks_it() {
             "system.unit",
             "by a transformation of its own, which tools apply after converting",
         ),
-        (
-            "no-values",
-            without(VALUES),
-            "system.parameters",
-            "are in `resources/first.ssv`, which the archive",
-        ),
-        (
-            "broken-values",
-            with(VALUES, "</ssv:Parameters>", ""),
-            "system.parameters",
-            "`resources/first.ssv` is no well-formed XML",
-        ),
-        (
-            "latin-values",
-            replaced(VALUES, b"<ParameterSet name=\"\xe4\"/>"),
-            "system.parameters",
-            "`resources/first.ssv` is not encoded in UTF-8",
-        ),
-        (
-            "other-values",
-            replaced(VALUES, b"<Values/>"),
-            "system.parameters",
-            "`resources/first.ssv` is a `Values` and no `ParameterSet`",
-        ),
-        (
-            "no-mapping",
-            without("resources/mapping.ssm"),
-            "system.parameters",
-            "are in `resources/mapping.ssm`, which the archive",
-        ),
-        (
-            "mapped",
-            with("resources/mapping.ssm", "target=\"offset\"", "target=\"ofset\""),
-            "system.parameter",
-            "for what is not there: `inner.second.ofset`",
-        ),
-        (
-            "inline",
-            with(DESCRIPTION, "inner.second.rate", "inner.third.rate"),
-            "system.parameter",
-            "for what is not there: `inner.third.rate`",
-        ),
-        ("no-parameter", name("rat"), "system.parameter", "for what is not there: `first.rat`"),
-        ("calculated", name("y"), "system.parameter", "`first.y` is calculated and takes no value"),
-        ("two-values", name("u"), "system.parameter", "two values for `u`"),
-        (
-            "value-type",
-            value("<ssv:Boolean value=\"true\"/>"),
-            "system.parameter",
-            "is Real and is given a Boolean",
-        ),
-        (
-            "no-number",
-            value("<ssv:Real value=\"one\"/>"),
-            "system.parameter",
-            "given `one`, which is no value",
-        ),
-        (
-            "bounds",
-            value("<ssv:Real value=\"11\" unit=\"m\"/>"),
-            "system.parameter",
-            "`first.u` is given 11, outside",
-        ),
-        (
-            "value-unit",
-            value("<ssv:Real value=\"1\" unit=\"1/s\"/>"),
-            "system.parameter",
-            "is given in \"1/s\", but declared in \"m\"",
-        ),
-        (
-            "value-scale",
-            value("<ssv:Real value=\"1\" unit=\"mm\"/>"),
-            "system.parameter",
-            "is given in \"mm\", but declared in \"m\"",
-        ),
     ];
-    let cases: Vec<_> =
-        cases.iter().map(|(name, ssp, rule, message)| (*name, ssp.bytes(), *rule, *message)).collect();
-    subject::each_has_its_problem(&cases, "ssp", &["--no-run"]);
+    each_has_its_problem(&cases);
 }
 
 #[test]
@@ -290,13 +156,17 @@ fn there_is_nothing_to_find_in_systems_without_fault() {
     let python = strut::interpreter();
     let options = ["--fmpy", python.to_str().unwrap()];
     let (code, answers) = check(std::slice::from_ref(&path), &options);
+    // Past the schema, FMPy 0.3 stumbles over the first signal dictionary, whatever is in it.
+    let found = problems(&answers[0]);
+    assert!(found.len() == 1 && found[0].ends_with("has no attribute 'type'"), "{found:?}");
+    assert_eq!(code, 1);
+    let (code, answers) = check(&[path], &["--no-fmpy"]);
     assert_eq!((code, problems(&answers[0])), (0, Vec::new()));
     assert_eq!(answers[0]["report"]["about"][1], "2 components of 1 FMU");
     let done = answers[0]["report"]["done"].to_string();
     for part in [
         "resources/Faulty one.fmu: co-simulation: the same results after fmi2Reset",
-        "system: 8 connectors, 5 connections, 5 parameter values",
-        "\"validation of FMPy",
+        "system: 12 connectors, 7 connections, 6 parameter values, 3 dictionary signals",
     ] {
         assert!(done.contains(part), "{part}: {done}");
     }

@@ -9,10 +9,10 @@ use serde_json::Value;
 
 const RIG: &str = "tum-linear-measured-quarter-car";
 
-/// The command, compiled as the tests are.
+/// The command, at the root.
 fn diagnose() -> Command {
-    let mut command = strut::cargo();
-    command.args(["run", "--quiet", "--package", "strut-diagnosis", "--bin", "diagnose", "--"]);
+    let mut command = Command::new(strut::program("diagnose"));
+    command.current_dir(strut::root());
     command
 }
 
@@ -333,7 +333,7 @@ fn what_cannot_be_used_is_refused_in_words_and_leaves_nothing_behind() {
         if !case.arguments.contains(&"--out") {
             command.arg("--out").arg(folder.join("out"));
         }
-        let output = command.output().expect("cargo can be started");
+        let output = command.output().expect("it can be started");
         let error = refused(&output, case.name);
         assert!(error.starts_with("error: "), "{}: {error}", case.name);
         for words in case.says {
@@ -358,7 +358,7 @@ fn a_record_that_cannot_be_used_is_refused_with_a_report() {
         let mut command = diagnose();
         command.args(["--rig", RIG, "--train"]).arg(folder.join(record));
         command.arg("--test").arg(folder.join("good.csv")).arg("--out").arg(&out);
-        let output = command.output().expect("cargo can be started");
+        let output = command.output().expect("it can be started");
         let error = refused(&output, record);
         for words in [record, what, "report.html"] {
             assert!(error.contains(words), "no `{words}` in {error}");

@@ -2,6 +2,7 @@
 
 use std::ffi::OsStr;
 use std::fs;
+use std::process::Command;
 
 /// Runs a Python example; returns the numbers that it prints, and checks that it draws.
 fn python_example(name: &str) -> Vec<f64> {
@@ -15,9 +16,9 @@ fn python_example(name: &str) -> Vec<f64> {
 }
 
 /// Runs a Rust example that uses the `fmi` crate; returns what it prints.
-fn rust_example<S: AsRef<OsStr>>(package: &str, arguments: impl IntoIterator<Item = S>) -> String {
-    let mut master = strut::cargo_with_libclang();
-    master.args(["run", "--quiet", "--package", package, "--"]).args(arguments);
+fn rust_example<S: AsRef<OsStr>>(name: &str, arguments: impl IntoIterator<Item = S>) -> String {
+    let mut master = Command::new(strut::program_with_fmi(name));
+    master.current_dir(strut::root()).args(arguments);
     String::from_utf8_lossy(&strut::run(&mut master).stdout).into_owned()
 }
 
@@ -134,8 +135,7 @@ fn the_notebook_runs_from_top_to_bottom() {
     let notebook = strut::root().join("examples/notebook/strut.ipynb");
     let out = strut::target().join("tested-pictures/strut.ipynb");
     let fmus = format!("STRUT_FMUS={}", strut::fmus().display());
-    // As the tests are compiled.
-    let diagnose = "STRUT_DIAGNOSE=cargo run --quiet --package strut-diagnosis --bin diagnose --";
+    let diagnose = format!("STRUT_DIAGNOSE={}", strut::program("diagnose").display());
     let arguments = [notebook.as_os_str(), out.as_os_str(), fmus.as_ref(), diagnose.as_ref()];
     let text = strut::python("tests/masters/notebook.py", arguments);
     for part in
@@ -162,8 +162,10 @@ fn the_benchmark_prints_a_row_of_numbers() {
 fn an_iteration_of_a_diagnosis_beside_differences_of_simulations() {
     let fmu = strut::fmus().join("TumQuarterVehicle.fmu");
     let fmu = fmu.to_str().expect("the folder's name is text");
-    let short = ["--seconds", "2", "--profile", "dev", "--only-iteration"];
-    let text = strut::python("examples/benchmark/diagnosis.py", [&[fmu], &short[..]].concat());
+    let linearise = strut::program("examples/linearise");
+    let linearise = linearise.to_str().expect("the folder's name is text");
+    let short = [fmu, "--seconds", "2", "--linearise", linearise, "--only-iteration"];
+    let text = strut::python("examples/benchmark/diagnosis.py", short);
     let row =
         text.lines().find(|line| line.contains("bare calls")).unwrap_or_else(|| panic!("no row: {text}"));
     let cells: Vec<f64> = row.split('|').filter_map(|cell| cell.trim().parse().ok()).collect();

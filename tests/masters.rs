@@ -4,10 +4,7 @@ use std::path::PathBuf;
 
 /// The matrix with all masters that are quick to install.
 fn matrix(more: &[PathBuf]) -> String {
-    // The example's programs for the `fmi` crate.
-    let mut build = strut::cargo_with_libclang();
-    strut::run(build.args(["build", "--quiet", "--package", "rust-master", "--bin", "job"]));
-    let job = strut::target().join("debug/job").with_extension(std::env::consts::EXE_EXTENSION);
+    let job = strut::program_with_fmi("job");
     let usual = [strut::fmus().into(), "--cofmupy".into(), strut::cofmupy(), "--fmi-crate".into(), job];
     strut::python("tests/masters/matrix.py", [&usual, more].concat())
 }

@@ -48,8 +48,7 @@ fn built_elsewhere(folder: &str, name: &str, options: &[&str]) -> Vec<u8> {
             fs::copy(&from, &to).expect("it can be copied");
         }
     }
-    strut::run(strut::build_fmu().arg("list"));
-    let mut packager = Command::new(strut::target().join("debug").join("build-fmu"));
+    let mut packager = strut::build_fmu();
     packager.arg("--out").arg(&out).args(options).arg(name).current_dir(&copy);
     packager.env("CARGO_MANIFEST_DIR", &copy).env("CARGO_TARGET_DIR", elsewhere.join("target"));
     packager.env("CARGO", env!("CARGO"));

@@ -61,6 +61,10 @@ pub type Libraries = BTreeMap<String, PathBuf>;
 /// # Errors
 /// If a package is missing or the build fails.
 pub fn build(metadata: &Metadata, packages: &[String], toolchain: &Toolchain) -> Result<Libraries> {
+    // A system may be made of the FMUs of others alone. Told of no package, cargo would build the workspace.
+    if packages.is_empty() {
+        return Ok(Libraries::new());
+    }
     for package in packages {
         if !metadata.packages.iter().any(|other| other.name.as_str() == package) {
             let names = metadata.packages.iter().map(|package| package.name.as_str());
@@ -124,6 +128,13 @@ pub fn package_of(model: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn where_no_library_is_asked_for_none_is_built() {
+        let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
+        let metadata = metadata(Some(&manifest)).unwrap();
+        assert_eq!(build(&metadata, &[], &Toolchain::HOST).unwrap(), Libraries::new());
+    }
 
     #[test]
     fn packages_are_named_after_their_model() {

@@ -120,7 +120,9 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
     let mut notes = Vec::new();
     for (platform, toolchain) in platforms {
         let libraries = cargo::build(&metadata, &packages, &toolchain)?;
-        notes.push(format!("{} needs {}", platform.folder, Needs::of(&platform, &libraries)?));
+        if !libraries.is_empty() {
+            notes.push(format!("{} needs {}", platform.folder, Needs::of(&platform, &libraries)?));
+        }
         built.push((platform, libraries));
     }
     let progress = progress(needed.len() + assemblies.len());

@@ -23,7 +23,6 @@ pub mod import;
 pub mod intervals;
 pub mod lsq;
 pub mod naming;
-pub mod plant;
 mod random;
 pub mod recorded;
 pub mod report;
@@ -33,3 +32,5 @@ pub mod screening;
 pub mod search;
 mod spectral;
 pub mod virtual_rig;
+
+pub use strut_plant as plant;

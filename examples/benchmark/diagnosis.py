@@ -148,18 +148,21 @@ def by_scipy(rig, simulate, inputs, measured, parameters):
     return seconds, simulations, np.diag(reduced)
 
 
-def cargo(profile, *arguments):
-    command = ["cargo", "run", "--quiet", "--profile", profile, "--package", "strut-diagnosis", *arguments]
+def cargo(*arguments):
+    return run("cargo", "run", "--quiet", "--release", "--package", "strut-diagnosis", *arguments)
+
+
+def run(*command):
     result = subprocess.run(command, capture_output=True, text=True, cwd=ROOT)
     if result.returncode:
         raise SystemExit(f"{' '.join(map(str, command))} failed ({result.returncode})\n{result.stderr}")
     return result.stdout
 
 
-def whole_diagnosis(profile, train, test, out):
+def whole_diagnosis(train, test, out):
     """Time of a diagnosis without building the extended FMU, and its verdict."""
     records = ["--train", train, "--test", test]
-    cargo(profile, "--bin", "diagnose", "--", "--rig", RIG, *records, "--out", out, "--no-fmu")
+    cargo("--bin", "diagnose", "--", "--rig", RIG, *records, "--out", out, "--no-fmu")
     report = json.loads((out / "report.json").read_text(encoding="utf-8"))
     return report["seconds"], report["summary"]
 
@@ -168,14 +171,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("fmu", type=Path, help="TumQuarterVehicle.fmu")
     parser.add_argument("--seconds", type=float, default=60.0, help="length of the record")
-    parser.add_argument("--profile", default="release", help="Cargo's, of the diagnosis (default: %(default)s)")
+    parser.add_argument("--linearise", type=Path, help="that example, compiled already (default: cargo compiles it)")
     parser.add_argument("--only-iteration", action="store_true", help="without a whole diagnosis")
     options = parser.parse_args()
     rig = Rig(options.fmu)
     with tempfile.TemporaryDirectory() as scratch:
         scratch = Path(scratch)
         inputs, measured = record(rig, scratch / "train.csv", options.seconds, 1, {})
-        ours = json.loads(cargo(options.profile, "--example", "linearise", "--", RIG, scratch / "train.csv"))
+        task = [RIG, scratch / "train.csv"]
+        told = run(options.linearise, *task) if options.linearise else cargo("--example", "linearise", "--", *task)
+        ours = json.loads(told)
         assert ours["signals"] == SIGNALS, ours["signals"]
         print(f"{len(SIGNALS)} signals of {ours['samples']} samples; {len(ours['parameters'])} parameters and "
               f"{len(STATES)} states at the start\n")
@@ -190,7 +195,7 @@ def main():
             for name, seed in [("train.csv", 1), ("test.csv", 2)]:
                 record(rig, scratch / name, options.seconds, seed, HIDDEN)
             records = [scratch / name for name in ("train.csv", "test.csv")]
-            seconds, summary = whole_diagnosis(options.profile, *records, scratch / "report")
+            seconds, summary = whole_diagnosis(*records, scratch / "report")
             print(f"\na whole diagnosis takes {seconds:.0f} s: {summary}")
     rig.close()
 

@@ -24,6 +24,10 @@ cloudpickle.register_pickle_by_value(sys.modules[__name__])
 # Workers that may die of one and the same part before it is suspected itself.
 DEATHS = 2
 
+# How long a worker of this machine's cluster may take to start again. Dask gives it up after 15 s, which a busy machine may
+# need, starts no other in its place, and a batch that has lost all its workers would wait for ever.
+RESTART = "1 hour"
+
 # Seconds after which a result that does not come, with nobody at work on it, counts as lost.
 PATIENCE = 30
 
@@ -32,7 +36,8 @@ PATIENCE = 30
 def client(scheduler=None, workers=None):
     """A client of the scheduler at an address, or of a cluster on this machine: processes with one thread each, as an FMU's
     instance is used by one thread at a time."""
-    with dask.config.set({"distributed.scheduler.allowed-failures": DEATHS}):
+    settings = {"distributed.scheduler.allowed-failures": DEATHS, "distributed.deploy.lost-worker-timeout": RESTART}
+    with dask.config.set(settings):
         if scheduler:
             with Client(scheduler) as connected:
                 yield connected

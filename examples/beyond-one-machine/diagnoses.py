@@ -73,18 +73,24 @@ def diagnoses(connected, records, program, rig, out, options=(), part=1, done=la
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        usage="%(prog)s RECORDS --diagnose PROGRAM --rig RIG --out FOLDER [options] [-- OPTIONS]",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     parser.add_argument("records", type=Path)
     parser.add_argument("--diagnose", type=Path, required=True, help="the program, as `cargo build --release` makes it")
     parser.add_argument("--rig", required=True, help="as in `diagnose rigs`")
     parser.add_argument("--out", type=Path, required=True, help="folder for the results")
     parser.add_argument("--scheduler", help="address of a Dask scheduler (default: a cluster on this machine)")
     parser.add_argument("--workers", type=int, help="processes of the cluster on this machine (default: one a core)")
-    parser.add_argument("options", nargs="*", help="further options of diagnose, after --")
-    arguments = parser.parse_args()
+    # argparse itself gives up on `--` behind other options.
+    given = sys.argv[1:]
+    end = given.index("--") if "--" in given else len(given)
+    arguments, options = parser.parse_args(given[:end]), given[end + 1 :]
     with batch.client(arguments.scheduler, arguments.workers) as connected:
         work, failed = diagnoses(
-            connected, arguments.records, arguments.diagnose, arguments.rig, arguments.out, arguments.options
+            connected, arguments.records, arguments.diagnose, arguments.rig, arguments.out, options
         )
     for row in work.table().to_pylist():
         print(f"{row['record']}: {row['error'] or row['summary']}")

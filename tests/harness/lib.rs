@@ -6,13 +6,14 @@
 mod browser;
 mod cross;
 
+use std::env::consts::EXE_EXTENSION;
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use std::sync::OnceLock;
+use std::sync::{Once, OnceLock};
 
 pub use browser::Browser;
 pub use cross::{missing_for, runs};
@@ -64,11 +65,36 @@ pub fn tell(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");
 }
 
-/// The packager, as the first page runs it, compiled as the tests are.
+/// The packager, at the root as the first page runs it.
 pub fn build_fmu() -> Command {
-    let mut command = cargo();
-    command.args(["run", "--quiet", "--"]);
+    let mut command = Command::new(program("build-fmu"));
     command
+        .current_dir(root())
+        .env("CARGO_MANIFEST_DIR", root().join("build-fmu"))
+        .env("CARGO", env!("CARGO"));
+    command
+}
+
+/// A program of the workspace, or an example (`examples/linearise`), compiled as the tests are.
+///
+/// All of them are asked for at once, as `cargo test` does: a single package would be compiled with other features of
+/// what it depends on, and most of the workspace again with it.
+pub fn program(name: &str) -> PathBuf {
+    static COMPILED: Once = Once::new();
+    COMPILED.call_once(|| {
+        run(cargo().args(["build", "--quiet", "--bins", "--examples"]));
+    });
+    target().join("debug").join(name).with_extension(EXE_EXTENSION)
+}
+
+/// A program of those that the `fmi` crate is in; compiled at once for the same reason.
+pub fn program_with_fmi(name: &str) -> PathBuf {
+    static COMPILED: Once = Once::new();
+    COMPILED.call_once(|| {
+        let packages = ["--package", "rust-master", "--package", "hard-coupling"];
+        run(cargo_with_libclang().args(["build", "--quiet", "--bins"]).args(packages));
+    });
+    target().join("debug").join(name).with_extension(EXE_EXTENSION)
 }
 
 /// Cargo, at the root.

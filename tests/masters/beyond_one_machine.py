@@ -105,6 +105,11 @@ def diagnosed(program, records, out, rig):
     named = rows["friction"]
     assert named["verdict"] == "named" and named["parameter"] == "strut.coulomb.force", named
     assert named["low"] <= 60.0 <= named["high"], named
+    # The command finds it all there, as what it is told to hand on is the same.
+    command = [sys.executable, diagnoses.__file__, records, "--diagnose", program, "--rig", rig, "--workers", "1"]
+    command += ["--out", out / "diagnoses", "--", *options]
+    told = subprocess.run(command, check=True, capture_output=True, text=True)
+    assert "2 of 2 are there already" in told.stderr and "2 records, 1 with an error" in told.stdout, told
     print(f"diagnoses: {named['summary']}")
 
 

@@ -8,7 +8,7 @@ HEAD = """\
 Made by
 
 ```
-cargo test --test masters -- --ignored
+cargo test --test whole masters -- --ignored
 ```
 
 which builds the FMUs, makes the Python environments and installs fmi-sim from crates.io; the runs themselves took {minutes}

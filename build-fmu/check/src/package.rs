@@ -1,7 +1,7 @@
 //! The archive: what is in it, and what it is unpacked to.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{Read, Write};
 use std::path::Path;
 
 use zip::{CompressionMethod, ZipArchive};
@@ -21,7 +21,20 @@ impl Package {
     /// # Errors
     /// If there is no such file or it is no zip archive.
     pub fn open(path: &Path) -> Result<Self, String> {
-        let file = File::open(path).map_err(|error| format!("cannot open it: {error}"))?;
+        Self::of(File::open(path).map_err(|error| format!("cannot open it: {error}"))?)
+    }
+
+    /// Opens an archive that lies in this one; none if it is missing.
+    ///
+    /// # Errors
+    /// If it cannot be unpacked or is no zip archive.
+    pub fn inner(&mut self, name: &str) -> Result<Option<Self>, String> {
+        let Some(bytes) = self.read(name)? else { return Ok(None) };
+        let unpacked = tempfile::tempfile().and_then(|mut file| file.write_all(&bytes).map(|()| file));
+        Self::of(unpacked.map_err(|error| format!("`{name}` cannot be unpacked: {error}"))?).map(Some)
+    }
+
+    fn of(file: File) -> Result<Self, String> {
         let no_zip = |error| format!("it is no zip archive, as FMUs and SSPs are: {error}");
         let mut archive = ZipArchive::new(file).map_err(no_zip)?;
         let (mut names, mut methods) = (Vec::new(), Vec::new());

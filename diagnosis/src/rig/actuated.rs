@@ -1,16 +1,13 @@
 //! What the diagnosis has to know of rigs with an actuator of their own, and of actuators alone.
 
-use strut_physics::actuators::PumpHydraulicActuator;
-use strut_physics::rigs::{SasRig, ServoSuspension};
-
 use crate::catalogue::Element;
-use crate::plant::Plant;
+use crate::plant::models;
 
 use super::kinds::STRUT_FORCE;
 use super::{ElementSignals, Excitation, ForceOf, Kind, Missing};
 
 pub(super) const SERVO_SUSPENSION: Kind = Kind {
-    plant: Plant::of::<ServoSuspension>,
+    plant: models::servo_suspension,
     model: "ServoSuspension",
     base: &[
         "sprung_mass",
@@ -85,7 +82,7 @@ pub(super) const SERVO_SUSPENSION: Kind = Kind {
 };
 
 pub(super) const PUMP_ACTUATOR: Kind = Kind {
-    plant: Plant::of::<PumpHydraulicActuator>,
+    plant: models::pump_hydraulic_actuator,
     model: "PumpHydraulicActuator",
     base: &[
         "pump.displacement",
@@ -126,7 +123,7 @@ pub(super) const PUMP_ACTUATOR: Kind = Kind {
 };
 
 pub(super) const SAS_RIG: Kind = Kind {
-    plant: Plant::of::<SasRig>,
+    plant: models::sas_rig,
     model: "SasRig",
     base: &[
         "spring.stiffness",

@@ -1,10 +1,7 @@
 //! What the diagnosis has to know of positioning drives.
 
-use strut_physics::actuators::ExcitationMotor;
-use strut_physics::rigs::LinearDrive;
-
 use crate::catalogue::Element;
-use crate::plant::Plant;
+use crate::plant::models;
 
 use super::{Aliases, DrivenBy, ElementSignals, Excitation, ForceOf, Kind, Missing};
 
@@ -24,7 +21,7 @@ const FORCES: &[&str] = &["force.command", "commanded.force", "control.force", "
 const VOLTAGES: &[&str] = &["voltage.command", "control.voltage", "voltage", "motor.voltage", "u"];
 
 pub(super) const LINEAR_DRIVE: Kind = Kind {
-    plant: Plant::of::<LinearDrive>,
+    plant: models::linear_drive,
     model: "LinearDrive",
     // The amplifier's gain is not told from mass and friction together: it is taken as known.
     base: &["moving_mass", "guide.damping"],
@@ -51,7 +48,7 @@ pub(super) const LINEAR_DRIVE: Kind = Kind {
 };
 
 pub(super) const EXCITATION_MOTOR: Kind = Kind {
-    plant: Plant::of::<ExcitationMotor>,
+    plant: models::excitation_motor,
     model: "ExcitationMotor",
     base: &["moving_mass", "base_spring.stiffness"],
     elements: &[ElementSignals {

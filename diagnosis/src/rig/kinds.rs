@@ -1,9 +1,7 @@
 //! What the diagnosis has to know of each model.
 
-use strut_physics::rigs::{ElementDyno, QuarterCar};
-
 use crate::catalogue::Element;
-use crate::plant::Plant;
+use crate::plant::models;
 
 use super::actuated::{PUMP_ACTUATOR, SAS_RIG, SERVO_SUSPENSION};
 use super::drives::{EXCITATION_MOTOR, LINEAR_DRIVE};
@@ -16,7 +14,7 @@ pub(super) const STRUT_FORCE: ForceOf = ForceOf::SpringAndDamper("strut.stiffnes
 
 pub(super) const KINDS: &[Kind] = &[
     Kind {
-        plant: Plant::of::<QuarterCar>,
+        plant: models::quarter_car,
         model: "QuarterCar",
         base: &[
             "sprung_mass",
@@ -80,7 +78,7 @@ pub(super) const KINDS: &[Kind] = &[
         excitation: &[],
     },
     Kind {
-        plant: Plant::of::<ElementDyno>,
+        plant: models::element_dyno,
         model: "ElementDyno",
         base: &["strut.stiffness", "strut.damping", "strut.preload"],
         elements: &[ElementSignals {

@@ -47,8 +47,10 @@ impl System {
     /// What is wrong with connections.
     pub(super) fn connections(&self) -> Vec<Finding> {
         let mut findings = Vec::new();
+        // What leads to each signal of a dictionary, whichever reference it takes.
+        let mut given: BTreeMap<(usize, String), u32> = BTreeMap::new();
         for system in self.structure.root.all() {
-            let Content::System { elements, connections } = &system.content else { continue };
+            let Content::System { elements, connections, .. } = &system.content else { continue };
             // What leads to each sink, with the line.
             let mut driven: BTreeMap<String, u32> = BTreeMap::new();
             for connection in connections {
@@ -66,11 +68,21 @@ impl System {
                 };
                 match directed(start, end) {
                     Ok((source, sink)) => {
-                        if let Some(first) = driven.insert(sink.shown(), connection.line) {
-                            let message = format!(
-                                "`{}` is connected twice; the other connection is in line {first}",
-                                sink.shown()
-                            );
+                        let (first, what) = match self.referred(sink.element) {
+                            None => (
+                                driven.insert(sink.shown(), connection.line),
+                                format!("`{}` is connected twice", sink.shown()),
+                            ),
+                            Some((number, dictionary)) => {
+                                let signal = &sink.connector.name;
+                                let what = format!(
+                                    "the signal `{signal}` of the dictionary `{dictionary}` is given twice"
+                                );
+                                (given.insert((number, signal.clone()), connection.line), what)
+                            }
+                        };
+                        if let Some(first) = first {
+                            let message = format!("{what}; the other connection is in line {first}");
                             findings.push(
                                 Finding::error("system.twice", message)
                                     .at(at(connection.line))

@@ -1,8 +1,7 @@
 //! Rules for what can be connected: each connector of a component is a variable of its FMU.
 
-use super::structure::{Connector, Element};
+use super::structure::{Connector, Content, Element};
 use super::{System, at, found};
-use crate::description::Variable;
 use crate::finding::Finding;
 use crate::unit::{Fit, Unit};
 
@@ -31,16 +30,13 @@ impl System {
                     .help(format!("it is one of {known}")),
             );
         }
+        if let Content::Dictionary(_) = element.content {
+            return self.connector_of_signal(element, connector);
+        }
         let description = self.description(element)?;
         let Some(variable) = self.variable(element, name) else {
-            let close = description.variables.iter().map(|variable| variable.name.as_str()).max_by(|a, b| {
-                let like = |other: &str| strsim::jaro_winkler(name, other);
-                like(a).total_cmp(&like(b))
-            });
             let finding = wrong(format!("`{shown}` is no variable of its FMU"));
-            return Some(
-                close.into_iter().fold(finding, |it, close| it.help(format!("is `{close}` meant?"))),
-            );
+            return Some(meant(finding, name, description.variables.iter().map(|it| it.name.as_str())));
         };
         let causality = &variable.causality;
         if kind != "inout" && kind != causality {
@@ -49,7 +45,7 @@ impl System {
             )));
         }
         if let Some(of_type) = &connector.of_type
-            && !is_of(of_type, variable)
+            && !is_of(of_type, &variable.kind)
         {
             let given = &variable.kind;
             return Some(wrong(format!("`{shown}` is of type {of_type}, but its variable is {given}")));
@@ -64,24 +60,33 @@ impl System {
         Some(wrong(message).help("give the variable's unit, or none"))
     }
 
-    fn own_unit(&self, connector: &Connector) -> Option<Unit> {
+    pub(super) fn own_unit(&self, connector: &Connector) -> Option<Unit> {
         connector.unit.as_deref().map(|symbol| found(&self.structure.units, symbol))
     }
 
-    /// The type of what a connector passes on: its own, else its variable's.
+    /// The type of what a connector passes on: its own, else its variable's or its signal's.
     pub(super) fn type_at(&self, element: &Element, connector: &Connector) -> Option<String> {
         let variable = || Some(self.variable(element, &connector.name)?.kind.clone());
-        connector.of_type.clone().or_else(variable)
+        let signal = || self.signal(element, &connector.name)?.of_type.clone();
+        connector.of_type.clone().or_else(variable).or_else(signal)
     }
 
-    /// The unit of what a connector passes on: its own, else its variable's.
+    /// The unit of what a connector passes on: its own, else its variable's or its signal's.
     pub(super) fn unit_at(&self, element: &Element, connector: &Connector) -> Option<Unit> {
         let variable = || self.unit_of(element, self.variable(element, &connector.name)?);
-        self.own_unit(connector).or_else(variable)
+        let signal = || self.unit_of_signal(element, &connector.name);
+        self.own_unit(connector).or_else(variable).or_else(signal)
     }
 }
 
-/// Whether a type is a variable's. Enumerations are passed on as whole numbers, which saves declaring them.
-pub(super) fn is_of(of_type: &str, variable: &Variable) -> bool {
-    of_type == variable.kind || (of_type == "Integer" && variable.kind == "Enumeration")
+/// A finding with the name that comes closest to one that is not there.
+pub(super) fn meant<'a>(finding: Finding, name: &str, all: impl Iterator<Item = &'a str>) -> Finding {
+    let like = |other: &str| strsim::jaro_winkler(name, other);
+    let close = all.max_by(|a, b| like(a).total_cmp(&like(b)));
+    close.into_iter().fold(finding, |it, close| it.help(format!("is `{close}` meant?")))
+}
+
+/// Whether a type is the one that is wanted. Enumerations are passed on as whole numbers, which saves declaring them.
+pub(super) fn is_of(of_type: &str, wanted: &str) -> bool {
+    of_type == wanted || (of_type == "Integer" && wanted == "Enumeration")
 }

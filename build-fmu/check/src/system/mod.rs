@@ -2,7 +2,10 @@
 
 mod connections;
 mod connectors;
+mod dictionaries;
+mod documents;
 mod parameters;
+mod signals;
 mod structure;
 mod values;
 
@@ -14,6 +17,7 @@ use crate::finding::{Finding, Report, count};
 use crate::package::Package;
 use crate::unit::Unit;
 use crate::{Options, fmpy, fmu};
+use dictionaries::Dictionaries;
 use structure::{Content, Element, Structure};
 
 pub use structure::FILE;
@@ -25,6 +29,8 @@ struct System {
     files: BTreeMap<String, String>,
     /// Descriptions of the FMUs (FMI 2.0) by their files; none of what could not be read.
     fmus: BTreeMap<String, Option<Description>>,
+    /// The signals that elements share.
+    dictionaries: Dictionaries,
 }
 
 /// Checks a system, and each FMU in it.
@@ -35,19 +41,22 @@ pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Re
     let text = package.text(FILE)?.ok_or_else(|| format!("there is no {FILE}"))?;
     let structure = Structure::parse(&text)?;
     let mut report = Report { findings: package.findings(), ..Report::default() };
-    let mut system = System { structure, files: BTreeMap::new(), fmus: BTreeMap::new() };
+    let (files, fmus, mut dictionaries) = (BTreeMap::new(), BTreeMap::new(), Dictionaries::default());
+    let mut system = System { structure, files, fmus, dictionaries: Dictionaries::default() };
     system.components(package, options, &mut report)?;
+    system.read_dictionaries(&system.structure.root, &[], &mut dictionaries, package, &mut report);
+    system.dictionaries = dictionaries;
     report.about = system.about();
     report.findings.extend(system.names());
     report.findings.extend(system.connectors());
     report.findings.extend(system.connections());
-    let (wrong, values) = system.parameters(package);
-    report.findings.extend(wrong);
+    let values = system.parameters(package, &mut report);
     report.done.push(format!(
-        "system: {}, {}, {}",
+        "system: {}, {}, {}, {}",
         count(system.structure.root.all().iter().map(|it| it.connectors.len()).sum(), "connector"),
         count(system.number_of_connections(), "connection"),
-        count(values, "parameter value")
+        count(values, "parameter value"),
+        count(system.dictionaries.signals(), "dictionary signal")
     ));
     if system.structure.version.starts_with("1.") {
         fmpy::validate(file, fmpy::What::System, &options.fmpy, &mut report)?;

@@ -1,19 +1,25 @@
 //! Rules for values: each is for a variable that takes it, in its type, its unit and its bounds.
 
 use super::connectors::is_of;
-use super::structure::{Binding, Content, Element, FILE};
+use super::documents::Wanted;
+use super::structure::{Binding, Connector, Content, Element, FILE};
 use super::values::{Mapping, Parameter, Values};
-use super::{System, at, file_of, found};
+use super::{System, at, found};
 use crate::description::Variable;
-use crate::finding::{Finding, names};
+use crate::finding::{Finding, Report, names};
 use crate::package::Package;
-use crate::unit::Fit;
+use crate::unit::{Fit, Unit};
 use crate::variables::is_value;
+
+/// The kind of files that parameter sets are in.
+const MEDIA: &str = "application/x-ssp-parameter-set";
 
 /// What a name stands for in an element.
 enum Target<'a> {
     /// A variable of a component.
     Variable(&'a Element, &'a Variable),
+    /// A connector of a system.
+    Connector(&'a Element, &'a Connector),
     /// Something that is known to be there, or cannot be looked into.
     Other,
     /// Nothing.
@@ -21,21 +27,26 @@ enum Target<'a> {
 }
 
 impl System {
-    /// What is wrong with values, and how many there are.
-    pub(super) fn parameters(&self, package: &mut Package) -> (Vec<Finding>, usize) {
-        let (mut findings, mut number) = (Vec::new(), 0);
+    /// Tells what is wrong with values; returns how many there are.
+    pub(super) fn parameters(&self, package: &mut Package, report: &mut Report) -> usize {
+        let mut number = 0;
         for element in self.structure.root.all() {
             for binding in &element.bindings {
+                if binding.media != MEDIA {
+                    let media = &binding.media;
+                    report.skipped.push(format!("values for {}, of the type {media}", element.shown()));
+                    continue;
+                }
                 match self.binding(element, binding, package) {
                     Ok((found, given)) => {
-                        findings.extend(found);
+                        report.findings.extend(found);
                         number += given;
                     }
-                    Err(unreadable) => findings.push(unreadable),
+                    Err(unreadable) => report.findings.push(unreadable),
                 }
             }
         }
-        (findings, number)
+        number
     }
 
     /// What is wrong with the values of a binding, and how many there are; or why they cannot be read.
@@ -45,26 +56,39 @@ impl System {
         binding: &Binding,
         package: &mut Package,
     ) -> Result<(Vec<Finding>, usize), Finding> {
-        // What is in files of other kinds, or in components, is for others to know.
-        if binding.media != "application/x-ssp-parameter-set" || !binding.beside {
-            return Ok((Vec::new(), 0));
-        }
-        let (read, mapped);
+        let wanted = |source, within: bool| Wanted {
+            rule: "system.parameters",
+            what: "values",
+            source,
+            within: within.then_some(element),
+            line: binding.line,
+        };
+        let one_of_both = |message: &str| {
+            let message = format!("a parameter binding of {} {message}", element.shown());
+            let finding = Finding::error("system.parameters", message).at(at(binding.line));
+            Err(finding.help("give the source of a file, or the values in place"))
+        };
+        let read;
         let (values, file) = match (&binding.inline, &binding.source) {
-            (Some(values), _) => (values, FILE.to_owned()),
+            (Some(_), Some(_)) => return one_of_both("has a file and values in place"),
+            (None, None) => return one_of_both("has neither a file nor values in place"),
+            (Some(values), None) => (values, FILE.to_owned()),
             (None, Some(source)) => {
-                let file;
-                (read, file) = document(package, source, binding.line, Values::parse)?;
+                let document = self.document(&wanted(source, binding.within), package, Values::parse)?;
+                let Some((values, file)) = document else { return Ok((Vec::new(), 0)) };
+                read = values;
                 (&read, file)
             }
-            (None, None) => return Ok((Vec::new(), 0)),
         };
+        let mapped;
         let mapping = match &binding.mapping {
-            Some(Mapping { source: Some(source), .. }) => {
-                (mapped, _) = document(package, source, binding.line, Mapping::parse)?;
-                Some(&mapped)
+            Some(Mapping { source: Some(source), within, .. }) => {
+                let document = self.document(&wanted(source, *within), package, Mapping::parse)?;
+                let Some(document) = document else { return Ok((Vec::new(), 0)) };
+                mapped = document;
+                Some((&mapped.0, mapped.1.as_str()))
             }
-            inline => inline.as_ref(),
+            inline => inline.as_ref().map(|mapping| (mapping, FILE)),
         };
         let mut findings = Vec::new();
         let mut missing: Vec<String> = Vec::new();
@@ -77,21 +101,30 @@ impl System {
             let name = format!("{}{}", binding.prefix, parameter.name);
             let targets: Vec<(&str, bool)> = match mapping {
                 None => vec![(&name, false)],
-                Some(mapping) => {
+                Some((mapping, _)) => {
                     let entries = mapping.entries.iter().filter(|entry| entry.source == name);
                     entries.map(|entry| (entry.target.as_str(), entry.transformed)).collect()
                 }
             };
             for (target, transformed) in targets {
-                match self.target(element, target) {
-                    Target::Other => {}
-                    Target::Missing => missing.push(element.of(target)),
-                    Target::Variable(owner, variable) => {
-                        let wrong = self.value(owner, variable, parameter, values, transformed);
-                        findings.extend(wrong.map(|finding| finding.at(&place)));
+                let wrong = match self.target(element, target) {
+                    Target::Other => None,
+                    Target::Missing => {
+                        missing.push(element.of(target));
+                        None
                     }
-                }
+                    Target::Connector(owner, connector) => {
+                        self.value_of_connector(owner, connector, parameter, values, transformed)
+                    }
+                    Target::Variable(owner, variable) => {
+                        self.value(owner, variable, parameter, values, transformed)
+                    }
+                };
+                findings.extend(wrong.map(|finding| finding.at(&place)));
             }
+        }
+        if let Some((mapping, file)) = mapping {
+            findings.extend(entries(mapping, file, element, binding, values));
         }
         if !missing.is_empty() {
             let message = format!("values are given for what is not there: {}", names(&missing));
@@ -107,19 +140,21 @@ impl System {
     /// What a name stands for: within a system it is a connector's, or begins with an element's.
     fn target<'a>(&'a self, element: &'a Element, name: &str) -> Target<'a> {
         match &element.content {
-            Content::System { .. } if element.connector(name).is_some() => Target::Other,
-            Content::System { elements, .. } => elements
-                .iter()
-                .filter_map(|inner| {
+            Content::System { elements, .. } => {
+                if let Some(connector) = element.connector(name) {
+                    return Target::Connector(element, connector);
+                }
+                let within = elements.iter().filter_map(|inner| {
                     let rest = name.strip_prefix(&inner.name)?.strip_prefix('.')?;
                     Some(self.target(inner, rest))
-                })
-                .find(|target| !matches!(target, Target::Missing))
-                .unwrap_or(Target::Missing),
+                });
+                let mut there = within.filter(|target| !matches!(target, Target::Missing));
+                there.next().unwrap_or(Target::Missing)
+            }
             Content::Component { .. } if self.description(element).is_some() => {
                 self.variable(element, name).map_or(Target::Missing, |it| Target::Variable(element, it))
             }
-            Content::Component { .. } | Content::Dictionary => Target::Other,
+            Content::Component { .. } | Content::Dictionary(_) => Target::Other,
         }
     }
 
@@ -137,49 +172,98 @@ impl System {
         if variable.causality != "input" && (!initial || variable.variability == "constant") {
             return wrong(format!("`{name}` is calculated and takes no value"));
         }
-        let Parameter { kind, value, .. } = parameter;
         if transformed {
             return None;
         }
-        if !is_of(kind, variable) {
+        let Parameter { kind, value, .. } = parameter;
+        if !is_of(kind, &variable.kind) {
             return wrong(format!("`{name}` is {} and is given a {kind}", variable.kind));
         }
-        // An item of an enumeration is given by its name.
-        if kind != "Enumeration" && !is_value(kind, value) {
-            return wrong(format!("`{name}` is given `{value}`, which is no value of the type {kind}"));
-        }
-        let given = parameter.unit.as_deref().map(|symbol| found(&values.units, symbol));
-        if let (Some(given), Some(wanted)) = (given, self.unit_of(owner, variable)) {
-            let message =
-                format!("`{name}` is given in \"{}\", but declared in \"{}\"", given.symbol, wanted.symbol);
-            match given.fit(&wanted, 0) {
-                Fit::Same => {}
-                Fit::Linear { .. } | Fit::Unknown => {
-                    return Some(
-                        Finding::warning("system.parameter", message)
-                            .help("give it in the variable's unit: not every tool converts"),
-                    );
-                }
-                Fit::Derivative | Fit::Integral | Fit::Different => return wrong(message),
-            }
+        let wanted = self.unit_of(owner, variable);
+        if let Some(finding) = written(&name, parameter, values, wanted) {
+            return Some(finding);
         }
         let (min, max) = (variable.min.unwrap_or(f64::NEG_INFINITY), variable.max.unwrap_or(f64::INFINITY));
         let number = value.trim().parse::<f64>().ok().filter(|value| !(min..=max).contains(value))?;
         wrong(format!("`{name}` is given {number}, outside of its bounds from {min} to {max}"))
     }
+
+    /// What is wrong with a value for a connector of a system.
+    fn value_of_connector(
+        &self,
+        owner: &Element,
+        connector: &Connector,
+        parameter: &Parameter,
+        values: &Values,
+        transformed: bool,
+    ) -> Option<Finding> {
+        let name = owner.of(&connector.name);
+        let wrong = |message: String| Some(Finding::error("system.parameter", message));
+        if matches!(connector.kind.as_str(), "output" | "calculatedParameter") {
+            return wrong(format!("`{name}` is calculated and takes no value"));
+        }
+        if transformed {
+            return None;
+        }
+        let kind = &parameter.kind;
+        if let Some(of_type) = self.type_at(owner, connector)
+            && !is_of(kind, &of_type)
+        {
+            return wrong(format!("`{name}` is {of_type} and is given a {kind}"));
+        }
+        written(&name, parameter, values, self.unit_at(owner, connector))
+    }
 }
 
-/// Reads a document of the archive; also tells its file.
-fn document<T>(
-    package: &mut Package,
-    source: &str,
-    line: u32,
-    parse: impl Fn(&[u8]) -> Result<T, String>,
-) -> Result<(T, String), Finding> {
-    let wrong = |message: String| Finding::error("system.parameters", message).at(at(line));
-    let file = file_of(source, package)
-        .ok_or_else(|| wrong(format!("values are in `{source}`, which the archive does not have")))?;
-    let bytes = package.read(&file).map_err(&wrong)?.unwrap_or_default();
-    let document = parse(&bytes).map_err(|why| wrong(format!("`{file}` {why}")))?;
-    Ok((document, file))
+/// What is wrong with how a value is written: it is one of its type, and in the unit that is wanted.
+fn written(name: &str, parameter: &Parameter, values: &Values, wanted: Option<Unit>) -> Option<Finding> {
+    let wrong = |message: String| Some(Finding::error("system.parameter", message));
+    let Parameter { kind, value, .. } = parameter;
+    // An item of an enumeration is given by its name.
+    if kind != "Enumeration" && !is_value(kind, value) {
+        return wrong(format!("`{name}` is given `{value}`, which is no value of the type {kind}"));
+    }
+    let given = parameter.unit.as_deref().map(|symbol| found(&values.units, symbol));
+    let (given, wanted) = (given?, wanted?);
+    let message = format!("`{name}` is given in \"{}\", but declared in \"{}\"", given.symbol, wanted.symbol);
+    match given.fit(&wanted, 0) {
+        Fit::Same => None,
+        Fit::Linear { .. } | Fit::Unknown => Some(
+            Finding::warning("system.parameter", message)
+                .help("give it in the variable's unit: not every tool converts"),
+        ),
+        Fit::Derivative | Fit::Integral | Fit::Different => wrong(message),
+    }
+}
+
+/// What is wrong with a mapping itself: each entry takes from what the set has, and none gives to what another does.
+fn entries(
+    mapping: &Mapping,
+    file: &str,
+    element: &Element,
+    binding: &Binding,
+    values: &Values,
+) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    for (index, entry) in mapping.entries.iter().enumerate() {
+        if mapping.entries[..index].iter().any(|other| other.target == entry.target) {
+            let message = format!("two entries of a mapping give to `{}`", element.of(&entry.target));
+            findings.push(Finding::error("system.parameter", message).at(format!("{file}:{}", entry.line)));
+        }
+    }
+    let given = |name: &str| {
+        let rest = name.strip_prefix(binding.prefix.as_str());
+        rest.is_some_and(|rest| values.parameters.iter().any(|parameter| parameter.name == rest))
+    };
+    let sources = mapping.entries.iter().map(|entry| entry.source.as_str());
+    let missing: Vec<&str> = sources.filter(|source| !given(source)).collect();
+    if !missing.is_empty() {
+        let message = format!("a mapping takes from what its set does not give: {}", names(&missing));
+        findings.push(
+            Finding::warning("system.parameter", message)
+                .at(file)
+                .help("tools pass over such entries without a word: correct the names, or leave them out"),
+        );
+    }
+    findings
 }

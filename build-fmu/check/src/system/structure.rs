@@ -2,6 +2,7 @@
 
 use roxmltree::{Document, Node};
 
+use super::signals::Declared;
 use super::values::{Mapping, Values};
 use crate::unit::Unit;
 
@@ -54,9 +55,11 @@ pub enum Content {
         elements: Vec<Element>,
         /// What joins them.
         connections: Vec<Connection>,
+        /// The signal dictionaries that are known in it.
+        dictionaries: Vec<Declared>,
     },
-    /// Signals without a model.
-    Dictionary,
+    /// Signals without a model, of a dictionary of this name.
+    Dictionary(String),
 }
 
 /// `<Connector>`.
@@ -103,8 +106,8 @@ pub struct Binding {
     pub media: String,
     /// URI of the file, if it is one.
     pub source: Option<String>,
-    /// Whether the file is looked for beside the description, and not in the component.
-    pub beside: bool,
+    /// Whether the file is looked for in the component, and not beside the description.
+    pub within: bool,
     /// What is put before each name.
     pub prefix: String,
     /// The values that are given in place.
@@ -186,6 +189,16 @@ pub fn line_of(node: Node) -> u32 {
     node.document().text_pos_at(node.range().start).row
 }
 
+/// The file that something is in; none if it is given in place.
+pub fn source_of(node: Node) -> Option<String> {
+    node.attribute("source").filter(|source| !source.is_empty()).map(str::to_owned)
+}
+
+/// Whether a source is looked for in the component.
+pub fn is_within(node: Node) -> bool {
+    node.attribute("sourceBase") == Some("component")
+}
+
 fn is_true(node: Node, name: &str) -> bool {
     matches!(node.attribute(name), Some("true" | "1"))
 }
@@ -209,9 +222,10 @@ fn element(node: Node, around: &str) -> Element {
             Content::System {
                 elements: inner.filter(Node::is_element).map(|inner| element(inner, &path)).collect(),
                 connections: list("Connections", "Connection").map(connection).collect(),
+                dictionaries: list("SignalDictionaries", "SignalDictionary").map(Declared::of).collect(),
             }
         }
-        _ => Content::Dictionary,
+        _ => Content::Dictionary(text_of(node, "dictionary")),
     };
     Element {
         connectors: list("Connectors", "Connector").map(connector).collect(),
@@ -224,15 +238,16 @@ fn element(node: Node, around: &str) -> Element {
 }
 
 fn connector(node: Node) -> Connector {
+    let (of_type, unit) = type_and_unit(node);
+    Connector { name: text_of(node, "name"), kind: text_of(node, "kind"), of_type, unit, line: line_of(node) }
+}
+
+/// Of a connector or a signal, if they are given.
+pub fn type_and_unit(node: Node) -> (Option<String>, Option<String>) {
     const TYPES: [&str; 6] = ["Real", "Integer", "Boolean", "String", "Enumeration", "Binary"];
     let of_type = node.children().find(|child| TYPES.contains(&child.tag_name().name()));
-    Connector {
-        name: text_of(node, "name"),
-        kind: text_of(node, "kind"),
-        of_type: of_type.map(|node| node.tag_name().name().into()),
-        unit: of_type.and_then(|node| node.attribute("unit")).map(str::to_owned),
-        line: line_of(node),
-    }
+    let unit = of_type.and_then(|node| node.attribute("unit")).map(str::to_owned);
+    (of_type.map(|node| node.tag_name().name().into()), unit)
 }
 
 fn connection(node: Node) -> Connection {
@@ -252,8 +267,8 @@ fn binding(node: Node) -> Binding {
     let inline = child(node, "ParameterValues").and_then(|values| child(values, "ParameterSet"));
     Binding {
         media: node.attribute("type").unwrap_or("application/x-ssp-parameter-set").into(),
-        source: node.attribute("source").map(str::to_owned),
-        beside: node.attribute("sourceBase") != Some("component"),
+        source: source_of(node),
+        within: is_within(node),
         prefix: text_of(node, "prefix"),
         inline: inline.map(Values::of),
         mapping: child(node, "ParameterMapping").map(Mapping::of),

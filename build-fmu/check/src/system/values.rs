@@ -2,7 +2,7 @@
 
 use roxmltree::{Document, Node};
 
-use super::structure::{child, children, line_of, text_of, units};
+use super::structure::{child, children, is_within, line_of, source_of, text_of, units};
 use crate::unit::Unit;
 
 /// `<ParameterSet>`.
@@ -34,6 +34,8 @@ pub struct Parameter {
 pub struct Mapping {
     /// URI of its file, if it is one.
     pub source: Option<String>,
+    /// Whether the file is looked for in the component, and not beside the description.
+    pub within: bool,
     /// From which name to which.
     pub entries: Vec<Entry>,
 }
@@ -47,6 +49,8 @@ pub struct Entry {
     pub target: String,
     /// Whether the value is transformed on the way.
     pub transformed: bool,
+    /// Line of the element.
+    pub line: u32,
 }
 
 impl Values {
@@ -81,15 +85,21 @@ impl Mapping {
             source: text_of(node, "source"),
             target: text_of(node, "target"),
             transformed: node.children().any(|child| child.tag_name().name().ends_with("Transformation")),
+            line: line_of(node),
         };
         Self {
-            source: node.attribute("source").map(str::to_owned),
+            source: source_of(node),
+            within: is_within(node),
             entries: children(inner, "MappingEntry").map(entry).collect(),
         }
     }
 }
 
-fn document<T>(bytes: &[u8], wanted: &str, read: impl Fn(Node) -> T) -> Result<T, String> {
+/// Reads a file with a root element of some name.
+///
+/// # Errors
+/// If it is no well-formed XML, or the root is another.
+pub fn document<T>(bytes: &[u8], wanted: &str, read: impl Fn(Node) -> T) -> Result<T, String> {
     let text = std::str::from_utf8(bytes).map_err(|_| "is not encoded in UTF-8".to_owned())?;
     // A mark of the byte order is no part of the text.
     let document = Document::parse(text.trim_start_matches('\u{feff}'))

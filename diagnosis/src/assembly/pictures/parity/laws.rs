@@ -2,9 +2,8 @@
 
 use strut_model::{Bundle, Declarations, Value};
 use strut_physics::elements::{Guide, ServoCylinder, WheelGuide};
-use strut_physics::rigs::ElementDyno;
 
-use crate::plant::{Drive, Dynamics, Plant};
+use crate::plant::{Drive, Dynamics, Plant, models};
 use crate::rig::{Rig, choice};
 
 /// What a model of a body and a wheel says of each part alone. Strut and tyre are moved on a dyno, so that they have
@@ -87,7 +86,7 @@ struct Dyno {
 
 impl Dyno {
     fn of(element: &str, lift_off: &Value, named: impl Fn(&str) -> Option<f64>) -> Option<Self> {
-        let plant = Plant::of::<ElementDyno>();
+        let plant = models::element_dyno();
         let mut choices = plant.choices.clone();
         let clamped = plant.setting("element")?;
         choices[clamped] = choice(&plant, clamped, &Value::Text(element.into())).ok()?;

@@ -5,6 +5,7 @@
 
 mod integrate;
 mod jet;
+pub mod models;
 
 use strut_model::{Bundle, Declaration, Declarations, Model, SettingDeclaration, Settings, Value};
 
@@ -35,7 +36,7 @@ pub struct Plant {
 
 impl Plant {
     /// A model as a predictor.
-    pub fn of<M: Model + Sync>() -> Self {
+    fn of<M: Model + Sync>() -> Self {
         let states = Declarations::of::<M::State<f64>>();
         let mut outputs = Declarations::of::<M::Output<f64>>();
         outputs.extend(states.iter().filter(|state| state.output).cloned());

@@ -1,0 +1,85 @@
+//! A system to be checked, in files that can be spoilt.
+
+use std::sync::OnceLock;
+
+use zip::CompressionMethod;
+
+use crate::subject::{Parts, archive, parts};
+
+pub const FMU: &str = "resources/Faulty one.fmu";
+pub const DESCRIPTION: &str = "SystemStructure.ssd";
+/// For one of the components.
+pub const VALUES: &str = "resources/first.ssv";
+/// What is shared by the elements of both systems.
+pub const SIGNALS: &str = "resources/signals.ssb";
+
+/// Two instances of the small FMU, one of them in a system within the system, with values from files and in place, and signals
+/// that both systems share.
+pub struct Ssp(Vec<(&'static str, Vec<u8>)>);
+
+pub fn faultless() -> Ssp {
+    static BYTES: OnceLock<Vec<u8>> = OnceLock::new();
+    Ssp(vec![
+        (DESCRIPTION, include_bytes!("SystemStructure.ssd").to_vec()),
+        (FMU, BYTES.get_or_init(|| parts("").bytes()).clone()),
+        (VALUES, include_bytes!("first.ssv").to_vec()),
+        (SIGNALS, include_bytes!("signals.ssb").to_vec()),
+        ("resources/mapped.ssv", include_bytes!("mapped.ssv").to_vec()),
+        ("resources/mapping.ssm", include_bytes!("mapping.ssm").to_vec()),
+    ])
+}
+
+/// The system with another text in one of its files.
+pub fn with(file: &str, from: &str, to: &str) -> Ssp {
+    let mut ssp = faultless();
+    let (_, bytes) = ssp.0.iter_mut().find(|(name, _)| *name == file).unwrap();
+    let text = String::from_utf8(bytes.clone()).unwrap();
+    assert_eq!(text.matches(from).count(), 1, "{from}");
+    *bytes = text.replace(from, to).into_bytes();
+    ssp
+}
+
+/// The system with other contents of one of its files.
+pub fn replaced(file: &str, contents: &[u8]) -> Ssp {
+    let mut ssp = faultless();
+    ssp.0.iter_mut().find(|(name, _)| *name == file).unwrap().1 = contents.to_vec();
+    ssp
+}
+
+/// The system without one of its files.
+pub fn without(file: &str) -> Ssp {
+    let mut ssp = faultless();
+    ssp.0.retain(|(name, _)| *name != file);
+    ssp
+}
+
+/// The system with another FMU.
+pub fn of(fmu: &Parts) -> Ssp {
+    replaced(FMU, &fmu.bytes())
+}
+
+/// The system with values within its FMU, one text of which is another. FMPy does not look for them there.
+pub fn with_own(from: &str, to: &str) -> Ssp {
+    let (file, values) = ("resources/own.ssv", include_str!("own.ssv"));
+    assert_eq!(values.matches(from).count(), 1, "{from}");
+    let mut fmu = parts("");
+    fmu.files.push((file.into(), values.replace(from, to).into(), CompressionMethod::Deflated));
+    let binding = "<ssd:ParameterBinding source=\"resources/first.ssv\"/>";
+    let own = format!("{binding}<ssd:ParameterBinding source=\"{file}\" sourceBase=\"component\"/>");
+    let mut ssp = with(DESCRIPTION, binding, &own);
+    ssp.0.iter_mut().find(|(name, _)| *name == FMU).unwrap().1 = fmu.bytes();
+    ssp
+}
+
+impl Ssp {
+    pub fn bytes(&self) -> Vec<u8> {
+        archive(self.0.iter().map(|(name, bytes)| (*name, bytes.as_slice(), CompressionMethod::Deflated)))
+    }
+}
+
+/// Checks systems by our own rules, without running them: each has problems of its rule, and no others.
+pub fn each_has_its_problem(cases: &[(&str, Ssp, &str, &str)]) {
+    let packed: Vec<_> =
+        cases.iter().map(|(name, ssp, rule, message)| (*name, ssp.bytes(), *rule, *message)).collect();
+    crate::subject::each_has_its_problem(&packed, "ssp", &["--no-run"]);
+}

@@ -1,0 +1,19 @@
+//! The tests of the whole, in one program: what takes long on one core runs beside the others, and the FMUs are packed
+//! once. `cargo test --test whole masters` runs those of one file.
+
+mod batches;
+mod check;
+mod check_systems;
+mod check_values;
+mod diagnosis;
+mod examples;
+mod fmus;
+mod masters;
+mod packages;
+mod platforms;
+#[path = "check/ssp.rs"]
+mod ssp;
+#[path = "check/subject.rs"]
+mod subject;
+mod systems;
+mod third_party;
