@@ -19,20 +19,18 @@ pub struct Held {
 }
 
 impl Held {
+    /// The parameter that does to an input what a fault does, if the plant has one.
+    pub fn of(plant: &Plant, input: usize, fault: Fault) -> Option<Self> {
+        let (group, _) = plant.inputs[input].name.split_once('.')?;
+        let name = format!("{group}.{}", fault.name());
+        let parameter = plant.parameter(&name).filter(|_| FAULTS.contains(&fault))?;
+        let least = plant.parameters[parameter].min.unwrap_or(f64::NEG_INFINITY);
+        Some(Self { parameter, fault, least })
+    }
+
     /// The parameter's value with so much of the fault beside what it was.
     pub fn with(&self, before: f64, amount: f64) -> f64 {
         if self.fault == Fault::Gain { before * (1.0 + amount) } else { before + amount }
-    }
-}
-
-impl Plant {
-    /// The parameter that does to an input what a fault does, if the plant has one.
-    pub fn held(&self, input: usize, fault: Fault) -> Option<Held> {
-        let (group, _) = self.inputs[input].name.split_once('.')?;
-        let parameter =
-            self.parameter(&format!("{group}.{}", fault.name())).filter(|_| FAULTS.contains(&fault))?;
-        let least = self.parameters[parameter].min.unwrap_or(f64::NEG_INFINITY);
-        Some(Held { parameter, fault, least })
     }
 }
 
@@ -55,7 +53,7 @@ impl Point {
     /// The parameter that can hold what is here of an input's fault.
     pub fn holds(&self, plant: &Plant, input: usize, fault: Fault) -> Option<Held> {
         let amount = self.inputs[input].get(fault);
-        plant.held(input, fault).filter(|it| it.with(self.parameters[it.parameter], amount) >= it.least)
+        Held::of(plant, input, fault).filter(|it| it.with(self.parameters[it.parameter], amount) >= it.least)
     }
 }
 
@@ -100,6 +98,6 @@ mod tests {
         assert_eq!(within.inputs[input].get(Fault::Delay), -4e-3);
         assert_eq!(within.inputs[input].get(Fault::Gain), 0.0);
         let road = rig.plant.input("road.position").unwrap();
-        assert_eq!(rig.plant.held(road, Fault::Delay), None);
+        assert_eq!(Held::of(&rig.plant, road, Fault::Delay), None);
     }
 }

@@ -113,6 +113,8 @@ pub enum ForceOf {
     SpringAndDamper(&'static str, &'static str),
     /// An output times a parameter, the lever with which it turns something.
     Moment(&'static str, &'static str),
+    /// In an input, or, if that is more, an output times a parameter.
+    InputOrMoment(&'static str, &'static str, &'static str),
 }
 
 /// A force that the model misses, as it shows in an output.
@@ -133,7 +135,7 @@ impl ForceOf {
     pub fn signal(self) -> Option<&'static str> {
         match self {
             Self::Output(name) | Self::Input(name) => Some(name),
-            Self::SpringAndDamper(..) | Self::Moment(..) => None,
+            Self::SpringAndDamper(..) | Self::Moment(..) | Self::InputOrMoment(..) => None,
         }
     }
 }

@@ -29,7 +29,7 @@ pub(super) const LINEAR_DRIVE: Kind = Kind {
         element: Element::Guide,
         deflection: "position",
         velocity: Some("velocity"),
-        force: ForceOf::Moment("acceleration", "moving_mass"),
+        force: ForceOf::InputOrMoment("force", "acceleration", "moving_mass"),
     }],
     aliases: &[POSITION, VELOCITY, ACCELERATION, LOAD],
     trivial: &["resistance"],

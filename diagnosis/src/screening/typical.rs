@@ -15,6 +15,17 @@ pub fn typical(rig: &Rig, records: &[Recorded], outputs: &[Vec<Vec<f64>>]) -> Ve
     };
     let magnitude = |signals: &[Vec<f64>]| rms(&signals.concat()).max(1e-12);
     let value = |name: &str| plant.parameter(name).map_or(0.0, |index| rig.parameters[index]);
+    let driven = |name: &str| {
+        let index = plant.input(name);
+        let sources = records.iter().filter_map(|record| record.inputs.get(index?));
+        let driven: Vec<f64> = sources
+            .flat_map(|source| match source {
+                Source::Measured(values) => values.clone(),
+                Source::DerivativeOf(_) | Source::Constant(_) => Vec::new(),
+            })
+            .collect();
+        rms(&driven).max(1e-12)
+    };
     let of = |element: &ElementSignals| {
         let positions = signal(element.deflection);
         let velocities = match element.velocity {
@@ -36,18 +47,12 @@ pub fn typical(rig: &Rig, records: &[Recorded], outputs: &[Vec<Vec<f64>>]) -> Ve
                     .collect();
                 if measured.is_empty() { magnitude(&signal(name)) } else { rms(&measured).max(1e-12) }
             }
-            ForceOf::Input(name) => {
-                let index = plant.input(name);
-                let sources = records.iter().filter_map(|record| record.inputs.get(index?));
-                let driven: Vec<f64> = sources
-                    .flat_map(|source| match source {
-                        Source::Measured(values) => values.clone(),
-                        Source::DerivativeOf(_) | Source::Constant(_) => Vec::new(),
-                    })
-                    .collect();
-                rms(&driven).max(1e-12)
-            }
+            ForceOf::Input(name) => driven(name),
             ForceOf::Moment(force, lever) => (value(lever) * magnitude(&signal(force))).max(1e-12),
+            // What is slow and sticks is hardly accelerated by what drives it.
+            ForceOf::InputOrMoment(name, force, lever) => {
+                driven(name).max(value(lever) * magnitude(&signal(force)))
+            }
             ForceOf::SpringAndDamper(stiffness, damping) => {
                 (value(stiffness) * deflection).hypot(value(damping) * velocity)
             }

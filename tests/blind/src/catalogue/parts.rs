@@ -51,7 +51,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         "22",
         "enveloping of the road by the tyre",
         Place::Tire,
-        &[drawn("tire.enveloping", "s", (0.004, 0.012), ZERO, (0.0, 0.02))],
+        &[drawn("enveloping.time", "s", (0.004, 0.012), ZERO, (0.0, 0.02))],
     ),
     entry(
         "23",
