@@ -79,10 +79,7 @@ mod tests {
     #[test]
     fn an_actuator_s_faults_become_the_model_s_parameters() {
         let rig = Rig::published("tum-quarter-vehicle").unwrap();
-        let (point, input) = point(
-            &rig,
-            &[(Fault::Gain, -0.1), (Fault::Delay, 4e-3), (Fault::Lag, 2e-3), (Fault::Offset, 7.0)],
-        );
+        let (point, input) = point(&rig, &[(Fault::Gain, -0.1), (Fault::Delay, 4e-3), (Fault::Lag, 2e-3)]);
         let within = point.within(&rig.plant);
         let value = |name: &str| within.parameters[rig.plant.parameter(name).unwrap()];
         let names = ["actuator.gain", "actuator.delay", "actuator.lag"];

@@ -54,6 +54,9 @@ named! {
     friction_and_a_nonlinear_spring: "pair-01-08";
     an_offset_that_drifts: "sensor-33";
     a_clock_that_is_off: "sensor-36";
+    a_sampling_rate_that_is_off: "sensor-40";
+    a_saturated_actuator: "single-26";
+    an_overlapped_valve: "servo-28";
     friction_on_a_dyno: "dyno-01";
 }
 

@@ -55,7 +55,10 @@ pub fn compact() -> Vec<Case> {
     all.push(standard("sensor-34", vec![Hidden::at("34", "wheel.force")], 23));
     all.push(standard("sensor-33", vec![Hidden::at("33", "wheel.acceleration")], 27));
     all.push(standard("sensor-36", vec![Hidden::at("36", "body.acceleration")], 28));
+    all.push(standard("sensor-40", vec![Hidden::at("40", "wheel.force")], 30));
+    all.push(standard("single-26", vec![Hidden::new("26")], 31));
     all.push(Case { plant: Plant::StrutDyno, ..standard("dyno-01", vec![Hidden::new("01")], 29) });
+    all.push(Case { plant: Plant::ServoQuarter, ..standard("servo-28", vec![Hidden::new("28")], 32) });
     all.push(Case { clutter: 0, ..standard("none", vec![], 24) });
     all.push(standard("none-cluttered", vec![], 25));
     all.push(Case { clutter: 0, nominal_off: 0.1, ..standard("mismatch", vec![], 26) });
