@@ -27,6 +27,11 @@ const SAME: f64 = 0.05;
 const INADEQUATE: f64 = 0.2;
 
 impl Diagnosis<'_> {
+    /// Whether no signal on held-out data is met so well that anything is to be believed.
+    pub fn is_inadequate(&self) -> bool {
+        self.left().iter().all(|it| it.phi() < INADEQUATE)
+    }
+
     /// Everything that is told.
     pub fn findings(&self, data_problems: Vec<DataProblem>, seconds: f64) -> Findings {
         let world = &self.world;
@@ -50,8 +55,7 @@ impl Diagnosis<'_> {
             nearest = std::mem::take(&mut effects);
         }
         let sensors = !effects.is_empty() && named.iter().all(|it| name(it.term, &world.rig.plant).sensor);
-        let best = left.iter().map(unnamed::Left::phi).fold(f64::NEG_INFINITY, f64::max);
-        let verdict = if best < INADEQUATE {
+        let verdict = if self.is_inadequate() {
             Verdict::ModelInadequate
         } else if unnamed.is_some() && (effects.is_empty() || sensors) {
             // A curve is about the plant, whatever is wrong with the sensors besides.

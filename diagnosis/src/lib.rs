@@ -25,6 +25,7 @@ pub mod lsq;
 pub mod naming;
 mod random;
 pub mod recorded;
+pub mod records;
 pub mod report;
 pub mod rig;
 pub mod run;

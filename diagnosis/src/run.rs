@@ -13,12 +13,13 @@ use strut_model::ParameterSet;
 use crate::cli::{Arguments, Command, DiagnosisArguments, SimulateArguments};
 use crate::data::map::Map;
 use crate::data::table::did_you_mean;
-use crate::diagnosis::{Options, diagnose};
+use crate::diagnosis::Options;
 use crate::file::replace;
 use crate::findings::{DataProblem, Findings};
 use crate::import::{align, choose_drive, import};
 use crate::naming;
 use crate::recorded::Recorded;
+use crate::records::Records;
 use crate::report;
 use crate::rig::Rig;
 use crate::virtual_rig::{self, Experiment};
@@ -109,9 +110,17 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
     bar.enable_steady_tick(Duration::from_millis(100));
     let progress = |text: &str| bar.set_message(text.to_owned());
     bar.set_message("taking the noise off the inputs");
-    let conditioned = |records: &[Recorded]| records.iter().map(Recorded::conditioned).collect::<Vec<_>>();
-    let (train, judging) = (conditioned(&records), conditioned(&test));
-    let diagnosis = diagnose(&rig, &train, &judging, &test, options, &progress)?;
+    let whole = Records::new(&records, test);
+    let mut diagnosis = whole.diagnosed(&rig, options.clone(), &progress)?;
+    let parts = if diagnosis.is_inadequate() { whole.in_parts(&rig) } else { None };
+    if let Some(parts) = &parts {
+        bar.set_message("comparing over shorter stretches");
+        let again = parts.diagnosed(&rig, options, &progress)?;
+        if !again.is_inadequate() {
+            problems.push(parts.note());
+            diagnosis = again;
+        }
+    }
     bar.set_message("writing the report");
     let findings = diagnosis.findings(problems, clock.elapsed().as_secs_f64());
     report::write(&findings, &arguments.out).map_err(|error| error.to_string())?;
