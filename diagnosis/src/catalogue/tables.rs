@@ -82,7 +82,7 @@ pub(super) const TABLES: &[Table] = &[
         variable: "deflection",
         switch: "strut.curve.scale",
         range: "strut.curve.deflection_range",
-        points: "strut.curve.damping_over_deflection",
+        points: "strut.curve.damping",
         scale: Scale::DEFLECTION,
         point: Scale::DAMPING,
     },

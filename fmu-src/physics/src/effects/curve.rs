@@ -35,7 +35,7 @@ pub struct ForceCurve<R> {
     pub over_velocity: [R; POINTS],
     /// Damping rate at equally spaced deflections, held beyond them
     #[var(unit = N_S_PER_M, start = 0.0)]
-    pub damping_over_deflection: [R; POINTS],
+    pub damping: [R; POINTS],
 }
 
 impl<R: Real> ForceCurve<R> {
@@ -46,7 +46,7 @@ impl<R: Real> ForceCurve<R> {
             return self.scale;
         }
         let over_deflection = held(&self.over_deflection, self.deflection_range, deflection);
-        let damping = held(&self.damping_over_deflection, self.deflection_range, deflection);
+        let damping = held(&self.damping, self.deflection_range, deflection);
         let over_velocity = held(&self.over_velocity, self.velocity_range, velocity);
         self.scale * (over_deflection + over_velocity + damping * velocity)
     }
@@ -152,7 +152,7 @@ mod tests {
             over_deflection: squares(),
             velocity_range: 0.5,
             over_velocity: [0.0; POINTS],
-            damping_over_deflection: [0.0; POINTS],
+            damping: [0.0; POINTS],
         }
     }
 
@@ -180,7 +180,7 @@ mod tests {
     proptest! {
         #[test]
         fn a_damping_rate_over_the_deflection_is_one(x in -0.1..0.1_f64, v in -1.0..1.0_f64) {
-            let damper = ForceCurve { over_deflection: [0.0; POINTS], damping_over_deflection: squares(), ..curve(1.5) };
+            let damper = ForceCurve { over_deflection: [0.0; POINTS], damping: squares(), ..curve(1.5) };
             prop_assert!((damper.force(x, v) - curve(1.5).force(x, 0.0) * v).abs() < 1e-9);
         }
 

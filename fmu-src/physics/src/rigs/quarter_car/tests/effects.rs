@@ -29,7 +29,7 @@ fn every_effect() -> Parameters<f64> {
     (p.hysteresis.presliding.force, p.hysteresis.presliding.exponent) = (60.0, 1.5);
     p.hysteresis.maxwell.stiffness = 2e4;
     (p.hysteresis.mount.gap, p.hysteresis.mount.compliance) = (0.5e-3, 2e-6);
-    (p.strut.curve.over_deflection[6], p.strut.curve.damping_over_deflection[4]) = (8.0, 90.0);
+    (p.strut.curve.over_deflection[6], p.strut.curve.damping[4]) = (8.0, 90.0);
     (p.actuator.gain, p.actuator.delay, p.actuator.lag) = (0.9, 3e-3, 2e-3);
     (p.actuator.saturation.ratio, p.actuator.saturation.force) = (0.7, 2.0);
     (p.actuator.curve.scale, p.actuator.curve.over_force[6]) = (1.0, 3.0);
