@@ -327,6 +327,8 @@ pub struct SignalCorrection {
 pub struct Curve {
     /// Where it acts.
     pub location: String,
+    /// What it is: `force`, `damping rate`; empty if it is not known.
+    pub quantity: String,
     /// Over which variable.
     pub variable: String,
     /// Unit of the variable.

@@ -44,7 +44,7 @@ pub fn name(term: Term, plant: &Plant) -> Name {
         Term::Table(table) => Name {
             id: table.id.into(),
             element: table.element.name().into(),
-            name: format!("unnamed {} over {}", table.quantity(), table.variable),
+            name: format!("unnamed {} over {}", table.quantity().0, table.variable),
             equation: format!("a table over {}", table.variable),
             experiment: "sweep the variable slowly through the covered range and beyond".into(),
             sensor: false,

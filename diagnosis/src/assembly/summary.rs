@@ -75,15 +75,17 @@ fn parameters(findings: &Findings) -> Option<String> {
 }
 
 fn without_name(curve: &Curve, nearest: &[Effect]) -> String {
-    let known = if curve.x.is_empty() {
-        format!("nearest comes {}", list(nearest))
-    } else {
-        "its curve is given".to_owned()
+    let known = match (curve.x.is_empty(), nearest.is_empty()) {
+        (false, _) => "its curve is given".to_owned(),
+        (true, false) => format!("nearest comes {}", list(nearest)),
+        (true, true) => "these data do not determine its curve".to_owned(),
     };
-    let Curve { location, variable, .. } = curve;
-    format!(
-        "The model lacks a force in the {location} over {variable} that has no name in the catalogue; {known}."
-    )
+    let Curve { location, quantity, variable, .. } = curve;
+    let what = match quantity.as_str() {
+        "" => format!("something at {location}"),
+        quantity => format!("a {quantity} in the {location} over {variable}"),
+    };
+    format!("The model lacks {what} that has no name in the catalogue; {known}.")
 }
 
 fn gained(signals: &[Signal]) -> Option<String> {
@@ -160,8 +162,12 @@ mod tests {
             ambiguous_with: vec![],
             experiment: None,
         };
-        let curve =
-            Curve { location: "strut".into(), variable: "suspension.velocity".into(), ..Curve::default() };
+        let curve = Curve {
+            location: "strut".into(),
+            quantity: "force".into(),
+            variable: "suspension.velocity".into(),
+            ..Curve::default()
+        };
         let unnamed = Some(Curve { x: vec![0.0], y: vec![1.0], ..curve });
         let text = of(&Findings { effects: vec![effect], unnamed, ..findings(Verdict::Unnamed) });
         assert!(text.starts_with("The measurement is wrong: gain of the sensor at wheel.force."), "{text}");

@@ -29,10 +29,10 @@ impl Diagnosis<'_> {
     /// Where something acts, and over what, if no more is known of it than a law that comes near.
     pub(super) fn place(&self, term: Term) -> Curve {
         let of_cause = |velocity: bool| if velocity { Scale::VELOCITY } else { Scale::DEFLECTION };
-        let (location, over, point) = match term {
-            Term::Cause(cause) => (Some(cause.element), of_cause(cause.is_over_velocity()), Scale::FORCE),
-            Term::Table(table) => (Some(table.element), table.scale, table.point),
-            Term::Fault(_) => (None, Scale::ONE, Scale::ONE),
+        let (location, over, (quantity, unit)) = match term {
+            Term::Cause(cause) => (Some(cause.element), of_cause(cause.is_over_velocity()), ("force", "N")),
+            Term::Table(table) => (Some(table.element), table.scale, table.quantity()),
+            Term::Fault(_) => (None, Scale::ONE, ("", "")),
         };
         let Some(element) = location else {
             let signal = name(term, &self.world.rig.plant).element;
@@ -41,9 +41,10 @@ impl Diagnosis<'_> {
         let (variable, variable_unit) = self.variable(element, over);
         Curve {
             location: element.name().into(),
+            quantity: quantity.into(),
             variable,
             variable_unit: variable_unit.into(),
-            unit: if point == Scale::DAMPING { "N.s/m" } else { "N" }.into(),
+            unit: unit.into(),
             ..Curve::default()
         }
     }

@@ -24,9 +24,9 @@ pub struct Table {
 }
 
 impl Table {
-    /// What its points are.
-    pub fn quantity(&self) -> &'static str {
-        if self.point == Scale::DAMPING { "damping rate" } else { "force" }
+    /// What its points are, and their unit.
+    pub fn quantity(&self) -> (&'static str, &'static str) {
+        if self.point == Scale::DAMPING { ("damping rate", "N.s/m") } else { ("force", "N") }
     }
 
     /// Whether it is over the velocity of its element.

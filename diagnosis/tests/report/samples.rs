@@ -246,6 +246,7 @@ pub fn sample(verdict: Verdict) -> Findings {
             let width: Vec<f64> = x.iter().map(|x| 3.0 + 60.0 * x * x).collect();
             findings.unnamed = Some(Curve {
                 location: "strut".into(),
+                quantity: "force".into(),
                 variable: "strut velocity".into(),
                 variable_unit: "m/s".into(),
                 unit: "N".into(),

@@ -123,7 +123,7 @@ fn unnamed(findings: &Findings) -> Markup {
                 ". The extended model contains it as a table; outside of that range nothing is known."
             }
             figure {
-                figcaption { (labelled("Missing quantity", &curve.unit)) " with its 95 % band" }
+                figcaption { (labelled(&format!("Missing {}", curve.quantity), &curve.unit)) " with its 95 % band" }
                 (pictures::unnamed(curve))
             }
         }
