@@ -10,6 +10,8 @@ use super::{DIRECTIONS, Drive, Seed, Signals, outputs_of};
 const LONGEST_STEP: f64 = 4e-3;
 /// Largest product of the step and the fastest rate of change; the method is stable up to 2.78.
 const STABLE: f64 = 1.2;
+/// The same of the step and the largest slope of a delay's states, 12 over the delay: a sixteenth of the delay is a step.
+const WELL_BELOW: f64 = 0.75;
 /// How far what friction and bushes remember is displaced to look for contact, SI: beyond any play.
 const DISPLACED: f64 = 0.1;
 /// Steps between two samples beyond which a model is too stiff for this method.
@@ -155,7 +157,7 @@ fn steps<M: Model>(model: &M, parameters: &M::Parameters<f64>, drive: &Drive) ->
     let memory = Bundle::from_fn(|i| Dual64::from(memory[i].start));
     let declared = Declarations::of::<M::State<f64>>();
     let input = Bundle::from_fn(|i| Dual64::from(drive.inputs[i].first().copied().unwrap_or(0.0)));
-    let fastest_at = |at: &[f64]| -> f64 {
+    let jacobian_at = |at: &[f64]| {
         let mut jacobian = nalgebra::DMatrix::<f64>::zeros(states, states);
         for column in 0..states {
             let state = Bundle::from_fn(|i| Dual64::new(at[i], f64::from(i == column)));
@@ -171,6 +173,10 @@ fn steps<M: Model>(model: &M, parameters: &M::Parameters<f64>, drive: &Drive) ->
             let (rates, _) = model.equations(now);
             rates.for_each(|row, rate| jacobian[(row, column)] = rate.eps);
         }
+        jacobian
+    };
+    let fastest_at = |at: &[f64]| -> f64 {
+        let jacobian = jacobian_at(at);
         if !jacobian.iter().all(|entry| entry.is_finite()) {
             return f64::INFINITY;
         }
@@ -184,7 +190,12 @@ fn steps<M: Model>(model: &M, parameters: &M::Parameters<f64>, drive: &Drive) ->
         displaced[index] += DISPLACED;
         fastest = fastest.max(fastest_at(&displaced));
     }
-    (drive.step / LONGEST_STEP).max(drive.step * fastest / STABLE).ceil().clamp(1.0, MOST_STEPS) as usize
+    // The rational function of a delay is one only in steps well below it.
+    let jacobian = jacobian_at(&rest);
+    let late = declared.iter().enumerate().filter(|(_, state)| state.name.contains(".delay."));
+    let sharpest = late.map(|(row, _)| jacobian.row(row).amax()).fold(0.0, f64::max);
+    let rate = (fastest / STABLE).max(sharpest / WELL_BELOW);
+    (drive.step / LONGEST_STEP).max(drive.step * rate).ceil().clamp(1.0, MOST_STEPS) as usize
 }
 
 fn lift<R: Real, A: Bundle<f64>, B: Bundle<R>>(bundle: &A) -> B {
