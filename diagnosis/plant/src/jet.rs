@@ -17,27 +17,16 @@ pub(super) struct Jet<const N: usize> {
 }
 
 impl<const N: usize> Jet<N> {
-    // Plain loops over the slopes: the closures of `array::from_fn` are not inlined any more in models as large as a
-    // quarter car with all of its effects.
-
     /// A function of the number, from its value and its slope there.
     #[inline(always)]
-    fn chain(mut self, value: f64, slope: f64) -> Self {
-        self.value = value;
-        for own in &mut self.slopes {
-            *own *= slope;
-        }
-        self
+    fn chain(self, value: f64, slope: f64) -> Self {
+        Self { value, slopes: std::array::from_fn(|i| slope * self.slopes[i]) }
     }
 
     /// `value`, and the slopes of both in proportion.
     #[inline(always)]
-    fn joined(mut self, other: Self, value: f64, a: f64, b: f64) -> Self {
-        self.value = value;
-        for (own, other) in self.slopes.iter_mut().zip(other.slopes) {
-            *own = a * *own + b * other;
-        }
-        self
+    fn joined(self, other: Self, value: f64, a: f64, b: f64) -> Self {
+        Self { value, slopes: std::array::from_fn(|i| a * self.slopes[i] + b * other.slopes[i]) }
     }
 }
 
@@ -51,24 +40,18 @@ impl<const N: usize> From<f64> for Jet<N> {
 impl<const N: usize> Add for Jet<N> {
     type Output = Self;
     #[inline(always)]
-    fn add(mut self, other: Self) -> Self {
-        self.value += other.value;
-        for (own, other) in self.slopes.iter_mut().zip(other.slopes) {
-            *own += other;
-        }
-        self
+    fn add(self, other: Self) -> Self {
+        let slopes = std::array::from_fn(|i| self.slopes[i] + other.slopes[i]);
+        Self { value: self.value + other.value, slopes }
     }
 }
 
 impl<const N: usize> Sub for Jet<N> {
     type Output = Self;
     #[inline(always)]
-    fn sub(mut self, other: Self) -> Self {
-        self.value -= other.value;
-        for (own, other) in self.slopes.iter_mut().zip(other.slopes) {
-            *own -= other;
-        }
-        self
+    fn sub(self, other: Self) -> Self {
+        let slopes = std::array::from_fn(|i| self.slopes[i] - other.slopes[i]);
+        Self { value: self.value - other.value, slopes }
     }
 }
 

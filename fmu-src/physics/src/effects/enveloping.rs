@@ -4,6 +4,8 @@ use strut_model::{Real, Variables};
 
 use crate::signals::RoadMotion;
 
+use super::transport::behind_lag;
+
 /// The road as a tyre with a contact patch sees it: behind a low-pass, `T z' = z_r − z` (catalogue of diagnosis, 22).
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Enveloping<R> {
@@ -20,9 +22,6 @@ pub struct EnvelopingState<R> {
     pub height: R,
 }
 
-/// Below, a time constant is this one where it is not off.
-const LEAST: f64 = 1e-5;
-
 impl<R: Real> Enveloping<R> {
     /// The road that the tyre sees, and the state's rate.
     #[inline]
@@ -31,15 +30,9 @@ impl<R: Real> Enveloping<R> {
         state: EnvelopingState<R>,
         road: RoadMotion<R>,
     ) -> (RoadMotion<R>, EnvelopingState<R>) {
-        if self.time.vanishes() {
-            return (road, EnvelopingState { height: R::from(0.0) });
-        }
-        let rate = (road.position - state.height) / self.time.max(R::from(LEAST));
-        let seen = RoadMotion {
-            position: self.time.select(state.height, road.position),
-            velocity: self.time.select(rate, road.velocity),
-        };
-        (seen, EnvelopingState { height: rate })
+        let (position, rate) = behind_lag(self.time, state.height, road.position);
+        let velocity = self.time.select(rate, road.velocity);
+        (RoadMotion { position, velocity }, EnvelopingState { height: rate })
     }
 }
 

@@ -39,30 +39,46 @@ pub struct LagState<R> {
     pub arrived: R,
 }
 
-/// A force behind a lag with the time constant `time` (T), `T y' = u − y`, and the state's rate.
+/// What has arrived of a quantity behind a lag with the time constant `time` (T), `T y' = u − y`, and how fast it rises; the
+/// quantity itself and zero where the lag is off.
+#[inline]
+pub fn behind_lag<R: Real>(time: R, arrived: R, quantity: R) -> (R, R) {
+    if time.vanishes() {
+        return (quantity, R::from(0.0));
+    }
+    let rate = (quantity - arrived) / time.max(R::from(LEAST));
+    (time.select(arrived, quantity), rate)
+}
+
+/// A force behind a lag, and the state's rate.
 #[inline]
 pub fn lagged<R: Real>(time: R, state: LagState<R>, force: R) -> (R, LagState<R>) {
-    if time.vanishes() {
-        return (force, LagState { arrived: R::from(0.0) });
-    }
-    let rate = (force - state.arrived) / time.max(R::from(LEAST));
-    (time.select(state.arrived, force), LagState { arrived: rate })
+    let (force, arrived) = behind_lag(time, state.arrived, force);
+    (force, LagState { arrived })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use nalgebra::Complex;
     use proptest::prelude::*;
     use strut_model::Dependencies;
 
-    /// Phase and amplitude of what becomes of a sine, by complex numbers: states and output are solved for at `s = iω`.
+    use super::*;
+
+    /// Phase and amplitude of what becomes of a sine: output and states are linear, and solved for at `s = iω`.
     fn delay_at(omega: f64, time: f64) -> (f64, f64) {
-        // b (s τ + 6 + 12/(s τ)) = 12 u.
-        let x = omega * time;
-        let (re, im) = (6.0, x - 12.0 / x);
-        let square = re * re + im * im;
-        let (y_re, y_im) = (1.0 - 12.0 * re / square, 12.0 * im / square);
-        (y_im.atan2(y_re), y_re.hypot(y_im))
+        let of = |slow, fast, force| {
+            let (output, rates) = delayed(time, DelayState { slow, fast }, force);
+            [rates.slow, rates.fast, output].map(Complex::from)
+        };
+        let [[a11, a21, c1], [a12, a22, c2], [b1, b2, d]] =
+            [of(1.0, 0.0, 0.0), of(0.0, 1.0, 0.0), of(0.0, 0.0, 1.0)];
+        let s = Complex::new(0.0, omega);
+        let determinant = (s - a11) * (s - a22) - a12 * a21;
+        let slow = (b1 * (s - a22) + a12 * b2) / determinant;
+        let fast = ((s - a11) * b2 + a21 * b1) / determinant;
+        let output = c1 * slow + c2 * fast + d;
+        (output.arg(), output.norm())
     }
 
     #[test]
