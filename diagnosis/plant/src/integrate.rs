@@ -175,25 +175,24 @@ fn steps<M: Model>(model: &M, parameters: &M::Parameters<f64>, drive: &Drive) ->
         }
         jacobian
     };
-    let fastest_at = |at: &[f64]| -> f64 {
-        let jacobian = jacobian_at(at);
+    let fastest_of = |jacobian: &nalgebra::DMatrix<f64>| -> f64 {
         if !jacobian.iter().all(|entry| entry.is_finite()) {
             return f64::INFINITY;
         }
         jacobian.complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max)
     };
     let rest: Vec<f64> = declared.iter().map(|state| state.start).collect();
-    let mut fastest = fastest_at(&rest);
+    let resting = jacobian_at(&rest);
+    let mut fastest = fastest_of(&resting);
     // What has play is loose at rest: it is looked at where it is in contact, too.
     for (index, _) in declared.iter().enumerate().filter(|(_, state)| state.name.starts_with("hysteresis.")) {
         let mut displaced = rest.clone();
         displaced[index] += DISPLACED;
-        fastest = fastest.max(fastest_at(&displaced));
+        fastest = fastest.max(fastest_of(&jacobian_at(&displaced)));
     }
     // The rational function of a delay is one only in steps well below it.
-    let jacobian = jacobian_at(&rest);
     let late = declared.iter().enumerate().filter(|(_, state)| state.name.contains(".delay."));
-    let sharpest = late.map(|(row, _)| jacobian.row(row).amax()).fold(0.0, f64::max);
+    let sharpest = late.map(|(row, _)| resting.row(row).amax()).fold(0.0, f64::max);
     let rate = (fastest / STABLE).max(sharpest / WELL_BELOW);
     (drive.step / LONGEST_STEP).max(drive.step * rate).ceil().clamp(1.0, MOST_STEPS) as usize
 }
