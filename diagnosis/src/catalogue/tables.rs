@@ -28,11 +28,6 @@ impl Table {
     pub fn quantity(&self) -> (&'static str, &'static str) {
         if self.point == Scale::DAMPING { ("damping rate", "N.s/m") } else { ("force", "N") }
     }
-
-    /// Whether it is over the velocity of its element.
-    pub fn is_over_velocity(&self) -> bool {
-        self.scale == Scale::VELOCITY
-    }
 }
 
 pub(super) const TABLES: &[Table] = &[
@@ -87,7 +82,7 @@ pub(super) const TABLES: &[Table] = &[
         point: Scale::DAMPING,
     },
     Table {
-        id: "G5",
+        id: "G1",
         element: Element::Actuator,
         variable: "force",
         switch: "actuator.curve.scale",
