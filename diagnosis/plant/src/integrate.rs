@@ -4,7 +4,7 @@ use num_dual::Dual64;
 use strut_model::{Bundle, Declarations, Model, Now, Real};
 
 use super::jet::Jet;
-use super::{DIRECTIONS, Drive, Seed, Signals, outputs_of};
+use super::{DIRECTIONS, Drive, Linearised, Seed, outputs_of};
 
 /// Longest step of the integration in seconds, whatever the record's sampling.
 const LONGEST_STEP: f64 = 4e-3;
@@ -66,43 +66,59 @@ impl<'a, M: Model, R: Real> Run<'a, M, R> {
         }
     }
 
-    /// Hands out the outputs at a sample, by their index.
-    #[inline]
-    pub fn at(&mut self, sample: usize, input: impl Fn(usize) -> R, mut put: impl FnMut(usize, R)) {
-        let (time, input) = (sample as f64 * self.step, M::Input::<R>::from_fn(input));
-        self.tick_at(time, &input);
-        let (_, output) = self.equations(R::from(time), &self.state, &input);
-        output.for_each(&mut put);
-        let mut states = self.measured.iter().peekable();
-        self.state.for_each(|index, value| {
-            if let Some((_, output)) = states.next_if(|(state, _)| *state == index) {
-                put(*output, value);
+    /// Goes through all samples and hands out the outputs at each, by their index; `input` gives an input at a share of the
+    /// way from a sample to the next.
+    pub fn through(
+        &mut self,
+        samples: usize,
+        input: impl Fn(usize, usize, f64) -> R,
+        mut put: impl FnMut(usize, R),
+    ) {
+        for sample in 0..samples {
+            let at = |share: f64| M::Input::<R>::from_fn(|i| input(i, sample, share));
+            let (time, first) = (sample as f64 * self.step, at(0.0));
+            self.tick_at(time, &first);
+            let (rates, output) = self.equations(R::from(time), &self.state, &first);
+            output.for_each(&mut put);
+            let mut states = self.measured.iter().peekable();
+            self.state.for_each(|index, value| {
+                if let Some((_, output)) = states.next_if(|(state, _)| *state == index) {
+                    put(*output, value);
+                }
+            });
+            if sample + 1 < samples {
+                self.advance(sample, first, rates, at);
             }
-        });
+        }
     }
 
-    /// Goes from a sample to the next; `input` gives an input at a share of the way.
+    /// Goes from a sample, where input and rates are known, to the next.
     #[inline]
-    pub fn advance(&mut self, sample: usize, input: impl Fn(usize, f64) -> R) {
-        let (step, steps) = (self.step, self.steps as f64);
-        let h = step / steps;
-        let at = |share: f64| M::Input::<R>::from_fn(|i| input(i, share));
+    fn advance(
+        &mut self,
+        sample: usize,
+        mut first: M::Input<R>,
+        mut k1: M::State<R>,
+        at: impl Fn(f64) -> M::Input<R>,
+    ) {
+        let steps = self.steps as f64;
+        let h = self.step / steps;
         for part in 0..self.steps {
             let share = |offset: f64| (part as f64 + offset) / steps;
-            let time = |offset: f64| (sample as f64 + share(offset)) * step;
-            let (first, middle, last) = (at(share(0.0)), at(share(0.5)), at(share(1.0)));
+            let time = |offset: f64| (sample as f64 + share(offset)) * self.step;
+            let now = [time(0.0), time(0.5), time(1.0)];
             if part > 0 {
-                self.tick_at(time(0.0), &first);
+                self.tick_at(now[0], &first);
+                (k1, _) = self.equations(R::from(now[0]), &self.state, &first);
             }
             let x = self.state;
-            let (k1, _) = self.equations(R::from(time(0.0)), &x, &first);
-            let (k2, _) =
-                self.equations(R::from(time(0.5)), &along::<M, R, 1>(&x, [0.5 * h], [&k1]), &middle);
-            let (k3, _) =
-                self.equations(R::from(time(0.5)), &along::<M, R, 1>(&x, [0.5 * h], [&k2]), &middle);
-            let (k4, _) = self.equations(R::from(time(1.0)), &along::<M, R, 1>(&x, [h], [&k3]), &last);
+            let (middle, last) = (at(share(0.5)), at(share(1.0)));
+            let (k2, _) = self.equations(R::from(now[1]), &along::<M, R, 1>(&x, [0.5 * h], [&k1]), &middle);
+            let (k3, _) = self.equations(R::from(now[1]), &along::<M, R, 1>(&x, [0.5 * h], [&k2]), &middle);
+            let (k4, _) = self.equations(R::from(now[2]), &along::<M, R, 1>(&x, [h], [&k3]), &last);
             let (sixth, third) = (h / 6.0, h / 3.0);
             self.state = along::<M, R, 4>(&x, [sixth, third, third, sixth], [&k1, &k2, &k3, &k4]);
+            first = last;
         }
     }
 
@@ -210,15 +226,16 @@ fn direction(index: usize) -> [f64; DIRECTIONS] {
     std::array::from_fn(|i| f64::from(i == index))
 }
 
-/// As [`Dynamics::derivatives`](super::Dynamics::derivatives).
-pub(super) fn derivatives<M: Model>(
+/// The outputs that are asked for and their derivatives, as [`Dynamics::linearised`](super::Dynamics::linearised), for at
+/// most [`DIRECTIONS`] seeds.
+pub(super) fn linearised<M: Model>(
     model: &M,
     parameters: &[f64],
     start: &[f64],
     drive: &Drive,
     seeds: &[Seed],
-) -> Vec<Signals> {
-    assert!(seeds.len() <= DIRECTIONS, "{} seeds are more than {DIRECTIONS}", seeds.len());
+    wanted: &[usize],
+) -> Linearised {
     let seeded = |value: f64, seed: &dyn Fn(&Seed) -> bool| match seeds.iter().position(seed) {
         Some(index) => Dual { value, slopes: direction(index) },
         None => Dual::from(value),
@@ -253,20 +270,17 @@ pub(super) fn derivatives<M: Model>(
         }
         Dual { value, slopes }
     };
-    let mut signals = vec![vec![Vec::with_capacity(drive.len()); outputs_of::<M>()]; seeds.len()];
-    for sample in 0..drive.len() {
-        run.at(
-            sample,
-            |i| input(i, sample, 0.0),
-            |output, value| {
-                for (index, signals) in signals.iter_mut().enumerate() {
-                    signals[output].push(value.slopes[index]);
-                }
-            },
-        );
-        if sample + 1 < drive.len() {
-            run.advance(sample, |i, share| input(i, sample, share));
+    let empty = || vec![Vec::with_capacity(drive.len()); wanted.len()];
+    let mut found = Linearised { outputs: empty(), slopes: seeds.iter().map(|_| empty()).collect() };
+    let rows: Vec<Option<usize>> =
+        (0..outputs_of::<M>()).map(|output| wanted.iter().position(|it| *it == output)).collect();
+    run.through(drive.len(), input, |output, value| {
+        if let Some(row) = rows[output] {
+            found.outputs[row].push(value.value);
+            for (slopes, slope) in found.slopes.iter_mut().zip(value.slopes) {
+                slopes[row].push(slope);
+            }
         }
-    }
-    signals
+    });
+    found
 }

@@ -7,12 +7,13 @@ mod integrate;
 mod jet;
 pub mod models;
 
+use rayon::prelude::*;
 use strut_model::{Bundle, Declaration, Declarations, Model, SettingDeclaration, Settings, Value};
 
 use integrate::{Equations, Run};
 
 /// Derivatives that are taken at once.
-pub const DIRECTIONS: usize = 8;
+const DIRECTIONS: usize = 8;
 
 /// A model as a predictor.
 #[derive(Clone, Debug)]
@@ -164,16 +165,29 @@ pub enum Seed {
 /// Signals over the samples of a drive, one for each measurable output.
 pub type Signals = Vec<Vec<f64>>;
 
+/// Outputs and how they change.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Linearised {
+    /// The outputs that were asked for.
+    pub outputs: Signals,
+    /// Their derivatives with respect to each seed.
+    pub slopes: Vec<Signals>,
+}
+
 /// A model that is ready to be run.
 pub trait Dynamics: Send + Sync {
     /// The outputs at the samples.
     fn outputs(&self, parameters: &[f64], start: &[f64], drive: &Drive) -> Signals;
 
-    /// The derivatives of the outputs with respect to at most [`DIRECTIONS`] seeds.
-    ///
-    /// # Panics
-    /// If there are more.
-    fn derivatives(&self, parameters: &[f64], start: &[f64], drive: &Drive, seeds: &[Seed]) -> Vec<Signals>;
+    /// The outputs that are asked for, each by its index and once, and their derivatives with respect to the seeds.
+    fn linearised(
+        &self,
+        parameters: &[f64],
+        start: &[f64],
+        drive: &Drive,
+        seeds: &[Seed],
+        wanted: &[usize],
+    ) -> Linearised;
 
     /// Refuses parameters that do not go together.
     ///
@@ -192,17 +206,26 @@ impl<M: Model + Sync> Dynamics for Equations<M> {
             Bundle::from_fn(|i| start[i]),
             drive,
         );
-        for sample in 0..drive.len() {
-            run.at(sample, |i| drive.inputs[i][sample], |output, value| signals[output].push(value));
-            if sample + 1 < drive.len() {
-                run.advance(sample, |i, share| drive.between.value(&drive.inputs[i], sample, share));
-            }
-        }
+        let input =
+            |i: usize, sample: usize, share: f64| drive.between.value(&drive.inputs[i], sample, share);
+        run.through(drive.len(), input, |output, value| signals[output].push(value));
         signals
     }
 
-    fn derivatives(&self, parameters: &[f64], start: &[f64], drive: &Drive, seeds: &[Seed]) -> Vec<Signals> {
-        integrate::derivatives(&self.model, parameters, start, drive, seeds)
+    fn linearised(
+        &self,
+        parameters: &[f64],
+        start: &[f64],
+        drive: &Drive,
+        seeds: &[Seed],
+        wanted: &[usize],
+    ) -> Linearised {
+        let of = |seeds: &[Seed]| integrate::linearised(&self.model, parameters, start, drive, seeds, wanted);
+        let parts: Vec<Linearised> = seeds.par_chunks(DIRECTIONS).map(of).collect();
+        let mut parts = parts.into_iter();
+        let mut all = parts.next().unwrap_or_else(|| of(&[]));
+        all.slopes.extend(parts.flat_map(|part| part.slopes));
+        all
     }
 
     fn check(&self, parameters: &[f64]) -> Result<(), String> {

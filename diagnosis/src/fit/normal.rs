@@ -6,10 +6,13 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::correction::{Correction, Fault};
-use crate::plant::{DIRECTIONS, Seed, Signals};
+use crate::plant::{Linearised, Seed, Signals};
 use crate::recorded::Recorded;
 
 use super::{Fit, Handle, Point};
+
+/// Samples whose products are added in one go: their Jacobian stays in the processor's cache.
+const TOGETHER: usize = 256;
 
 /// How the states at a section's start follow the coordinates.
 #[derive(Clone, Debug)]
@@ -29,27 +32,25 @@ pub(super) struct Section {
 }
 
 impl Fit<'_> {
-    /// The seeds of all coordinates that act through the plant, with the coordinates' indices; then those of the
-    /// states at the start.
+    /// The seeds of the states at the start and of all coordinates that act through the plant, each with the column of the
+    /// Jacobian that it is for.
     fn seeds(&self, point: &Point, record: &Recorded, section: &Range<usize>) -> Vec<(usize, Seed)> {
-        let coordinates = self.coordinates.len();
-        let mut seeds = Vec::new();
-        for (index, coordinate) in self.coordinates.iter().enumerate() {
+        let states = self.states.iter().map(|state| Seed::State(*state));
+        let mut seeds: Vec<(usize, Seed)> = states.enumerate().collect();
+        for (column, coordinate) in (self.states.len()..).zip(&self.coordinates) {
             match coordinate.handle {
-                Handle::Parameter(parameter) => seeds.push((index, Seed::Parameter(parameter))),
+                Handle::Parameter(parameter) => seeds.push((column, Seed::Parameter(parameter))),
                 Handle::Input(input, fault) => {
                     let change = slope(&point.inputs[input], fault, record.step, |correction| {
                         let mut corrections = point.inputs.clone();
                         corrections[input] = *correction;
                         record.drive(section, &corrections).inputs.swap_remove(input)
                     });
-                    seeds.push((index, Seed::Inputs(record.change(input, change))));
+                    seeds.push((column, Seed::Inputs(record.change(input, change))));
                 }
                 Handle::Output(..) => {}
             }
         }
-        let states = self.states.iter().enumerate();
-        seeds.extend(states.map(|(number, state)| (coordinates + number, Seed::State(*state))));
         seeds
     }
 
@@ -63,116 +64,126 @@ impl Fit<'_> {
         section: &Range<usize>,
         (extra, groups): (&[&Signals], &[Range<usize>]),
     ) -> Section {
-        let (own, states) = (self.coordinates.len(), self.states.len());
-        let n = own + extra.len();
         let drive = record.drive(section, &point.inputs);
-        let outputs = self.dynamics.outputs(&point.parameters, start, &drive);
-        let seeds = self.seeds(point, record, section);
-        let derivatives: Vec<Signals> = seeds
-            .par_chunks(DIRECTIONS)
-            .flat_map_iter(|chunk| {
-                let seeds: Vec<Seed> = chunk.iter().map(|(_, seed)| seed.clone()).collect();
-                self.dynamics.derivatives(&point.parameters, start, &drive, &seeds)
+        let (columns, seeds): (Vec<usize>, Vec<Seed>) =
+            self.seeds(point, record, section).into_iter().unzip();
+        let wanted: Vec<usize> = record.measured.iter().map(|measured| measured.output).collect();
+        let linearised = self.dynamics.linearised(&point.parameters, start, &drive, &seeds, &wanted);
+        let fixed = self.states.len() + self.coordinates.len();
+        let products = |row: usize| {
+            let (jacobian, residual) =
+                self.jacobian(point, record, section, (row, &columns, &linearised), extra);
+            (products(&jacobian, fixed, groups), scores(&jacobian, &residual, record.block()))
+        };
+        // Added in the same order, whoever is ready first: a sum does not depend on the number of processors.
+        let parts: Vec<_> = (0..wanted.len()).into_par_iter().map(products).collect();
+        let (h, scores) = parts
+            .into_iter()
+            .reduce(|(h, scores), (more, further)| {
+                (h + more, scores.into_iter().zip(further).map(|(score, more)| score + more).collect())
             })
-            .collect();
-        let block = record.block();
-        let mut h = DMatrix::zeros(n + states, n + states);
-        let mut scores = vec![DVector::zeros(n + states); section.len().div_ceil(block)];
-        for (row, measured) in record.measured.iter().enumerate() {
-            let output = measured.output;
-            let correction = &point.outputs[output];
-            let weight = 1.0 / self.sigma[output];
-            let signal = correction.applied(&outputs[output], record.samples(section));
-            let mut jacobian = DMatrix::<f64>::zeros(section.len(), n + states);
-            let mut put = |column: usize, slopes: &[f64]| {
-                for (entry, slope) in jacobian.column_mut(column).iter_mut().zip(slopes) {
-                    *entry = -weight * slope;
-                }
-            };
-            for ((column, _), signals) in seeds.iter().zip(&derivatives) {
-                // Those of the states come after the further coordinates.
-                let column = if *column < own { *column } else { column + extra.len() };
-                if correction.is_neutral() {
-                    put(column, &signals[output]);
-                } else {
-                    put(
-                        column,
-                        &correction.tangent(&outputs[output], &signals[output], record.samples(section)),
-                    );
-                }
+            .unwrap_or_else(|| (DMatrix::zeros(fixed, fixed), Vec::new()));
+        eliminate(&h, &scores, &self.ridge)
+    }
+
+    /// The derivatives of a measured signal's residuals over their deviation, and these: columns for the states at the
+    /// start, for the coordinates, and for further changes of the predicted signals. What is missing is zero.
+    fn jacobian(
+        &self,
+        point: &Point,
+        record: &Recorded,
+        section: &Range<usize>,
+        (row, columns, linearised): (usize, &[usize], &Linearised),
+        extra: &[&Signals],
+    ) -> (DMatrix<f64>, DVector<f64>) {
+        let (measured, predicted) = (&record.measured[row], &linearised.outputs[row]);
+        let output = measured.output;
+        let (correction, samples) = (&point.outputs[output], record.samples(section));
+        let weight = 1.0 / self.sigma[output];
+        let states = self.states.len();
+        let fixed = states + self.coordinates.len();
+        let mut jacobian = DMatrix::<f64>::zeros(section.len(), fixed + extra.len());
+        let mut put = |column: usize, slopes: &[f64]| {
+            for (entry, slope) in jacobian.column_mut(column).iter_mut().zip(slopes) {
+                *entry = -weight * slope;
             }
-            for (column, coordinate) in self.coordinates.iter().enumerate() {
-                if let Handle::Output(of, fault) = coordinate.handle
-                    && of == output
-                {
-                    let change = |it: &Correction| it.applied(&outputs[output], record.samples(section));
-                    put(column, &slope(correction, fault, record.step, change));
-                }
-            }
-            for (column, change) in (own..).zip(extra) {
-                put(column, &change[row][section.clone()]);
-            }
-            let mut residual = DVector::zeros(section.len());
-            for (k, value) in measured.values[section.clone()].iter().enumerate() {
-                if value.is_finite() {
-                    residual[k] = weight * (value - signal[k]);
-                } else {
-                    jacobian.row_mut(k).fill(0.0);
-                }
-            }
-            add_products(&mut h, &jacobian, (own, n), groups);
-            for (number, score) in scores.iter_mut().enumerate() {
-                let first = number * block;
-                let rows = block.min(section.len() - first);
-                *score += jacobian.rows(first, rows).tr_mul(&residual.rows(first, rows));
+        };
+        for (column, signals) in columns.iter().zip(&linearised.slopes) {
+            if correction.is_neutral() {
+                put(*column, &signals[row]);
+            } else {
+                put(*column, &correction.tangent(predicted, &signals[row], samples));
             }
         }
-        eliminate(&h, &scores, n, &self.ridge)
+        for (column, coordinate) in (states..).zip(&self.coordinates) {
+            if let Handle::Output(of, fault) = coordinate.handle
+                && of == output
+            {
+                let change = |it: &Correction| it.applied(predicted, samples);
+                put(column, &slope(correction, fault, record.step, change));
+            }
+        }
+        for (column, change) in (fixed..).zip(extra) {
+            put(column, &change[row][section.clone()]);
+        }
+        let signal = correction.applied(predicted, samples);
+        let mut residual = DVector::zeros(section.len());
+        for (k, value) in measured.values[section.clone()].iter().enumerate() {
+            if value.is_finite() {
+                residual[k] = weight * (value - signal[k]);
+            } else {
+                jacobian.row_mut(k).fill(0.0);
+            }
+        }
+        (jacobian, residual)
     }
 }
 
-/// Adds the products of the Jacobian's columns: of those before `own` and from `n` on with all, of those between them within
-/// their groups only. They are many, and most of the work would be for what nobody asks.
-fn add_products(
-    h: &mut DMatrix<f64>,
-    jacobian: &DMatrix<f64>,
-    (own, n): (usize, usize),
-    groups: &[Range<usize>],
-) {
-    let mut add = |rows: Range<usize>, columns: Range<usize>| {
-        let product = jacobian.columns_range(rows.clone()).tr_mul(&jacobian.columns_range(columns.clone()));
-        let mut part = h.view_mut((rows.start, columns.start), (rows.len(), columns.len()));
-        part += product;
-    };
-    let all = jacobian.ncols();
-    add(0..own, 0..all);
-    add(n..all, 0..all);
-    if n > own {
-        add(own..n, 0..own);
-        add(own..n, n..all);
+/// The gradient over each block of time.
+fn scores(jacobian: &DMatrix<f64>, residual: &DVector<f64>, block: usize) -> Vec<DVector<f64>> {
+    let samples = residual.len();
+    let blocks = (0..samples).step_by(block).map(|first| (first, block.min(samples - first)));
+    blocks.map(|(first, rows)| jacobian.rows(first, rows).tr_mul(&residual.rows(first, rows))).collect()
+}
+
+/// The products of the Jacobian's columns: of the first `fixed` with all, of the others within their groups only. They are
+/// many, and most of the work would be for what nobody asks.
+fn products(jacobian: &DMatrix<f64>, fixed: usize, groups: &[Range<usize>]) -> DMatrix<f64> {
+    let (samples, all) = jacobian.shape();
+    let mut h = DMatrix::zeros(all, all);
+    for first in (0..samples).step_by(TOGETHER) {
+        let part = jacobian.rows(first, TOGETHER.min(samples - first));
+        let transposed = part.transpose();
+        let mut add = |rows: Range<usize>, columns: Range<usize>| {
+            let mut sum = h.view_mut((rows.start, columns.start), (rows.len(), columns.len()));
+            sum.gemm(1.0, &transposed.rows_range(rows), &part.columns_range(columns), 1.0);
+        };
+        add(0..fixed, 0..all);
+        for group in groups {
+            let columns = fixed + group.start..fixed + group.end;
+            add(columns.clone(), columns);
+        }
     }
-    for group in groups {
-        let columns = own + group.start..own + group.end;
-        add(columns.clone(), columns);
-    }
+    h.fill_lower_triangle_with_upper_triangle();
+    h
 }
 
 /// The normal equations without the states at the start, each of which is held where it is by its entry in `ridge`.
-fn eliminate(h: &DMatrix<f64>, scores: &[DVector<f64>], n: usize, ridge: &[f64]) -> Section {
-    let states = h.ncols() - n;
-    let g: DVector<f64> = scores.iter().fold(DVector::zeros(n + states), |sum, score| sum + score);
-    let mut c = h.view((n, n), (states, states)).into_owned();
+fn eliminate(h: &DMatrix<f64>, scores: &[DVector<f64>], ridge: &[f64]) -> Section {
+    let (states, n) = (ridge.len(), h.ncols() - ridge.len());
+    let g: DVector<f64> = scores.iter().fold(DVector::zeros(states + n), |sum, score| sum + score);
+    let mut c = h.view((0, 0), (states, states)).into_owned();
     for state in 0..states {
         // A state that nothing depends on stays where it is.
         c[(state, state)] += 1e-9 * c[(state, state)] + ridge[state];
     }
-    let b = h.view((0, n), (n, states)).into_owned();
+    let b = h.view((states, 0), (n, states)).into_owned();
     let inverse = c.cholesky().map_or_else(|| DMatrix::zeros(states, states), |it| it.inverse());
     let linear = &inverse * b.transpose();
-    let constant = &inverse * g.rows(n, states);
-    let reduce = |whole: &DVector<f64>| whole.rows(0, n) - linear.transpose() * whole.rows(n, states);
+    let constant = &inverse * g.rows(0, states);
+    let reduce = |whole: &DVector<f64>| whole.rows(states, n) - linear.transpose() * whole.rows(0, states);
     Section {
-        h: h.view((0, 0), (n, n)) - &b * &linear,
+        h: h.view((states, states), (n, n)) - &b * &linear,
         g: reduce(&g),
         scores: scores.iter().map(reduce).collect(),
         elimination: Elimination { constant, linear },
