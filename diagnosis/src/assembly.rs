@@ -186,6 +186,7 @@ impl Diagnosis<'_> {
             return (Vec::new(), Vec::new(), Vec::new());
         };
         let rows = self.measured.first().map_or(0, |record| record.measured.len());
+        let left = self.left();
         let of = |row: usize| {
             let first = &self.measured[0].measured[row];
             let declared = &world.rig.plant.outputs[first.output];
@@ -201,6 +202,7 @@ impl Diagnosis<'_> {
                 phi_before: phi(&before, &measured),
                 phi_fitted: phi(&fitted, &measured),
                 phi_after: phi(&after, &measured),
+                phi_quiet: left[row].phi(),
                 rms_before: root_mean_square(&before),
                 rms_fitted: root_mean_square(&fitted),
                 rms_after: root_mean_square(&after),

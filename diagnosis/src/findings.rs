@@ -284,6 +284,8 @@ pub struct Signal {
     pub phi_fitted: f64,
     /// The same of the extended model.
     pub phi_after: f64,
+    /// The same where the measured inputs are freed of their noise, which a master's are not.
+    pub phi_quiet: f64,
     /// Root mean square of the starting model's error.
     pub rms_before: f64,
     /// The same of the starting model with fitted parameters.

@@ -10,6 +10,8 @@ const DIGITS: usize = 4;
 const ABOVE_NOISE: f64 = 3.0;
 /// … if they are more than this share of the signal.
 const VISIBLE: f64 = 0.1;
+/// Φ that the noise of the inputs costs, to be worth a word.
+const NOISY: f64 = 0.1;
 
 /// The summary of findings that are complete otherwise.
 pub(super) fn of(findings: &Findings) -> String {
@@ -39,7 +41,8 @@ pub(super) fn of(findings: &Findings) -> String {
     };
     let told = findings.verdict != Verdict::ModelInadequate;
     let curve = unnamed.as_ref().filter(|_| told).map(|curve| without_name(curve, &findings.nearest));
-    let sentences = [parameters(findings), Some(text), curve, gained(&findings.signals), left(findings)];
+    let sentences =
+        [parameters(findings), Some(text), curve, gained(&findings.signals), noisy(findings), left(findings)];
     sentences.into_iter().flatten().filter(|it| !it.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
@@ -96,21 +99,36 @@ fn gained(signals: &[Signal]) -> Option<String> {
     (gain(most) > 0.0).then_some(text)
 }
 
+/// Where the noise of what drives the model, as of the position that a velocity is derived from, hides how good it is.
+fn noisy(findings: &Findings) -> Option<String> {
+    let cost = |signal: &Signal| signal.phi_quiet - signal.phi_after;
+    let most = findings.signals.iter().max_by(|a, b| cost(a).total_cmp(&cost(b)))?;
+    (cost(most) > NOISY && findings.verdict != Verdict::ModelInadequate).then(|| {
+        format!(
+            "The noise of the measured inputs costs much of it: without, Φ of {} is {:.3}.",
+            most.name, most.phi_quiet
+        )
+    })
+}
+
 /// Where nothing is found although the errors are no noise, that is told, too.
 fn left(findings: &Findings) -> Option<String> {
     if !matches!(findings.verdict, Verdict::NoEffect | Verdict::ParameterMismatch) {
         return None;
     }
+    // What the inputs' noise brings is no lack of the model.
+    let missed = |it: &Signal| (1.0 - it.phi_quiet).min(1.0 - it.phi_after);
+    let error = |it: &Signal| it.rms_after * missed(it) / (1.0 - it.phi_after).max(f64::MIN_POSITIVE);
     let visible = |it: &&Signal| {
-        it.rms_after > ABOVE_NOISE * it.noise_floor && 1.0 - it.phi_after > VISIBLE && it.noise_floor > 0.0
+        error(it) > ABOVE_NOISE * it.noise_floor && missed(it) > VISIBLE && it.noise_floor > 0.0
     };
-    let most = findings.signals.iter().filter(visible).min_by(|a, b| a.phi_after.total_cmp(&b.phi_after))?;
+    let most = findings.signals.iter().filter(visible).max_by(|a, b| missed(a).total_cmp(&missed(b)))?;
     Some(format!(
         "Yet {:.0} % of {} is missed on held-out data, {:.0} times its noise: something is left that none of the \
          candidates explains well enough to be told.",
-        100.0 * (1.0 - most.phi_after),
+        100.0 * missed(most),
         most.name,
-        most.rms_after / most.noise_floor
+        error(most) / most.noise_floor
     ))
 }
 
@@ -130,6 +148,7 @@ mod tests {
             phi_before: 0.1,
             phi_fitted: phi_after,
             phi_after,
+            phi_quiet: phi_after,
             rms_before: 8.0,
             rms_fitted: 4.0,
             rms_after: 4.0,
@@ -148,6 +167,19 @@ mod tests {
         assert!(text.contains("4 times its noise"), "{text}");
         // What is little beside the signal, or about as large as its noise, is not worth a word.
         assert!(!of(0.95, 1.0).contains("Yet") && !of(0.7, 2.0).contains("Yet"));
+    }
+
+    #[test]
+    fn what_the_noise_of_the_inputs_brings_is_not_left_over() {
+        let of = |phi_quiet| {
+            let signals = vec![Signal { phi_quiet, ..signal(0.2, 0.1) }];
+            of(&Findings { signals, ..findings(Verdict::NoEffect) })
+        };
+        let text = of(0.95);
+        assert!(text.contains("without, Φ of body.acceleration is 0.950") && !text.contains("Yet"), "{text}");
+        let text = of(0.6);
+        assert!(text.contains("is 0.600") && text.contains("Yet 40 % of body.acceleration"), "{text}");
+        assert!(text.contains("20 times its noise"), "{text}");
     }
 
     #[test]

@@ -327,6 +327,7 @@ fn with_numbers(mut findings: Findings, numbers: &[f64]) -> Findings {
     }
     for signal in &mut findings.signals {
         (signal.phi_before, signal.phi_fitted, signal.phi_after) = (next(), next(), next());
+        signal.phi_quiet = next();
         (signal.rms_before, signal.rms_fitted, signal.rms_after) = (next(), next(), next());
         (signal.noise_floor, signal.repeatability) = (next(), Some(next()));
     }

@@ -104,6 +104,7 @@ impl Comparison {
             phi_before,
             phi_fitted,
             phi_after,
+            phi_quiet: phi_after,
             rms_before,
             rms_fitted,
             rms_after,
