@@ -70,6 +70,7 @@ impl Fit<'_> {
         let wanted: Vec<usize> = record.measured.iter().map(|measured| measured.output).collect();
         let linearised = self.dynamics.linearised(&point.parameters, start, &drive, &seeds, &wanted);
         let fixed = self.states.len() + self.coordinates.len();
+        let all = fixed + extra.len();
         let products = |row: usize| {
             let (jacobian, residual) =
                 self.jacobian(point, record, section, (row, &columns, &linearised), extra);
@@ -82,7 +83,7 @@ impl Fit<'_> {
             .reduce(|(h, scores), (more, further)| {
                 (h + more, scores.into_iter().zip(further).map(|(score, more)| score + more).collect())
             })
-            .unwrap_or_else(|| (DMatrix::zeros(fixed, fixed), Vec::new()));
+            .unwrap_or_else(|| (DMatrix::zeros(all, all), Vec::new()));
         eliminate(&h, &scores, &self.ridge)
     }
 

@@ -23,12 +23,9 @@ impl Row {
     }
 }
 
-/// Both tables, as Markdown.
+/// Both tables, as Markdown; the one over conditions only if several were tried.
 pub fn breakdown(scores: &[Score]) -> String {
-    let mut text =
-        "## By condition\n\nSingle effects of the linear quarter car that were tried under more than one \
-                    condition.\n\n"
-            .to_owned();
+    let mut text = String::new();
     let single = || {
         let wanted = |score: &&Score| {
             score.plant == Plant::LinearQuarter && score.effects == 1 && !score.out_of_catalogue
@@ -38,9 +35,13 @@ pub fn breakdown(scores: &[Score]) -> String {
     let varied: BTreeSet<&str> =
         single().filter(|score| score.condition != "standard").map(|score| score.truth.as_str()).collect();
     let tried = single().filter(|score| varied.contains(score.truth.as_str()));
-    text += &table("condition", tried.map(|score| (score.condition.as_str(), score)));
+    if !varied.is_empty() {
+        text += "## By condition\n\nSingle effects of the linear quarter car that were tried under more than one condition.\n\n";
+        text += &table("condition", tried.map(|score| (score.condition.as_str(), score)));
+        text.push('\n');
+    }
     text +=
-        "\n## By plant\n\nAll cases, those without an effect included: there, right is to name nothing.\n\n";
+        "## By plant\n\nAll cases, those without an effect included: there, right is to name nothing.\n\n";
     text + &table("plant", scores.iter().map(|score| (score.plant.title(), score)))
 }
 
