@@ -1,21 +1,10 @@
 //! The classical Runge–Kutta method over the samples of a record, for any scalar.
 
-use num_dual::Dual64;
 use strut_model::{Bundle, Declarations, Model, Now, Real};
 
-use super::jet::Jet;
+use super::jet::{Jet, Scalar};
+use super::pace::Pace;
 use super::{DIRECTIONS, Drive, Linearised, Seed, outputs_of};
-
-/// Longest step of the integration in seconds, whatever the record's sampling.
-const LONGEST_STEP: f64 = 4e-3;
-/// Largest product of the step and the fastest rate of change; the method is stable up to 2.78.
-const STABLE: f64 = 1.2;
-/// The same of the step and the largest slope of a delay's states, 12 over the delay: a sixteenth of the delay is a step.
-const WELL_BELOW: f64 = 0.75;
-/// How far what friction and bushes remember is displaced to look for contact, SI: beyond any play.
-const DISPLACED: f64 = 0.1;
-/// Steps between two samples beyond which a model is too stiff for this method.
-const MOST_STEPS: f64 = 60.0;
 
 /// A model that is ready to be run.
 pub(super) struct Equations<M> {
@@ -23,7 +12,7 @@ pub(super) struct Equations<M> {
 }
 
 /// A model on its way through a record.
-pub(super) struct Run<'a, M: Model, R: Real> {
+pub(super) struct Run<'a, M: Model, R: Scalar> {
     model: &'a M,
     parameters: M::Parameters<R>,
     derived: M::Derived<R>,
@@ -32,12 +21,12 @@ pub(super) struct Run<'a, M: Model, R: Real> {
     /// Which states are measured, as (state, output).
     measured: Vec<(usize, usize)>,
     step: f64,
-    steps: usize,
+    pub pace: Pace,
     period: Option<f64>,
     ticks: u64,
 }
 
-impl<'a, M: Model, R: Real> Run<'a, M, R> {
+impl<'a, M: Model, R: Scalar> Run<'a, M, R> {
     /// `numbers` are the parameters without derivatives.
     pub fn new(
         model: &'a M,
@@ -60,7 +49,7 @@ impl<'a, M: Model, R: Real> Run<'a, M, R> {
             state,
             measured: measured.zip(outputs..).collect(),
             step: drive.step,
-            steps: steps(model, &plain, drive),
+            pace: Pace::of(model, &plain, drive),
             period,
             ticks: 0,
         }
@@ -87,23 +76,32 @@ impl<'a, M: Model, R: Real> Run<'a, M, R> {
                 }
             });
             if sample + 1 < samples {
-                self.advance(sample, first, rates, at);
+                self.pace.reach(&self.state);
+                let state = self.state;
+                loop {
+                    let need = self.advance(sample, &first, &rates, at);
+                    if !self.pace.refuse(need) {
+                        break;
+                    }
+                    self.state = state;
+                }
             }
         }
     }
 
-    /// Goes from a sample, where input and rates are known, to the next.
+    /// Goes from a sample, where input and rates are known, to the next; the largest need of its steps, as [`Pace::need`].
     #[inline]
     fn advance(
         &mut self,
         sample: usize,
-        mut first: M::Input<R>,
-        mut k1: M::State<R>,
+        first: &M::Input<R>,
+        rates: &M::State<R>,
         at: impl Fn(f64) -> M::Input<R>,
-    ) {
-        let steps = self.steps as f64;
+    ) -> f64 {
+        let (mut first, mut k1, mut need) = (*first, *rates, 0.0_f64);
+        let steps = self.pace.steps as f64;
         let h = self.step / steps;
-        for part in 0..self.steps {
+        for part in 0..self.pace.steps {
             let share = |offset: f64| (part as f64 + offset) / steps;
             let time = |offset: f64| (sample as f64 + share(offset)) * self.step;
             let now = [time(0.0), time(0.5), time(1.0)];
@@ -116,10 +114,12 @@ impl<'a, M: Model, R: Real> Run<'a, M, R> {
             let (k2, _) = self.equations(R::from(now[1]), &along::<M, R, 1>(&x, [0.5 * h], [&k1]), &middle);
             let (k3, _) = self.equations(R::from(now[1]), &along::<M, R, 1>(&x, [0.5 * h], [&k2]), &middle);
             let (k4, _) = self.equations(R::from(now[2]), &along::<M, R, 1>(&x, [h], [&k3]), &last);
+            need = need.max(self.pace.need(h, [&k1, &k2, &k3, &k4]));
             let (sixth, third) = (h / 6.0, h / 3.0);
             self.state = along::<M, R, 4>(&x, [sixth, third, third, sixth], [&k1, &k2, &k3, &k4]);
             first = last;
         }
+        need
     }
 
     #[inline]
@@ -158,65 +158,6 @@ fn along<M: Model, R: Real, const N: usize>(
         }
         moved
     })
-}
-
-/// Steps between two samples that the model needs: none is longer than [`LONGEST_STEP`], and the fastest mode about
-/// rest, where friction is stiffest, is integrated stably.
-fn steps<M: Model>(model: &M, parameters: &M::Parameters<f64>, drive: &Drive) -> usize {
-    let states = <M::State<f64> as Bundle<f64>>::LEN;
-    if states == 0 {
-        return 1;
-    }
-    let lifted: M::Parameters<Dual64> = lift(parameters);
-    let derived = model.derive(&lifted);
-    let memory = Declarations::of::<M::Memory<f64>>();
-    let memory = Bundle::from_fn(|i| Dual64::from(memory[i].start));
-    let declared = Declarations::of::<M::State<f64>>();
-    let input = Bundle::from_fn(|i| Dual64::from(drive.inputs[i].first().copied().unwrap_or(0.0)));
-    let jacobian_at = |at: &[f64]| {
-        let mut jacobian = nalgebra::DMatrix::<f64>::zeros(states, states);
-        for column in 0..states {
-            let state = Bundle::from_fn(|i| Dual64::new(at[i], f64::from(i == column)));
-            let now = Now {
-                time: Dual64::from(0.0),
-                state: &state,
-                input: &input,
-                parameters: &lifted,
-                derived: &derived,
-                memory: &memory,
-                tick: 0,
-            };
-            let (rates, _) = model.equations(now);
-            rates.for_each(|row, rate| jacobian[(row, column)] = rate.eps);
-        }
-        jacobian
-    };
-    let fastest_of = |jacobian: &nalgebra::DMatrix<f64>| -> f64 {
-        if !jacobian.iter().all(|entry| entry.is_finite()) {
-            return f64::INFINITY;
-        }
-        jacobian.complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max)
-    };
-    let rest: Vec<f64> = declared.iter().map(|state| state.start).collect();
-    let resting = jacobian_at(&rest);
-    let mut fastest = fastest_of(&resting);
-    // What has play is loose at rest: it is looked at where it is in contact, too.
-    for (index, _) in declared.iter().enumerate().filter(|(_, state)| state.name.starts_with("hysteresis.")) {
-        let mut displaced = rest.clone();
-        displaced[index] += DISPLACED;
-        fastest = fastest.max(fastest_of(&jacobian_at(&displaced)));
-    }
-    // The rational function of a delay is one only in steps well below it.
-    let late = declared.iter().enumerate().filter(|(_, state)| state.name.contains(".delay."));
-    let sharpest = late.map(|(row, _)| resting.row(row).amax()).fold(0.0, f64::max);
-    let rate = (fastest / STABLE).max(sharpest / WELL_BELOW);
-    (drive.step / LONGEST_STEP).max(drive.step * rate).ceil().clamp(1.0, MOST_STEPS) as usize
-}
-
-fn lift<R: Real, A: Bundle<f64>, B: Bundle<R>>(bundle: &A) -> B {
-    let mut numbers = Vec::with_capacity(A::LEN);
-    bundle.for_each(|_, value| numbers.push(value));
-    B::from_fn(|i| R::from(numbers[i]))
 }
 
 type Dual = Jet<DIRECTIONS>;

@@ -30,6 +30,26 @@ impl<const N: usize> Jet<N> {
     }
 }
 
+/// A scalar of an integration.
+pub(super) trait Scalar: Real {
+    /// Its value, without derivatives.
+    fn number(&self) -> f64;
+}
+
+impl Scalar for f64 {
+    #[inline(always)]
+    fn number(&self) -> f64 {
+        *self
+    }
+}
+
+impl<const N: usize> Scalar for Jet<N> {
+    #[inline(always)]
+    fn number(&self) -> f64 {
+        self.value
+    }
+}
+
 impl<const N: usize> From<f64> for Jet<N> {
     #[inline(always)]
     fn from(value: f64) -> Self {

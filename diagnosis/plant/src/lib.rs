@@ -6,6 +6,7 @@
 mod integrate;
 mod jet;
 pub mod models;
+mod pace;
 
 use rayon::prelude::*;
 use strut_model::{Bundle, Declaration, Declarations, Model, SettingDeclaration, Settings, Value};

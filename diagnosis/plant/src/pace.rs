@@ -1,0 +1,235 @@
+//! How many steps the integration makes between two samples.
+//!
+//! Friction is stiff where it holds and loose elsewhere: a wheel that turns round crosses the velocity of
+//! regularisation within one sample in fifty. So a model has two numbers of steps, one that is enough where nothing holds
+//! and one that is enough at rest, and goes between them by what the stages of each step tell.
+
+use num_dual::Dual64;
+use strut_model::{Bundle, Declaration, Declarations, Model, Now, Real};
+
+use super::Drive;
+use super::jet::Scalar;
+
+/// Longest step of the integration in seconds, whatever the record's sampling.
+const LONGEST_STEP: f64 = 4e-3;
+/// Largest product of the step and the fastest rate of change; the method is stable up to 2.78.
+const STABLE: f64 = 1.2;
+/// The same of the step and the largest slope of a delay's states, 12 over the delay: a sixteenth of the delay is a step.
+const WELL_BELOW: f64 = 0.75;
+/// How far what friction and bushes remember is displaced to look for contact, SI: beyond any play.
+const DISPLACED: f64 = 0.1;
+/// Steps between two samples beyond which a model is too stiff for this method.
+const MOST_STEPS: f64 = 60.0;
+
+/// Difference of a step's stages that tells nothing of stiffness, in shares of a state's largest value so far.
+const NEGLIGIBLE: f64 = 1e-9;
+/// Largest difference of a step from one of lower order, in the same shares.
+const TOLERATED: f64 = 3e-4;
+/// More steps than the last one's stages ask for, lest the next attempt is refused too.
+const RESERVE: f64 = 1.2;
+
+/// How many steps a model makes between samples.
+#[derive(Clone, Debug)]
+pub(super) struct Pace {
+    /// Enough where nothing holds.
+    loose: usize,
+    /// Enough everywhere.
+    tight: usize,
+    /// Steps to the next sample.
+    pub steps: usize,
+    /// The largest value of each state so far, what an error is compared with.
+    largest: Vec<f64>,
+}
+
+impl Pace {
+    /// None is longer than [`LONGEST_STEP`], and the fastest mode about rest, where friction is stiffest, can be
+    /// integrated stably. A sampled part is computed at the ends of steps, which therefore do not change with the state.
+    pub fn of<M: Model>(model: &M, parameters: &M::Parameters<f64>, drive: &Drive) -> Self {
+        let states = Declarations::of::<M::State<f64>>();
+        let (loose, tight) =
+            if states.is_empty() { (1, 1) } else { range(model, parameters, drive, &states) };
+        let loose = if M::period(parameters).is_some() { tight } else { loose };
+        Self { loose, tight, steps: tight, largest: vec![0.0; states.len()] }
+    }
+
+    /// Looks at a state at a sample.
+    pub fn reach<R: Scalar>(&mut self, state: &impl Bundle<R>) {
+        if self.varies() {
+            state
+                .for_each(|index, value| self.largest[index] = self.largest[index].max(value.number().abs()));
+        }
+    }
+
+    /// How many times as many steps a step from its four slopes asks for: by the stiffness that it met and by its error.
+    #[inline]
+    pub fn need<R: Scalar, S: Bundle<R>>(&self, h: f64, [k1, k2, k3, k4]: [&S; 4]) -> f64 {
+        if !self.varies() {
+            return 1.0;
+        }
+        let (mut change, mut answer, mut error, mut index) = (0.0, 0.0, 0.0_f64, 0);
+        k1.combine([k2, k3, k4], &mut |k1, [k2, k3, k4]| {
+            let [first, second, third, fourth] = [k1, k2, k3, k4].map(Scalar::number);
+            let scale = h / self.largest[index].max(f64::MIN_POSITIVE);
+            change += ((second - first) * scale).powi(2);
+            answer += ((third - second) * scale).powi(2);
+            error = error.max(((first - second - third + fourth) * scale).abs());
+            index += 1;
+            *k1
+        });
+        if !change.is_finite() {
+            return f64::INFINITY;
+        }
+        // The second slope's change by half a step is answered by the third's: half of the step times the fastest rate.
+        let stiffness =
+            if answer.sqrt() > NEGLIGIBLE { 2.0 * (answer / change).sqrt() / STABLE } else { 0.0 };
+        stiffness.max((error / TOLERATED).cbrt())
+    }
+
+    /// Takes note of the largest need of the steps made since a sample; whether they have to be made again, more finely.
+    pub fn refuse(&mut self, need: f64) -> bool {
+        let made = self.steps;
+        let wanted = made as f64 * if need > 1.0 { need * RESERVE } else { need };
+        self.steps =
+            if wanted < self.tight as f64 { (wanted.ceil() as usize).max(self.loose) } else { self.tight };
+        need > 1.0 && made < self.steps
+    }
+
+    fn varies(&self) -> bool {
+        self.loose < self.tight
+    }
+}
+
+/// Steps that are enough where nothing holds, and everywhere.
+fn range<M: Model>(
+    model: &M,
+    parameters: &M::Parameters<f64>,
+    drive: &Drive,
+    declared: &[Declaration],
+) -> (usize, usize) {
+    let states = declared.len();
+    let lifted: M::Parameters<Dual64> = lift(parameters);
+    let derived = model.derive(&lifted);
+    let memory = Declarations::of::<M::Memory<f64>>();
+    let memory = Bundle::from_fn(|i| Dual64::from(memory[i].start));
+    let input = Bundle::from_fn(|i| Dual64::from(drive.inputs[i].first().copied().unwrap_or(0.0)));
+    let jacobian_at = |at: &[f64]| {
+        let mut jacobian = nalgebra::DMatrix::<f64>::zeros(states, states);
+        for column in 0..states {
+            let state = Bundle::from_fn(|i| Dual64::new(at[i], f64::from(i == column)));
+            let now = Now {
+                time: Dual64::from(0.0),
+                state: &state,
+                input: &input,
+                parameters: &lifted,
+                derived: &derived,
+                memory: &memory,
+                tick: 0,
+            };
+            let (rates, _) = model.equations(now);
+            rates.for_each(|row, rate| jacobian[(row, column)] = rate.eps);
+        }
+        jacobian
+    };
+    let fastest_of = |jacobian: &nalgebra::DMatrix<f64>| -> f64 {
+        if !jacobian.iter().all(|entry| entry.is_finite()) {
+            return f64::INFINITY;
+        }
+        jacobian.complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max)
+    };
+    let rest: Vec<f64> = declared.iter().map(|state| state.start).collect();
+    let resting = jacobian_at(&rest);
+    let mut fastest = fastest_of(&resting);
+    // What has play is loose at rest: it is looked at where it is in contact, too.
+    for (index, _) in declared.iter().enumerate().filter(|(_, state)| state.name.starts_with("hysteresis.")) {
+        let mut displaced = rest.clone();
+        displaced[index] += DISPLACED;
+        fastest = fastest.max(fastest_of(&jacobian_at(&displaced)));
+    }
+    // The rational function of a delay is one only in steps well below it.
+    let late = declared.iter().enumerate().filter(|(_, state)| state.name.contains(".delay."));
+    let sharpest = late.map(|(row, _)| resting.row(row).amax()).fold(0.0, f64::max);
+    let steps = |rate: f64| (drive.step * rate).ceil().clamp(1.0, MOST_STEPS) as usize;
+    let loose = (1.0 / LONGEST_STEP).max(sharpest / WELL_BELOW);
+    (steps(loose), steps(loose.max(fastest / STABLE)))
+}
+
+fn lift<R: Real, A: Bundle<f64>, B: Bundle<R>>(bundle: &A) -> B {
+    let mut numbers = Vec::with_capacity(A::LEN);
+    bundle.for_each(|_, value| numbers.push(value));
+    B::from_fn(|i| R::from(numbers[i]))
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use strut_physics::rigs::QuarterCar;
+
+    use super::*;
+    use crate::integrate::Run;
+    use crate::{Between, models};
+
+    const SAMPLES: usize = 3000;
+    const STEP: f64 = 1e-3;
+
+    /// A rig's outputs on a road, and how many steps they took.
+    fn driven(named: &[(&str, f64)], finest: bool) -> (Vec<Vec<f64>>, usize) {
+        let plant = models::quarter_car();
+        let model = QuarterCar::prepare(&strut_model::Settings::starts(), None).unwrap();
+        let mut parameters: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
+        for (name, value) in named {
+            parameters[plant.parameter(name).unwrap()] = *value;
+        }
+        let mut inputs = vec![vec![0.0; SAMPLES]; plant.inputs.len()];
+        let wave = |k: usize, frequency: f64| (std::f64::consts::TAU * frequency * k as f64 * STEP).sin();
+        inputs[plant.input("road.position").unwrap()] =
+            (0..SAMPLES).map(|k| 0.02 * wave(k, 1.7) + 0.003 * wave(k, 7.1)).collect();
+        let drive = Drive { step: STEP, inputs, between: Between::Lines };
+        let rest = |_| 0.0;
+        let mut run =
+            Run::new(&model, &parameters, Bundle::from_fn(|i| parameters[i]), Bundle::from_fn(rest), &drive);
+        if finest {
+            run.pace.loose = run.pace.tight;
+        }
+        let mut found = vec![Vec::new(); plant.outputs.len()];
+        // Each input is asked for once at a sample and twice in a step.
+        let asked = std::cell::Cell::new(0);
+        let input = |i: usize, sample: usize, share: f64| {
+            asked.set(asked.get() + usize::from(i == 0));
+            drive.between.value(&drive.inputs[i], sample, share)
+        };
+        run.through(SAMPLES, input, |output, value| found[output].push(value));
+        (found, (asked.get() - SAMPLES) / 2)
+    }
+
+    fn rms(signal: impl Iterator<Item = f64>) -> f64 {
+        (signal.map(|it| it * it).sum::<f64>() / SAMPLES as f64).sqrt()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+        #[test]
+        fn many_steps_where_friction_holds_are_as_good_as_many_everywhere(
+            force in 20.0..400.0_f64,
+            velocity in 3e-4..2e-3_f64,
+        ) {
+            let rig = [
+                ("sprung_mass", 94.4),
+                ("unsprung_mass", 10.0),
+                ("strut.coulomb.force", force),
+                ("strut.coulomb.velocity", velocity),
+            ];
+            let ((some, few), (all, many)) = (driven(&rig, false), driven(&rig, true));
+            prop_assert!(2 * few < many, "{few} {many}");
+            for (some, all) in some.iter().zip(&all) {
+                let difference = rms(some.iter().zip(all).map(|(some, all)| some - all));
+                prop_assert!(difference <= 2e-3 * rms(all.iter().copied()), "{difference}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_linear_rig_makes_one_step() {
+        let (_, steps) = driven(&[], false);
+        assert_eq!(steps, SAMPLES - 1);
+    }
+}
