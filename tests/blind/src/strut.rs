@@ -28,7 +28,7 @@ pub struct Strut {
     pub damping: f64,
     /// α of d(1 ± α), by the sign of the velocity.
     pub asymmetry: f64,
-    /// Velocity beyond which the rate is another one, and the ratio of the rates.
+    /// Velocity beyond which the rate is another one, and by which share it is larger.
     pub knee: Option<(f64, f64)>,
     /// N s²/m².
     pub orifice: f64,
@@ -116,9 +116,11 @@ impl Strut {
         if let Some(spot) = self.thick_spot {
             rate *= 1.0 + spot.at(x);
         }
-        let mut effective = v + self.asymmetry * v.abs();
-        if let Some((corner, ratio)) = self.knee {
-            effective += (ratio - 1.0) * (v.abs() - corner).max(0.0) * v.signum();
+        // Each side has a valve of its own, which opens at the knee.
+        rate *= 1.0 + self.asymmetry * v.signum();
+        let mut effective = v;
+        if let Some((corner, change)) = self.knee {
+            effective += change * (v.abs() - corner).max(0.0) * v.signum();
         }
         rate * effective + self.orifice * v * v.abs()
     }

@@ -24,8 +24,8 @@ pub(super) static ENTRIES: &[Entry] = &[
         "presliding friction of the strut",
         Place::Strut,
         &[
-            drawn("strut.presliding.force", "N", (40.0, 80.0), ZERO, (0.0, 400.0)),
-            drawn("strut.presliding.stiffness", "N/m", (2.5e4, 1.5e5), SHAPE, ANY),
+            drawn("hysteresis.presliding.force", "N", (40.0, 80.0), ZERO, (0.0, 400.0)),
+            drawn("hysteresis.presliding.stiffness", "N/m", (2.5e4, 1.5e5), SHAPE, ANY),
         ],
     ),
     entry(
@@ -39,7 +39,7 @@ pub(super) static ENTRIES: &[Entry] = &[
         "knee of the damper",
         Place::Strut,
         &[
-            drawn("strut.knee.ratio", "1", (0.25, 0.55), Role::From(1.0), (0.1, 3.0)),
+            drawn("strut.knee.ratio", "1", (-0.75, -0.45), ZERO, (-0.9, 0.0)),
             drawn("strut.knee.velocity", "m/s", (0.05, 0.12), SHAPE, ANY),
         ],
     ),
@@ -54,8 +54,8 @@ pub(super) static ENTRIES: &[Entry] = &[
         "Maxwell branch of the strut",
         Place::Strut,
         &[
-            drawn("strut.maxwell.stiffness", "N/m", (1.5e4, 5e4), ZERO, (0.0, 3e5)),
-            drawn("strut.maxwell.time", "s", (0.006, 0.04), SHAPE, ANY),
+            drawn("hysteresis.maxwell.stiffness", "N/m", (1.5e4, 5e4), ZERO, (0.0, 3e5)),
+            drawn("hysteresis.maxwell.time", "s", (0.006, 0.04), SHAPE, ANY),
         ],
     ),
     entry(
@@ -90,15 +90,15 @@ pub(super) static ENTRIES: &[Entry] = &[
         "play of the damper's bush",
         Place::Strut,
         &[
-            drawn("strut.mount.gap", "m", (3e-4, 1e-3), ZERO, (0.0, 4e-3)),
-            drawn("strut.mount.compliance", "m/N", (1e-6, 4e-6), SHAPE, ANY),
+            drawn("hysteresis.mount.gap", "m", (3e-4, 1e-3), ZERO, (0.0, 4e-3)),
+            drawn("hysteresis.mount.compliance", "m/N", (1e-6, 4e-6), SHAPE, ANY),
         ],
     ),
     entry(
         "13",
         "soft mount of the damper",
         Place::Strut,
-        &[drawn("strut.mount.compliance", "m/N", (8e-6, 2.5e-5), ZERO, (0.0, 1e-4))],
+        &[drawn("hysteresis.mount.compliance", "m/N", (8e-6, 2.5e-5), ZERO, (0.0, 1e-4))],
     ),
     entry(
         "14",

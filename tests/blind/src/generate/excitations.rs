@@ -30,9 +30,17 @@ pub(super) fn excitations(case: &Case, plain: &Rig) -> (Vec<Excitation>, Vec<Exc
             ("road", road(random, time, 0.015), still()),
             ("sweep", sweep(time, 1.0, 0.012), still()),
         ],
-        Plant::LinearQuarter | Plant::PublishedQuarter => [
+        // Enough for the friction of its strut, 115 N, to be overcome nearly all the time.
+        Plant::PublishedQuarter => [
+            ("multisine", multisine(random, time, 0.9, 0.025), still()),
+            ("prbs", multisine(random, time, 0.9, 0.012), forces(case, random, 220.0)),
+            ("bumps", bumps(random, time, 0.010), multisine(random, time, 0.3, 250.0)),
+            ("road", road(random, time, 0.025), multisine(random, time, 0.6, 150.0)),
+            ("sweep", still(), sweep(time, 0.0, 250.0)),
+        ],
+        Plant::LinearQuarter => [
             ("multisine", multisine(random, time, 0.5, 0.010), still()),
-            ("prbs", multisine(random, time, 0.5, 0.005), forces(case, random)),
+            ("prbs", multisine(random, time, 0.5, 0.005), forces(case, random, 150.0)),
             ("bumps", bumps(random, time, 0.010), multisine(random, time, 0.3, 120.0)),
             ("road", road(random, time, 0.010), still()),
             ("sweep", still(), sweep(time, 0.0, 150.0)),
@@ -66,13 +74,9 @@ pub(super) fn excitations(case: &Case, plain: &Rig) -> (Vec<Excitation>, Vec<Exc
 }
 
 /// Two levels of force; many where the actuator saturates, as of two levels a saturation is a gain.
-fn forces(case: &Case, random: &mut Random) -> Profile {
+fn forces(case: &Case, random: &mut Random, size: f64) -> Profile {
     let saturates = case.effects.iter().any(|hidden| hidden.id == "26");
-    if saturates {
-        steps(random, case.reach(), 0.025, 150.0)
-    } else {
-        prbs(random, case.reach(), 0.025, 150.0)
-    }
+    if saturates { steps(random, case.reach(), 0.025, size) } else { prbs(random, case.reach(), 0.025, size) }
 }
 
 /// Scales the road such that the tyre keeps a fifth of its static load, or, if it shall leave the road, such that
