@@ -30,6 +30,8 @@ const BESIDE: f64 = 0.35;
 const APART: f64 = 2.5;
 /// Errors that are larger by less than this factor tell nothing apart, however steady the difference is.
 const SAME: f64 = 1.005;
+/// Errors that are larger by more than this factor are not made good by being less common, or by signals that are less late.
+const LITTLE_MORE: f64 = 1.5;
 
 /// What decides whether a cause is named.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -188,6 +190,8 @@ impl World<'_> {
                 found.screened = screened;
             }
             let passing: Vec<&Tried> = tried.iter().filter(|it| passes(it)).collect();
+            let common = self.far_better(&found.base, &tried, &passing);
+            let passing: Vec<&Tried> = if common.is_empty() { passing } else { common.iter().collect() };
             let chosen = self.chosen(&found.base, &passing).cloned();
             let rivals = chosen.as_ref().map_or_else(Vec::new, |it| self.rivals(&found.base, it, &passing));
             merge(&mut found.tried, tried);
@@ -217,15 +221,30 @@ impl World<'_> {
         named.map(|it| self.simplest(base, it, passing)).or_else(|| passing.first().copied())
     }
 
-    /// One that is simpler than the best, a part of it with fewer parameters or one that needs fewer late signals, unless what
-    /// the best one adds to it passes the gates on its own.
+    /// What every rig has a little of, where it does far better than anything rare that passes: something has to be named then,
+    /// and that it is common is no objection.
+    fn far_better(&self, base: &Fitted, tried: &[Tried], passing: &[&Tried]) -> Vec<Tried> {
+        let left = |it: &Tried| it.fitted.as_ref().map_or(f64::INFINITY, |fitted| self.left(base, fitted));
+        let rare = passing.iter().map(|it| left(it)).fold(f64::INFINITY, f64::min);
+        let waived = tried.iter().filter(|it| it.evidence.usual && !is_table(it.term)).cloned();
+        let waived = waived.map(|it| Tried { evidence: Evidence { usual: false, ..it.evidence }, ..it });
+        let better = |it: &Tried| {
+            !passing.is_empty() && LITTLE_MORE * left(it) < rare && it.evidence.refusal().is_none()
+        };
+        waived.filter(better).collect()
+    }
+
+    /// One that is simpler than the best, a part of it with fewer parameters or one that needs fewer late signals and leaves
+    /// little more, unless what the best one adds to it passes the gates on its own.
     fn simplest<'b>(&self, base: &Fitted, best: &'b Tried, passing: &[&'b Tried]) -> &'b Tried {
         let mut chosen = best;
         for other in passing {
             if let (Ok(fitted), Ok(simpler)) = (&chosen.fitted, &other.fitted)
                 && (contains(chosen.term, other.term, &parts(fitted), &parts(simpler))
                     && simpler.coordinates.len() < fitted.coordinates.len()
-                    || self.late(simpler) < self.late(fitted) && !is_table(other.term))
+                    || self.late(simpler) < self.late(fitted)
+                        && !is_table(other.term)
+                        && self.left(base, simpler) < LITTLE_MORE * self.left(base, fitted))
             {
                 let added = self.evidence(chosen.term, base, simpler, fitted);
                 // Whether it is common does not matter beside a part of itself.

@@ -1,5 +1,6 @@
 //! Second thoughts about what a search has found: terms taken away, exchanged, or given up for a curve.
 
+use crate::findings::Evidence;
 use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
 
@@ -67,7 +68,9 @@ impl World<'_> {
         let mut index = 0;
         while index < found.accepted.len() && found.accepted.len() > 1 {
             let without = self.without(found, index)?;
-            let evidence = self.evidence(found.accepted[index].term, &found.base, &without, &found.extended);
+            let here = &found.accepted[index];
+            let evidence = self.evidence(here.term, &found.base, &without, &found.extended);
+            let evidence = Evidence { usual: here.evidence.usual, ..evidence };
             let others = found.accepted.iter().enumerate().filter(|(other, _)| *other != index);
             let largest = others.map(|(_, it)| it.evidence.phi_gain).fold(0.0, f64::max);
             if evidence.refusal().is_some() || !matters_beside(found.accepted[index].term, &evidence, largest)

@@ -17,7 +17,7 @@ use crate::sensors::Sensor;
 use crate::servo::Servo;
 use crate::strut::Strut;
 
-pub use published::{start, true_base};
+pub use published::{is_uncertain, start, true_base};
 pub use signals::{signals, true_signal};
 
 /// Between body and wheel.
@@ -144,14 +144,4 @@ impl Rig {
         };
         wanted.map(column).collect()
     }
-}
-
-/// How much of the measured signals two runs disagree on: the largest rms of a difference over the rms.
-pub fn difference(one: &[(String, String, Vec<f64>)], other: &[(String, String, Vec<f64>)]) -> f64 {
-    use crate::sensors::rms;
-    one.iter().zip(other).fold(0.0, |most: f64, (a, b)| {
-        let apart: Vec<f64> = a.2.iter().zip(&b.2).map(|(x, y)| x - y).collect();
-        let size = rms(&a.2);
-        if size > 0.0 { most.max(rms(&apart) / size) } else { most }
-    })
 }

@@ -1,11 +1,12 @@
-//! How large the effects must be.
+//! How large the effects must be: what counts is what no other values of the rig's parameters show, too. A fit would take
+//! the rest for them, and nobody could tell.
 
 use super::Columns;
 use super::excitations::Excitation;
 use crate::case::{Case, Present, Value};
 use crate::catalogue::{Drawn, Entry, Scale};
 use crate::random::Random;
-use crate::rig::{Rig, difference, true_signal};
+use crate::rig::{Rig, is_uncertain, true_signal};
 use crate::sensors::rms;
 
 /// Finds how large the effects must be.
@@ -23,16 +24,25 @@ pub(super) struct Sizing<'a> {
     command: f64,
     /// The plain rig's parameters.
     base: &'a [Value],
-    /// What the clutter of the plant changes.
-    clutter: f64,
+    /// What the clutter of the plant changes; none without.
+    clutter: Option<Change>,
+    /// What each of the rig's parameters changes.
+    parameters: Vec<(&'a str, Change)>,
 }
+
+/// What is seen otherwise: differences over each record's columns, in units of the column's root mean square.
+type Change = Vec<Vec<f64>>;
+
+/// By which share a parameter is changed to see what it changes.
+const SHARE: f64 = 0.01;
 
 impl<'a> Sizing<'a> {
     /// Runs the plain rig, and the cluttered one.
     pub(super) fn new(case: &'a Case, plain: &'a Rig, base: &'a [Value], train: &'a [Excitation]) -> Self {
-        let (seen, clutter) = (vec![], 0.0);
+        let (seen, clutter, parameters) = (vec![], None, vec![]);
         let (deflection, travel, command) = (0.0, 0.0, 0.0);
-        let mut sizing = Self { case, plain, train, seen, deflection, travel, command, base, clutter };
+        let mut sizing =
+            Self { case, plain, train, seen, deflection, travel, command, base, clutter, parameters };
         let length = if case.plant.is_car() { "suspension.deflection" } else { "motion.position" };
         let most = |signal: &[f64]| signal.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         for excitation in train {
@@ -43,19 +53,53 @@ impl<'a> Sizing<'a> {
             sizing.seen.push(plain.measured(case, &motion, "sizing"));
         }
         if case.clutter > 0 && !case.effects.is_empty() {
+            let of = |(number, value): (usize, &'a Value)| {
+                let mut others = base.to_vec();
+                others[number].value *= 1.0 + SHARE;
+                let mut other = Rig::new(case.plant, &others);
+                // The controller is the rig's own, whatever it moves.
+                other.drive.control = plain.drive.control;
+                (value.name.as_str(), sizing.change(&other))
+            };
+            let uncertain = base.iter().enumerate().filter(|(_, value)| is_uncertain(value));
+            let parameters = uncertain.map(of).collect();
             let mut cluttered = plain.clone();
             cluttered.clutter_plant(f64::from(case.clutter), &mut Random::new(case.seed, "clutter"));
-            sizing.clutter = sizing.changed(&cluttered);
+            let clutter = Some(sizing.change(&cluttered));
+            (sizing.parameters, sizing.clutter) = (parameters, clutter);
         }
         sizing
     }
 
-    /// What another rig than the plain one changes, in the record that shows it best.
-    fn changed(&self, rig: &Rig) -> f64 {
-        self.train.iter().zip(&self.seen).fold(0.0, |most: f64, (excitation, seen)| {
+    /// What is seen of another rig than the plain one.
+    fn change(&self, rig: &Rig) -> Change {
+        let records = self.train.iter().zip(&self.seen).flat_map(|(excitation, seen)| {
             let motion = rig.run(&excitation.road, &excitation.command, self.case.reach());
-            most.max(difference(seen, &rig.measured(self.case, &motion, "sizing")))
-        })
+            let measured = rig.measured(self.case, &motion, "sizing");
+            let column = |((.., before), (.., after)): (&(_, _, Vec<f64>), &(_, _, Vec<f64>))| {
+                let size = rms(before);
+                let unit = if size > 0.0 { 1.0 / size } else { 0.0 };
+                before.iter().zip(after).map(|(before, after)| (after - before) * unit).collect()
+            };
+            seen.iter().zip(&measured).map(column).collect::<Vec<_>>()
+        });
+        records.collect()
+    }
+
+    /// Orthonormal changes that span what the rig's parameters change, less those that the effect is one of.
+    fn imitations(&self, entry: &Entry) -> Vec<Change> {
+        let own = |name: &str| entry.parameters.iter().any(|it| it.name.trim_end_matches(".added") == name);
+        let mut span: Vec<Change> = Vec::new();
+        for (_, change) in self.parameters.iter().filter(|(name, _)| !own(name)) {
+            let mut rest = without(change, &span);
+            let (all, size) = (product(change, change), product(&rest, &rest));
+            // What depends on the others but for rounding is none of its own.
+            if size > 1e-9 * all {
+                rest.iter_mut().flatten().for_each(|value| *value /= size.sqrt());
+                span.push(rest);
+            }
+        }
+        span
     }
 
     /// The effect with this number in the case, its values and what it changes over what the clutter changes.
@@ -84,16 +128,16 @@ impl<'a> Sizing<'a> {
         };
         let mut size = hidden.size;
         let mut ratio = None;
+        let imitations = self.imitations(entry);
+        let clutter = self.clutter.as_ref().map(|change| largest(&without(change, &imitations)));
         // Enlarged until it is seen enough; its bounds may end that before.
         for _ in 0..5 {
             let mut rig = self.plain.clone();
             rig.put_in(entry, &sized(size), &hidden.signal)?;
-            if self.clutter == 0.0 {
-                break;
-            }
-            let changed = self.changed(&rig);
-            ratio = Some(changed / self.clutter);
-            let missing = self.case.ratio * self.clutter / changed.max(1e-9);
+            let Some(clutter) = clutter else { break };
+            let changed = largest(&without(&self.change(&rig), &imitations));
+            ratio = Some(changed / clutter);
+            let missing = self.case.ratio * clutter / changed.max(1e-9);
             if missing <= 1.0 || entry.parameters.is_empty() {
                 break;
             }
@@ -123,4 +167,25 @@ impl<'a> Sizing<'a> {
         };
         Ok((present, values))
     }
+}
+
+fn product(one: &Change, other: &Change) -> f64 {
+    one.iter().flatten().zip(other.iter().flatten()).map(|(a, b)| a * b).sum()
+}
+
+/// A change less what it has of orthonormal ones.
+fn without(change: &Change, span: &[Change]) -> Change {
+    let mut rest = change.clone();
+    for imitation in span {
+        let share = product(&rest, imitation);
+        for (value, imitated) in rest.iter_mut().flatten().zip(imitation.iter().flatten()) {
+            *value -= share * imitated;
+        }
+    }
+    rest
+}
+
+/// The root mean square in the record and the column that shows it best.
+fn largest(change: &Change) -> f64 {
+    change.iter().map(|column| rms(column)).fold(0.0, f64::max)
 }

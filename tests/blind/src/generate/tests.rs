@@ -110,7 +110,9 @@ fn effects_outdo_the_clutter_and_every_one_can_be_hidden() {
             (crate::catalogue::Place::Sensor, _) => "body.acceleration",
             _ => "",
         };
-        let case = Case { plant, duration: 4.0, ..short(vec![Hidden::at(entry.id, signal)]) };
+        // A damper does not fade in less.
+        let duration = if entry.id == "10" { 8.0 } else { 4.0 };
+        let case = Case { plant, duration, ..short(vec![Hidden::at(entry.id, signal)]) };
         let made = generate(&case).unwrap();
         let ratio = made.truth.effects[0].ratio.unwrap();
         for table in made.train.iter().chain(&made.test) {
@@ -121,7 +123,7 @@ fn effects_outdo_the_clutter_and_every_one_can_be_hidden() {
             );
         }
         // The parabola of a tyre that shall still lift off is bounded.
-        assert!(ratio > 2.0 || ["19", "20", "41"].contains(&entry.id), "{}: {ratio}", entry.id);
+        assert!(ratio > 2.0 || ["19", "20"].contains(&entry.id), "{}: {ratio}", entry.id);
     }
 }
 

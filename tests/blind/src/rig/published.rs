@@ -84,8 +84,13 @@ pub fn start(plant: Plant) -> Vec<Value> {
 /// The true base parameters: those of `start`, off by a share of `off`, at most twice that.
 pub fn true_base(start: &[Value], off: f64, random: &mut Random) -> Vec<Value> {
     let mut base = start.to_vec();
-    for value in base.iter_mut().filter(|value| !EXACT.contains(&value.name.as_str())) {
+    for value in base.iter_mut().filter(|value| is_uncertain(value)) {
         value.value *= 1.0 + off * random.normal().clamp(-2.0, 2.0);
     }
     base
+}
+
+/// Whether a base parameter is one that the rig has and that has to be measured.
+pub fn is_uncertain(value: &Value) -> bool {
+    value.value != 0.0 && !EXACT.contains(&value.name.as_str())
 }
