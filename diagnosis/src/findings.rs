@@ -211,6 +211,13 @@ impl Evidence {
         self.doubt().or_else(|| self.smallness())
     }
 
+    /// Whether it passes beside another cause that has passed: whether anything is there is no question then, and its gains
+    /// may be less steady.
+    pub fn passes_beside_another(&self) -> bool {
+        let steady = if self.block_t > STEADY { f64::INFINITY } else { self.block_t };
+        Self { block_t: steady, ..*self }.refusal().is_none()
+    }
+
     /// Whether it takes so much away that a small Student's t over the training data is enough.
     pub fn is_steady_enough(&self) -> bool {
         self.takes_the_bulk() && self.block_t > STEADY

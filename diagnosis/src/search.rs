@@ -193,7 +193,9 @@ impl World<'_> {
             let common = self.far_better(&found.base, &tried, &passing);
             let passing: Vec<&Tried> = if common.is_empty() { passing } else { common.iter().collect() };
             let chosen = self.chosen(&found.base, &passing).cloned();
-            let rivals = chosen.as_ref().map_or_else(Vec::new, |it| self.rivals(&found.base, it, &passing));
+            let beside: Vec<&Tried> =
+                tried.iter().filter(|it| passes(it) || it.evidence.passes_beside_another()).collect();
+            let rivals = chosen.as_ref().map_or_else(Vec::new, |it| self.rivals(&found.base, it, &beside));
             merge(&mut found.tried, tried);
             let Some(chosen) = chosen else { break };
             let Ok(fitted) = chosen.fitted else { break };
