@@ -48,6 +48,7 @@ named! {
     an_asymmetric_damper: "single-04";
     a_damper_knee: "single-05";
     a_maxwell_branch: "single-07";
+    a_maxwell_branch_that_is_no_bush_with_play: "common-07";
     a_nonlinear_spring: "single-08";
     a_bump_stop: "single-09";
     an_actuator_delay: "single-23";

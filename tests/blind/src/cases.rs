@@ -51,6 +51,8 @@ pub fn compact() -> Vec<Case> {
         .map(|(seed, id)| standard(format!("single-{id}"), vec![Hidden::new(id)], seed))
         .collect();
     all.push(standard("pair-01-08", vec![Hidden::new("01"), Hidden::new("08")], 21));
+    // A bush with play imitates it, and is less common.
+    all.push(standard("common-07", vec![Hidden::new("07")], 1007));
     all.push(standard("unnamed-U1", vec![Hidden::new("U1")], 22));
     all.push(standard("sensor-34", vec![Hidden::at("34", "wheel.force")], 23));
     all.push(standard("sensor-33", vec![Hidden::at("33", "wheel.acceleration")], 27));
