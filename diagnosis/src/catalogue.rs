@@ -1,7 +1,7 @@
 //! The catalogue of causes: which parameters they switch on, how large they may be, what they are confused with.
 
 mod guided;
-mod measured;
+mod periphery;
 mod strut;
 mod tables;
 mod tire;
@@ -166,7 +166,7 @@ pub fn causes(plant: &Plant) -> impl Iterator<Item = &'static Cause> {
         cause.parts.iter().all(|part| plant.parameter(part.parameter).is_some())
             && cause.setting.is_none_or(|setting| plant.setting(setting).is_some())
     };
-    let all = [strut::CAUSES, tire::CAUSES, guided::CAUSES, measured::CAUSES];
+    let all = [strut::CAUSES, tire::CAUSES, guided::CAUSES, periphery::CAUSES];
     all.into_iter().flatten().filter(has)
 }
 

@@ -1,4 +1,4 @@
-//! Causes on the way from the command to the force, in the frame, and in the cells that measure.
+//! Causes around strut and tyre: in the frame, in actuator and valve, and in the cell that measures the force.
 
 use super::{Cause, Element, Scale, part};
 
