@@ -1,5 +1,6 @@
 //! What speaks for one fit over another.
 
+use crate::catalogue::Element;
 use crate::comparison::{Errors, student};
 use crate::correction::Fault;
 use crate::findings::Evidence;
@@ -43,17 +44,15 @@ impl World<'_> {
         let gain: f64 =
             counts.iter().zip(before.iter().zip(&after)).map(|(n, (b, a))| n * (b / a).ln()).sum();
         let total: f64 = counts.iter().sum();
-        let squares = |it: &Fitted| self.errors(&it.test).mean_squares();
-        let (unit, before, after) = (squares(base), squares(null), squares(fitted));
-        let shares =
-            unit.iter().zip(before.iter().zip(&after)).map(|(unit, (before, after))| (before - after) / unit);
+        let (before, after) = (self.shares(base, null), self.shares(base, fitted));
+        let [learnt, held_out] = [before[0] - after[0], before[1] - after[1]];
         Evidence {
             delta_bic: gain - more as f64 * total.max(1.0).ln(),
             block_t: self.steadiness(term, &null.train, &fitted.train),
             held_out_t: self.steadiness(term, &null.test, &fitted.test),
-            explained: shares.sum::<f64>() / unit.len().max(1) as f64,
-            phi_gain: self.phi_gain(null, fitted),
-            taken: 1.0 - self.remaining(null, fitted),
+            explained: if is_resonance(term) { learnt.max(held_out) } else { held_out },
+            phi_gain: everywhere(term, self.phi_gains(null, fitted)),
+            taken: everywhere(term, self.shares(null, fitted).map(|share| 1.0 - share)),
             usual: self.is_usual(term),
             grave: false,
         }
@@ -66,8 +65,8 @@ impl World<'_> {
         is_table(term) || USUAL.contains(&id.as_str()) || sensor && timing
     }
 
-    /// The largest rise of Φ among the signals: on the training or the held-out data, whichever is less.
-    fn phi_gain(&self, null: &Fitted, fitted: &Fitted) -> f64 {
+    /// The largest rise of Φ among the signals: on the training and on the held-out data.
+    fn phi_gains(&self, null: &Fitted, fitted: &Fitted) -> [f64; 2] {
         let of = |records: &[Recorded], null: &Residuals, fitted: &Residuals| {
             let roots = |it: &Residuals| self.errors(it).mean_squares().into_iter().map(f64::sqrt);
             let rows = roots(null).zip(roots(fitted)).enumerate();
@@ -77,7 +76,7 @@ impl World<'_> {
             });
             gains.fold(0.0, f64::max)
         };
-        of(self.train, &null.train, &fitted.train).min(of(self.test, &null.test, &fitted.test))
+        [of(self.train, &null.train, &fitted.train), of(self.test, &null.test, &fitted.test)]
     }
 
     /// Rank of a fit among those on top of the same: half its fall of the information criterion, over all data, and what it
@@ -108,12 +107,12 @@ impl World<'_> {
     /// Errors left on the training and on the held-out data together, in those of another fit: two where nothing is
     /// gained.
     pub(super) fn left(&self, unit: &Fitted, fitted: &Fitted) -> f64 {
-        self.share(&unit.train, &fitted.train) + self.share(&unit.test, &fitted.test)
+        self.shares(unit, fitted).iter().sum()
     }
 
-    /// Share of another fit's error that is left, on the training or the held-out data, whichever is more.
-    fn remaining(&self, unit: &Fitted, fitted: &Fitted) -> f64 {
-        self.share(&unit.train, &fitted.train).max(self.share(&unit.test, &fitted.test))
+    /// Share of another fit's error that is left, on the training and on the held-out data.
+    fn shares(&self, unit: &Fitted, fitted: &Fitted) -> [f64; 2] {
+        [self.share(&unit.train, &fitted.train), self.share(&unit.test, &fitted.test)]
     }
 
     /// Mean over the signals of a share of the error's power.
@@ -121,4 +120,15 @@ impl World<'_> {
         let (unit, squares) = (self.errors(unit).mean_squares(), self.errors(residuals).mean_squares());
         unit.iter().zip(&squares).map(|(unit, square)| square / unit).sum::<f64>() / unit.len().max(1) as f64
     }
+}
+
+/// A gain on the training or the held-out data, whichever is less; of a resonance, whichever is more.
+fn everywhere(term: Term, [train, test]: [f64; 2]) -> f64 {
+    if is_resonance(term) { train.max(test) } else { train.min(test) }
+}
+
+/// Whether records that do not excite it show nothing of a term: how large it is, those tell that do. Whether it is there at
+/// all, the held-out data have to tell as of any other.
+fn is_resonance(term: Term) -> bool {
+    matches!(term, Term::Cause(cause) if cause.element == Element::Frame)
 }
