@@ -30,8 +30,9 @@ fn check(findings: &Findings) -> Result<(), String> {
     let page = report::html(findings);
     parsed(&page)?;
     for odd in ["NaN", "=\"inf", "-inf"] {
-        if page.contains(odd) {
-            return Err(format!("the page contains {odd}"));
+        if let Some(place) = page.find(odd) {
+            let around: String = page[..place].chars().rev().take(100).collect();
+            return Err(format!("the page contains {}{odd}", around.chars().rev().collect::<String>()));
         }
     }
     serde_json::from_str::<serde_json::Value>(&report::json(findings)).map_err(|error| error.to_string())?;

@@ -182,7 +182,8 @@ fn waterfall(signal: &Signal, extended: bool) -> Markup {
     if !extended {
         steps.remove(2);
     }
-    let top = [1.0, fitted, after].into_iter().filter(|share| share.is_finite()).fold(1.0, f64::max);
+    let ends = steps.iter().flat_map(|step| [step.from, step.to]);
+    let top = ends.filter(|share| share.is_finite()).fold(1.0, f64::max);
     let y = |share: f64| 118.0 - 92.0 * (share / top);
     let known = |step: &Step| step.from.is_finite() && step.to.is_finite();
     html! {
