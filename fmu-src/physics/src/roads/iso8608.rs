@@ -133,7 +133,7 @@ impl IsoTrack {
     }
 }
 
-/// Sine and cosine of an angle in cycles, with an absolute error below 1e-15.
+/// Sine and cosine of an angle in cycles, with an absolute error below 1.5e-15.
 ///
 /// A road is hundreds of waves at every step: counted in cycles an angle loses its whole turns by one
 /// rounding, and both functions follow from those of half the angle, |πf| ≤ π/2, whose Taylor series are cut
@@ -199,7 +199,8 @@ mod tests {
             let sines = sine.to_array().map(|found| (found, exact_sine));
             let cosines = cosine.to_array().map(|found| (found, exact_cosine));
             for (found, exact) in sines.into_iter().chain(cosines) {
-                prop_assert!((found - exact).abs() < 1e-15, "{found} {exact}");
+                // The angle in radians, that the exact ones are of, is rounded, too.
+                prop_assert!((found - exact).abs() < 2e-15, "{found} {exact}");
             }
         }
 
