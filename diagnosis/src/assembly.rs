@@ -25,11 +25,24 @@ const MISMATCH: f64 = 0.03;
 const SAME: f64 = 0.05;
 /// Φ of the best signal on held-out data below which nothing is to be believed.
 const INADEQUATE: f64 = 0.2;
+/// The same below which a model that drifts has lost what was measured: its errors are of what happened long before.
+const LOST: f64 = 0.95;
 
 impl Diagnosis<'_> {
     /// Whether no signal on held-out data is met so well that anything is to be believed.
-    pub fn is_inadequate(&self) -> bool {
-        self.left().iter().map(unnamed::Left::phi).fold(f64::NEG_INFINITY, f64::max) < INADEQUATE
+    fn is_inadequate(&self) -> bool {
+        self.best() < INADEQUATE
+    }
+
+    /// Whether no signal on held-out data is met closely over the stretches that it is compared over. Of a model that drifts,
+    /// shorter ones tell more then.
+    pub fn is_lost(&self) -> bool {
+        self.best() < LOST
+    }
+
+    /// Φ of the signal on held-out data that is met best.
+    fn best(&self) -> f64 {
+        self.left().iter().map(unnamed::Left::phi).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Everything that is told.

@@ -10,6 +10,10 @@ use crate::plant::Plant;
 
 pub use tables::Table;
 
+/// Bounds of the velocity at which friction is regularised, in an element's usual velocities: below, a rig that really sticks
+/// is met no better, and equations become too stiff.
+const FRICTION_VELOCITY: (f64, f64) = (5e-3, 1.0);
+
 /// A cause with a name.
 #[derive(Clone, Copy, Debug)]
 pub struct Cause {

@@ -11,7 +11,7 @@ use crate::rig::Rig;
 /// may still be told from another.
 const DRIFTING: f64 = 10.0;
 /// So many stretches are made of one.
-const PARTS: usize = 4;
+const PARTS: usize = 3;
 
 /// What is learnt from and what judges, without the noise of the inputs; and the latter as it was measured.
 pub struct Records {
@@ -87,6 +87,6 @@ mod tests {
         let (name, inputs, between, measured) = (String::new(), vec![], Between::Lines, vec![]);
         let record = Recorded { name, step: 1e-3, inputs, between, measured, sections: vec![0..10, 20..23] };
         let sections = in_parts(&record).sections;
-        assert_eq!(sections, [0..2, 2..5, 5..7, 7..10, 20..21, 21..22, 22..23]);
+        assert_eq!(sections, [0..3, 3..6, 6..10, 20..21, 21..22, 22..23]);
     }
 }

@@ -1,5 +1,6 @@
 //! From the command line to the report.
 
+use std::cell::OnceCell;
 use std::fs;
 use std::io::Write;
 use std::path::Path;
@@ -28,6 +29,9 @@ use crate::virtual_rig::{self, Experiment};
 const STEP: f64 = 1e-3;
 /// Length of a virtual rig's record in seconds.
 const LENGTH: f64 = 20.0;
+
+/// How often stretches are made shorter over which a model that drifts is compared.
+const SHORTER: usize = 2;
 
 /// Does what the command line says; failures are told on stderr.
 ///
@@ -112,12 +116,18 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
     bar.set_message("taking the noise off the inputs");
     let whole = Records::new(&records, test);
     let mut diagnosis = whole.diagnosed(&rig, options.clone(), &progress)?;
-    let parts = if diagnosis.is_inadequate() { whole.in_parts(&rig) } else { None };
-    if let Some(parts) = &parts {
+    let shorter = [const { OnceCell::new() }; SHORTER];
+    let mut last = &whole;
+    for cell in &shorter {
+        if !diagnosis.is_lost() {
+            break;
+        }
+        let Some(parts) = last.in_parts(&rig) else { break };
+        last = cell.get_or_init(|| parts);
         bar.set_message("comparing over shorter stretches");
-        let again = parts.diagnosed(&rig, options, &progress)?;
-        if !again.is_inadequate() {
-            problems.push(parts.note());
+        let again = last.diagnosed(&rig, options.clone(), &progress)?;
+        if !again.is_lost() {
+            problems.push(last.note());
             diagnosis = again;
         }
     }

@@ -1,6 +1,7 @@
 //! The search for causes: forward, with gates, on data that was not learnt from.
 
 mod bic;
+mod nested;
 mod revise;
 mod rooted;
 mod weighing;
@@ -95,12 +96,16 @@ impl World<'_> {
         terms.push(screened.term);
         let mut starts = screened.starts.clone();
         starts.extend(self.with_the_sheet(null, screened));
-        let fitted = self.fitted(&terms, &starts, Stop::ROUGH);
+        self.weighed(base, null, screened.term, self.fitted(&terms, &starts, Stop::ROUGH))
+    }
+
+    /// A fit of a term on top of the null's, with what it shows.
+    fn weighed(&self, base: &Fitted, null: &Fitted, term: Term, fitted: Result<Fitted, String>) -> Tried {
         let (evidence, score) = match &fitted {
-            Ok(fitted) => (self.evidence(screened.term, base, null, fitted), self.score(null, fitted)),
+            Ok(fitted) => (self.evidence(term, base, null, fitted), self.score(null, fitted)),
             Err(_) => (Evidence::default(), f64::NEG_INFINITY),
         };
-        Tried { term: screened.term, fitted, evidence, score }
+        Tried { term, fitted, evidence, score }
     }
 
     /// Another start, with the data sheet's parameters, where those of the fit without the term have strayed: they have done
@@ -155,6 +160,7 @@ impl World<'_> {
 
     fn try_all(&self, base: &Fitted, null: &Fitted, screened: &[&Screened]) -> Vec<Tried> {
         let mut tried: Vec<Tried> = screened.par_iter().map(|it| self.tried(base, null, it)).collect();
+        self.beside_their_limits(base, null, screened, &mut tried);
         tried.sort_by(|a, b| b.score.total_cmp(&a.score));
         tried
     }
@@ -207,6 +213,7 @@ impl World<'_> {
             }
         }
         found.extended = current;
+        self.limit(&mut found)?;
         self.retest(&mut found)?;
         if found.accepted.len() > 1 {
             progress("trying rivals in the place of each cause");

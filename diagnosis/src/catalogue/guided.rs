@@ -1,6 +1,6 @@
 //! Causes in the guides of drives and in pivots.
 
-use super::{Cause, Element, Scale, part};
+use super::{Cause, Element, FRICTION_VELOCITY, Scale, part};
 
 /// Pole pitches and spindle pitches in m: so close that over a stroke of some periods no phase is lost between two of them.
 const PERIODS: &[f64] = &[
@@ -30,7 +30,7 @@ pub(super) const CAUSES: &[Cause] = &[
             part("guide.stribeck.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
             part("guide.stribeck.velocity", Scale::VELOCITY, (5e-3, 1.0), &[0.1]),
             part("guide.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
-            part("guide.coulomb.velocity", Scale::VELOCITY, (1e-3, 1.0), &[0.02]),
+            part("guide.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02]),
         ],
         experiment: "creep through zero velocity below 5 mm/s",
     },

@@ -1,9 +1,6 @@
 //! Causes in the strut and in the guides.
 
-use super::{Cause, Element, Scale, addend, part};
-
-/// Below, a rig that really sticks is met no better, and equations become too stiff.
-const FRICTION_VELOCITY: (f64, f64) = (5e-3, 1.0);
+use super::{Cause, Element, FRICTION_VELOCITY, Scale, addend, part};
 
 pub(super) const CAUSES: &[Cause] = &[
     Cause {

@@ -1,10 +1,11 @@
 //! Second thoughts about what a search has found: terms taken away, exchanged, or given up for a curve.
 
 use crate::findings::Evidence;
+use crate::fit::Handle;
 use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
 
-use super::{APART, Accepted, Found, is_table, matters_beside, merge};
+use super::{APART, Accepted, Found, contains_by_name, is_table, matters_beside, merge};
 
 impl World<'_> {
     /// The found terms without one of them, fitted.
@@ -21,6 +22,37 @@ impl World<'_> {
             }
         }
         self.fitted(&terms, &[start], Stop::NOISY)
+    }
+
+    /// Puts a limit in the place of each accepted law that adds nothing of its own to it. Fits that only compare causes may
+    /// have left the limit behind; here it starts where the law has come to.
+    pub(super) fn limit(&self, found: &mut Found) -> Result<(), String> {
+        for index in 0..found.accepted.len() {
+            let here = found.accepted[index].term;
+            let limits = found.tried.iter().map(|it| it.term).filter(|it| contains_by_name(here, *it));
+            for limit in limits.collect::<Vec<_>>() {
+                let own: Vec<Handle> = self.own_coordinates(limit).iter().map(|it| it.handle).collect();
+                let mut start = found.extended.point.clone();
+                for more in self.own_coordinates(here).iter().filter(|it| !own.contains(&it.handle)) {
+                    start.set(more.handle, found.base.point.get(more.handle));
+                }
+                let mut terms = found.extended.terms.clone();
+                terms.iter_mut().filter(|term| **term == here).for_each(|term| *term = limit);
+                let fitted = self.fitted(&terms, &[start], Stop::NOISY)?;
+                let added = self.evidence(here, &found.base, &fitted, &found.extended);
+                if (Evidence { usual: false, ..added }).refusal().is_none() {
+                    continue;
+                }
+                let without = self.without(found, index)?;
+                let evidence = self.evidence(limit, &found.base, &without, &fitted);
+                if evidence.refusal().is_none() {
+                    (found.accepted[index].term, found.accepted[index].evidence) = (limit, evidence);
+                    found.extended = fitted;
+                    break;
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Puts rivals in the place of each accepted term: one that does better takes it, one that does as well stays a

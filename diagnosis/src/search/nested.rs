@@ -1,0 +1,68 @@
+//! Laws that contain others: a richer one explains all that its limits do, and any explains what the model does without it.
+//! Where a fit says otherwise, it is in a minimum of its own.
+
+use rayon::prelude::*;
+
+use crate::fit::Point;
+use crate::hypothesis::{Fitted, World};
+use crate::lsq::Stop;
+use crate::screening::Screened;
+
+use super::{Tried, contains_by_name, parts};
+
+/// Share of a screened amount from which a law that is made again starts: near the law that it contains.
+const SLIGHTLY: f64 = 0.1;
+/// Costs that differ by less are the same minimum.
+const SAME_MINIMUM: f64 = 1e-3;
+
+impl World<'_> {
+    /// Fits once more, from a limit's minimum, what leaves more than one of its limits does or than the model without it, and
+    /// keeps what leaves less.
+    pub(super) fn beside_their_limits(
+        &self,
+        base: &Fitted,
+        null: &Fitted,
+        screened: &[&Screened],
+        tried: &mut [Tried],
+    ) {
+        let again = tried.par_iter().zip(screened).map(|(it, screened)| {
+            let start = self.beside(limit(null, it, tried)?, screened)?;
+            let terms = [null.terms.as_slice(), &[it.term]].concat();
+            let fitted = self.fitted(&terms, &[start], Stop::ROUGH).ok()?;
+            (fitted.cost < cost(it)).then(|| self.weighed(base, null, it.term, Ok(fitted)))
+        });
+        let again: Vec<Option<Tried>> = again.collect();
+        for (it, again) in tried.iter_mut().zip(again) {
+            if let Some(again) = again {
+                *it = again;
+            }
+        }
+    }
+
+    /// Where a limit is, with a little of what a law has more.
+    fn beside(&self, limit: &Fitted, screened: &Screened) -> Option<Point> {
+        let first = screened.starts.first()?;
+        let mut start = limit.point.clone();
+        let known = parts(limit);
+        let own = self.own_coordinates(screened.term);
+        for (number, coordinate) in own.iter().enumerate().filter(|(_, own)| !known.contains(&own.handle)) {
+            let (before, value) = (start.get(coordinate.handle), first.get(coordinate.handle));
+            // The first is the amount, the others are its shape.
+            let share = if number == 0 { SLIGHTLY } else { 1.0 };
+            start.set(coordinate.handle, before + share * (value - before));
+        }
+        Some(start)
+    }
+}
+
+/// The best of a law's limits, where it leaves less than the law.
+fn limit<'a>(null: &'a Fitted, it: &Tried, tried: &'a [Tried]) -> Option<&'a Fitted> {
+    let limits = tried.iter().filter(|other| contains_by_name(it.term, other.term));
+    let limits = limits.filter_map(|other| other.fitted.as_ref().ok()).chain([null]);
+    let best = limits.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+    (best.cost * (1.0 + SAME_MINIMUM) < cost(it)).then_some(best)
+}
+
+fn cost(tried: &Tried) -> f64 {
+    tried.fitted.as_ref().map_or(f64::INFINITY, |fitted| fitted.cost)
+}
