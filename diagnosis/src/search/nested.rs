@@ -55,10 +55,12 @@ impl World<'_> {
     }
 }
 
-/// The best of a law's limits, where it leaves less than the law.
+/// The best of a law's limits that are made of its own parameters, where it leaves less than the law.
 fn limit<'a>(null: &'a Fitted, it: &Tried, tried: &'a [Tried]) -> Option<&'a Fitted> {
+    let own = it.fitted.as_ref().map(parts).unwrap_or_default();
     let limits = tried.iter().filter(|other| contains_by_name(it.term, other.term));
-    let limits = limits.filter_map(|other| other.fitted.as_ref().ok()).chain([null]);
+    let limits = limits.filter_map(|other| other.fitted.as_ref().ok());
+    let limits = limits.filter(|limit| parts(limit).is_subset(&own)).chain([null]);
     let best = limits.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
     (best.cost * (1.0 + SAME_MINIMUM) < cost(it)).then_some(best)
 }

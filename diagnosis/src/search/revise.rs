@@ -1,5 +1,7 @@
 //! Second thoughts about what a search has found: terms taken away, exchanged, or given up for a curve.
 
+use std::collections::BTreeSet;
+
 use crate::findings::Evidence;
 use crate::fit::Handle;
 use crate::hypothesis::{Fitted, Term, World};
@@ -27,14 +29,18 @@ impl World<'_> {
     /// Puts a limit in the place of each accepted law that adds nothing of its own to it. Fits that only compare causes may
     /// have left the limit behind; here it starts where the law has come to.
     pub(super) fn limit(&self, found: &mut Found) -> Result<(), String> {
+        let handles = |term: Term| -> BTreeSet<Handle> {
+            self.own_coordinates(term).iter().map(|coordinate| coordinate.handle).collect()
+        };
         for index in 0..found.accepted.len() {
             let here = found.accepted[index].term;
+            let own = handles(here);
             let limits = found.tried.iter().map(|it| it.term).filter(|it| contains_by_name(here, *it));
-            for limit in limits.collect::<Vec<_>>() {
-                let own: Vec<Handle> = self.own_coordinates(limit).iter().map(|it| it.handle).collect();
+            let limits = limits.filter(|it| handles(*it).is_subset(&own)).collect::<Vec<_>>();
+            for limit in limits {
                 let mut start = found.extended.point.clone();
-                for more in self.own_coordinates(here).iter().filter(|it| !own.contains(&it.handle)) {
-                    start.set(more.handle, found.base.point.get(more.handle));
+                for more in own.difference(&handles(limit)) {
+                    start.set(*more, found.base.point.get(*more));
                 }
                 let mut terms = found.extended.terms.clone();
                 terms.iter_mut().filter(|term| **term == here).for_each(|term| *term = limit);

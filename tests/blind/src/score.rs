@@ -7,6 +7,8 @@ mod table;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeSet;
+
 use crate::case::{Plant, Present, Truth, Value};
 use crate::catalogue::{Place, number};
 
@@ -199,13 +201,15 @@ fn outcome(report: &Report, effects: &[Present]) -> Outcome {
             .iter()
             .any(|e| is_named(e, named) || named.ambiguous_with.iter().any(|text| is_meant(e, text)))
     };
+    // What is wrong with one measured input, its gain and its delay, say, is one effect.
+    let told = report.effects.iter().map(|named| (&named.id, &named.element)).collect::<BTreeSet<_>>().len();
     let strangers = report.unnamed.is_some() || !report.effects.iter().all(belongs);
     match choices.iter().max() {
         None if report.unnamed.is_some() && report.effects.is_empty() => Outcome::Unnamed,
         None if report.effects.is_empty() => Outcome::Missed,
         None => Outcome::WrongName,
         Some(_) if strangers && choices.len() < effects.len() => Outcome::WrongName,
-        Some(_) if strangers || report.effects.len() > effects.len() => Outcome::TooMany,
+        Some(_) if strangers || told > effects.len() => Outcome::TooMany,
         Some(_) if choices.len() < effects.len() => Outcome::TooFew,
         Some(1) => Outcome::Correct,
         Some(2) => Outcome::OneOfTwo,

@@ -55,6 +55,15 @@ fn one_effect() {
 }
 
 #[test]
+fn gain_and_delay_of_one_input_are_one_effect() {
+    let input = ("42", Place::Sensor, "road.position");
+    let twice = named(&[("42", "road.position", &[]), ("42", "road.position", &[])]);
+    assert_eq!(came_out(&[input], &twice), Outcome::Correct);
+    let others = named(&[("42", "road.position", &[]), ("42", "actuator.force", &[])]);
+    assert_eq!(came_out(&[input], &others), Outcome::TooMany);
+}
+
+#[test]
 fn several_effects() {
     let of = |report: &str| came_out(&[FRICTION, SPRING], report);
     assert_eq!(of(&named(&[("08", "strut", &[]), ("01", "strut", &[])])), Outcome::Correct);
