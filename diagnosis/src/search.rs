@@ -243,14 +243,15 @@ impl World<'_> {
         waived.filter(better).collect()
     }
 
-    /// One that is simpler than the best, a part of it with fewer parameters or one that needs fewer late signals and leaves
-    /// little more, unless what the best one adds to it passes the gates on its own.
+    /// One that is simpler than the best, a part of it with fewer parameters and no more late signals, or one that needs fewer
+    /// of these and leaves little more, unless what the best one adds to it passes the gates on its own.
     fn simplest<'b>(&self, base: &Fitted, best: &'b Tried, passing: &[&'b Tried]) -> &'b Tried {
         let mut chosen = best;
         for other in passing {
             if let (Ok(fitted), Ok(simpler)) = (&chosen.fitted, &other.fitted)
                 && (contains(chosen.term, other.term, &parts(fitted), &parts(simpler))
                     && simpler.coordinates.len() < fitted.coordinates.len()
+                    && self.late(simpler) <= self.late(fitted)
                     || self.late(simpler) < self.late(fitted)
                         && !is_table(other.term)
                         && self.left(base, simpler) < LITTLE_MORE * self.left(base, fitted))

@@ -59,6 +59,9 @@ named! {
     a_saturated_actuator: "single-26";
     an_overlapped_valve: "servo-28";
     friction_on_a_dyno: "dyno-01";
+    breakaway_friction_of_a_drive: "drive-02g";
+    plain_friction_of_a_drive: "drive-16";
+    cogging_of_a_drive: "drive-27";
 }
 
 /// Nothing is there, or nothing that matters: no cause is claimed.

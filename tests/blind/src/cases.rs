@@ -62,6 +62,10 @@ pub fn compact() -> Vec<Case> {
     all.push(Case { clutter: 0, ..standard("none", vec![], 24) });
     all.push(standard("none-cluttered", vec![], 25));
     all.push(Case { clutter: 0, nominal_off: 0.1, ..standard("mismatch", vec![], 26) });
+    // What its loop holds in place, and a simulation does not.
+    all.push(driven(standard("drive-02g", vec![Hidden::new("02g")], 33)));
+    all.push(driven(standard("drive-16", vec![Hidden::new("16")], 34)));
+    all.push(driven(standard("drive-27", vec![Hidden::new("27")], 35)));
     // A bush with play imitates it, and is less common.
     all.push(standard("common-07", vec![Hidden::new("07")], 1007));
     all
@@ -125,10 +129,8 @@ fn other_rigs(seed: u64, all: &mut Vec<Case>) {
         let case = standard(format!("servo-{id}-{seed}"), hidden(id), seed);
         all.push(Case { plant: Plant::ServoQuarter, ..case });
     }
-    // A scale tells positions more finely than an accelerometer accelerations.
     for id in [&["none"][..], &OF_DRIVE].concat() {
-        let case = standard(format!("drive-{id}-{seed}"), hidden(id), seed);
-        all.push(Case { plant: Plant::LinearDrive, noise_db: Some(60.0), ..case });
+        all.push(driven(standard(format!("drive-{id}-{seed}"), hidden(id), seed)));
     }
     // A damper without a spring to speak of makes force of the motion's noise, so that the scale must be as fine here.
     let yielding = Hidden::new("32h");
@@ -143,6 +145,11 @@ fn other_rigs(seed: u64, all: &mut Vec<Case>) {
         let case = standard(format!("mr-{name}-{seed}"), effects, seed);
         all.push(Case { plant: Plant::MrDyno, noise_db: Some(60.0), ..case });
     }
+}
+
+/// The same of a drive, whose scale tells positions more finely than an accelerometer accelerations.
+fn driven(case: Case) -> Case {
+    Case { plant: Plant::LinearDrive, noise_db: Some(60.0), ..case }
 }
 
 /// The effect of that number, or nothing.
