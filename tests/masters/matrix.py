@@ -83,7 +83,7 @@ def main():
     if arguments.page:
         ecco = subprocess.run([sys.executable, Path(__file__).with_name("connected_ecco.py"), arguments.folder],
                               check=True, capture_output=True, text=True).stdout
-        minutes = f"{(time.monotonic() - begin) / 60.0:.0f} minutes"
+        minutes = f"{max(1, round((time.monotonic() - begin) / 60.0))} min"
         page(arguments.page, table, masters, minutes, ecco.strip())
     if failures:
         sys.exit("\n".join(failures))

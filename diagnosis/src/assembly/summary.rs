@@ -1,7 +1,7 @@
 //! The verdict in a few sentences, with the numbers that matter.
 
 use crate::findings::{Curve, Effect, Findings, Signal, Verdict};
-use crate::report::words::{digits, place, unit};
+use crate::report::words::{digits, located, unit};
 
 /// Significant digits of a value.
 const DIGITS: usize = 4;
@@ -19,17 +19,8 @@ pub(super) fn of(findings: &Findings) -> String {
     let text = match findings.verdict {
         Verdict::NoEffect => "No cause could be shown by these records.".to_owned(),
         Verdict::ParameterMismatch => "No cause beyond parameters could be shown.".to_owned(),
-        Verdict::Named => format!("The model lacks: {}.", list(effects)),
+        Verdict::Named | Verdict::Ambiguous => format!("The model lacks: {}.", list(effects)),
         Verdict::SensorFault => format!("The measurement is wrong, not the plant: {}.", list(effects)),
-        Verdict::Ambiguous => {
-            let rivals: Vec<&str> =
-                effects.iter().flat_map(|effect| &effect.ambiguous_with).map(String::as_str).collect();
-            format!(
-                "The model lacks: {}; these records cannot tell it from {}.",
-                list(effects),
-                rivals.join(", ")
-            )
-        }
         Verdict::Unnamed if effects.is_empty() => String::new(),
         Verdict::Unnamed => format!("The measurement is wrong: {}.", list(effects)),
         Verdict::ModelInadequate => {
@@ -47,19 +38,18 @@ pub(super) fn of(findings: &Findings) -> String {
 }
 
 fn list(effects: &[Effect]) -> String {
-    let named = effects.iter().map(|effect| match effect.parameters.first() {
-        Some(it) => {
-            format!(
-                "{} {} ({} = {})",
-                effect.name,
-                place(&effect.element),
-                it.name,
-                value(it.value, &it.unit)
-            )
+    let told = effects.iter().map(|effect| {
+        let named = located(&effect.name, &effect.element);
+        let sized = match effect.parameters.first() {
+            Some(it) => format!("{named} ({} = {})", it.name, value(it.value, &it.unit)),
+            None => named,
+        };
+        match effect.ambiguous_with.as_slice() {
+            [] => sized,
+            rivals => format!("{sized}, which these records cannot tell from {}", rivals.join(", ")),
         }
-        None => format!("{} {}", effect.name, place(&effect.element)),
     });
-    named.collect::<Vec<_>>().join("; ")
+    told.collect::<Vec<_>>().join("; ")
 }
 
 fn value(value: f64, symbol: &str) -> String {

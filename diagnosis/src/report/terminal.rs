@@ -4,7 +4,7 @@ use textwrap::Options;
 use unicode_width::UnicodeWidthStr;
 
 use super::words::{
-    badge, capitalised, cause, count, digits, fit, headline, interval, number, percent, place, unit,
+    badge, capitalised, cause, count, digits, fit, headline, interval, located, number, percent, place, unit,
 };
 use crate::findings::{Effect, Findings, Verdict};
 
@@ -84,7 +84,7 @@ impl Lines {
 
     fn effect(&mut self, findings: &Findings, effect: &Effect) {
         let evidence = effect.evidence;
-        self.wrapped("", &format!("{} {} {}", effect.id, capitalised(&effect.name), place(&effect.element)));
+        self.wrapped("", &format!("{} {}", effect.id, capitalised(&located(&effect.name, &effect.element))));
         for parameter in &effect.parameters {
             let [value, low, high] = interval(parameter.value, parameter.low, parameter.high);
             let unit = unit(&parameter.unit);

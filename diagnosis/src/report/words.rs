@@ -152,6 +152,14 @@ pub fn place(element: &str) -> String {
     }
 }
 
+/// A cause with its place, which a name such as `guide friction` holds already.
+pub fn located(name: &str, element: &str) -> String {
+    match name.split(' ').any(|word| word == element) {
+        true => name.to_owned(),
+        false => format!("{name} {}", place(element)),
+    }
+}
+
 /// `a, b and c`.
 pub fn list(items: &[String], last: &str) -> String {
     match items {
@@ -189,15 +197,15 @@ pub fn cause(findings: &Findings, key: &str) -> String {
     let (id, element) = split(key);
     let known = findings.candidates.iter().filter(|candidate| candidate.id == id);
     match known.max_by_key(|candidate| candidate.element == element) {
-        Some(known) if element.is_empty() => format!("{} {}", known.name, place(&known.element)),
-        Some(known) => format!("{} {}", known.name, place(element)),
+        Some(known) if element.is_empty() => located(&known.name, &known.element),
+        Some(known) => located(&known.name, element),
         None => key.to_owned(),
     }
 }
 
 /// The verdict as one sentence.
 pub fn headline(findings: &Findings) -> String {
-    let named = |effect: &Effect| format!("{} {}", effect.name, place(&effect.element));
+    let named = |effect: &Effect| located(&effect.name, &effect.element);
     let effects: Vec<String> = findings.effects.iter().map(named).collect();
     match findings.verdict {
         Verdict::NoEffect => "These records show no cause beyond the model.".into(),
@@ -215,16 +223,24 @@ pub fn headline(findings: &Findings) -> String {
         Verdict::Named if effects.is_empty() => "The cause is named.".into(),
         Verdict::Named => format!("The model lacks {}.", list(&effects, "and")),
         Verdict::Ambiguous => {
-            let others = findings.effects.iter().flat_map(|effect| &effect.ambiguous_with);
-            let mut causes = effects;
+            let (settled, open): (Vec<&Effect>, Vec<&Effect>) =
+                findings.effects.iter().partition(|effect| effect.ambiguous_with.is_empty());
+            let settled: Vec<String> = settled.into_iter().map(named).collect();
+            let others = open.iter().flat_map(|effect| &effect.ambiguous_with);
+            let mut causes: Vec<String> = open.iter().map(|effect| named(effect)).collect();
             for other in others.map(|key| cause(findings, key)) {
                 if !causes.contains(&other) {
                     causes.push(other);
                 }
             }
-            match causes.len() {
-                0 | 1 => "Several causes explain the data equally well.".into(),
-                _ => format!("The model lacks {}: these data cannot tell which.", list(&causes, "or")),
+            match (causes.len(), settled.len()) {
+                (0 | 1, _) => "Several causes explain the data equally well.".into(),
+                (_, 0) => format!("The model lacks {}: these data cannot tell which.", list(&causes, "or")),
+                _ => format!(
+                    "The model lacks {}; and {}: these data cannot tell which of the latter.",
+                    list(&settled, "and"),
+                    list(&causes, "or")
+                ),
             }
         }
         Verdict::Unnamed => match &findings.unnamed {
@@ -281,6 +297,13 @@ mod tests {
     #[test]
     fn units_are_printed_with_raised_digits() {
         assert_eq!(["m/s2", "N.s/m", "1", "m3"].map(unit), ["m/s²", "N·s/m", "", "m³"]);
+    }
+
+    #[test]
+    fn a_place_is_told_once() {
+        let names = [("viscous guide", "guide"), ("constant force", "guide"), ("soft mount", "strut")];
+        let located = names.map(|(name, element)| located(name, element));
+        assert_eq!(located, ["viscous guide", "constant force in the guide", "soft mount in the strut"]);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::correction::Fault;
 use crate::findings::Evidence;
 use crate::fit::Handle;
 use crate::hypothesis::{Fitted, Term, World};
@@ -124,23 +125,29 @@ impl World<'_> {
     }
 
     /// Puts a table alone in the place of everything that was found, if it explains clearly more than one cause with a
-    /// name, or as much as several of them: names that only together do what one curve does are not the cause.
+    /// name, or as much as several of them: names that only together do what one curve does are not the cause. A constant
+    /// does not count beside others: it has no shape, and every curve holds one.
     pub(super) fn unname(&self, found: &mut Found) {
-        let Some(first) = found.accepted.first().filter(|it| !is_table(it.term)) else { return };
-        let named = found.screened.iter().find(|it| it.term == first.term);
-        let curves = self.curves(&found.base, &found.screened, named.map_or(0.0, |it| it.gain));
+        let shapes: Vec<Term> = {
+            let named: Vec<Term> =
+                found.accepted.iter().map(|it| it.term).filter(|it| !is_table(*it)).collect();
+            let shaped: Vec<Term> = named.iter().copied().filter(|it| !is_constant(*it)).collect();
+            if shaped.is_empty() { named } else { shaped }
+        };
+        let Some(first) = shapes.first().copied() else { return };
+        let several = shapes.len() > 1;
+        let screened = found.screened.iter().find(|it| it.term == first);
+        let curves = self.curves(&found.base, &found.screened, screened.map_or(0.0, |it| it.gain));
         let tried = self.try_all(&found.base, &found.base, &curves);
         merge(&mut found.tried, tried.clone());
         let passing = tried.iter().filter(|it| it.evidence.refusal().is_none());
         let best = passing.filter_map(|it| Some((it, it.fitted.as_ref().ok()?))).next();
         let Some((table, fitted)) = best else { return };
-        let named = found.accepted.iter().filter(|it| !is_table(it.term)).count();
-        let factor = if named > 1 { 1.1 } else { 0.85 };
+        let factor = if several { 1.1 } else { 0.85 };
         let enough = self.left(&found.base, fitted) < factor * self.left(&found.base, &found.extended);
         if enough
-            && named > 0
-            && (named > 1 || self.apart(fitted, &found.extended) > 4.0)
-            && self.is_the_cause(found, (table.term, fitted), (first.term, named))
+            && (several || self.apart(fitted, &found.extended) > 4.0)
+            && self.is_the_cause(found, (table.term, fitted), (first, several))
         {
             let accepted = Accepted { term: table.term, evidence: table.evidence, rivals: Vec::new() };
             found.extended = fitted.clone();
@@ -155,7 +162,7 @@ impl World<'_> {
         &self,
         found: &Found,
         (table, fitted): (Term, &Fitted),
-        (first, named): (Term, usize),
+        (first, several): (Term, bool),
     ) -> bool {
         let mut terms = fitted.terms.clone();
         terms.push(first);
@@ -167,6 +174,15 @@ impl World<'_> {
         let counts = |term: Term, without: &Fitted| {
             self.evidence(term, &found.base, without, &both).refusal().is_none()
         };
-        !counts(first, fitted) && (named > 1 || counts(table, &found.extended))
+        !counts(first, fitted) && (several || counts(table, &found.extended))
+    }
+}
+
+/// Whether a term is a constant force, or a constant in a signal.
+fn is_constant(term: Term) -> bool {
+    match term {
+        Term::Cause(cause) => cause.id == "33",
+        Term::Fault(Handle::Input(_, fault) | Handle::Output(_, fault)) => fault == Fault::Offset,
+        Term::Fault(Handle::Parameter(_)) | Term::Table(_) => false,
     }
 }

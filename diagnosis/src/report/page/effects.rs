@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::findings::{Effect, Evidence, Findings};
 use crate::report::evidence::{gates, sentences};
-use crate::report::words::{capitalised, cause, interval, place, unit};
+use crate::report::words::{capitalised, cause, interval, located, unit};
 
 /// All effects that were found.
 pub fn section(findings: &Findings) -> Markup {
@@ -17,7 +17,7 @@ pub fn section(findings: &Findings) -> Markup {
                     article.effect {
                         h3 {
                             @if several { span.rank { (index + 1) } " " }
-                            (capitalised(&effect.name)) " " (place(&effect.element))
+                            (capitalised(&located(&effect.name, &effect.element)))
                             span.id { "catalogue " (effect.id) }
                         }
                         div.columns {

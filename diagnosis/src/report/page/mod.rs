@@ -8,7 +8,7 @@ mod tables;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::words::{badge, cause, count, digits, headline, labelled, list, number, place, unit};
+use super::words::{badge, cause, count, digits, headline, labelled, list, located, number, place, unit};
 use crate::findings::{Findings, Verdict};
 
 const STYLE: &str = include_str!("style.css");
@@ -91,8 +91,7 @@ fn unnamed(findings: &Findings) -> Markup {
         return html! {};
     };
     if curve.x.is_empty() {
-        let nearest: Vec<String> =
-            findings.nearest.iter().map(|it| format!("{} {}", it.name, place(&it.element))).collect();
+        let nearest: Vec<String> = findings.nearest.iter().map(|it| located(&it.name, &it.element)).collect();
         return html! {
             section {
                 h2 { "The cause without a name" }

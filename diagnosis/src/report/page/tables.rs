@@ -3,7 +3,9 @@
 use maud::{Markup, html};
 
 use crate::findings::{BaseParameter, Candidate, DataProblem, Findings, Verdict};
-use crate::report::words::{capitalised, count, digits, interval, number, percent, place, quantity, unit};
+use crate::report::words::{
+    capitalised, count, digits, interval, located, number, percent, place, quantity, unit,
+};
 
 /// Rows that a table shows before the rest is folded away.
 const OPEN_ROWS: usize = 12;
@@ -131,7 +133,7 @@ pub fn detectable(findings: &Findings) -> Markup {
             section {
                 h2 { "What these records cannot judge" }
                 ul.compact { @for candidate in blind {
-                    li { (capitalised(&candidate.name)) " " (place(&candidate.element)) ": " (candidate.outcome) }
+                    li { (capitalised(&located(&candidate.name, &candidate.element))) ": " (candidate.outcome) }
                 } }
             }
         }
