@@ -63,6 +63,13 @@ impl Recorded {
         self.len() == 0
     }
 
+    /// What is left of a measured output's values without the straight line through each section: of a plant that drifts, a
+    /// model has that from the states at the section's start.
+    pub fn bent(&self, row: usize) -> Vec<f64> {
+        let values = &self.measured[row].values;
+        self.sections.iter().flat_map(|section| without_line(&values[section.clone()])).collect()
+    }
+
     /// Which samples those of a section are.
     pub fn samples(&self, section: &Range<usize>) -> Samples {
         Samples { step: self.step, first: section.start }
@@ -125,9 +132,29 @@ pub fn derivative(signal: &[f64], step: f64) -> Vec<f64> {
         .collect()
 }
 
+/// The known values without the straight line that is nearest to them.
+fn without_line(values: &[f64]) -> Vec<f64> {
+    let known: Vec<(f64, f64)> =
+        (0..).map(f64::from).zip(values.iter().copied()).filter(|(_, value)| value.is_finite()).collect();
+    let n = known.len().max(1) as f64;
+    let mean = |of: &dyn Fn(&(f64, f64)) -> f64| known.iter().map(of).sum::<f64>() / n;
+    let (at, height) = (mean(&|it| it.0), mean(&|it| it.1));
+    let (spread, both) = (mean(&|it| (it.0 - at).powi(2)), mean(&|it| (it.0 - at) * (it.1 - height)));
+    let slope = if spread > 0.0 { both / spread } else { 0.0 };
+    known.into_iter().map(|(time, value)| value - height - slope * (time - at)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_straight_line_has_nothing_bent() {
+        let bent = without_line(&[1.0, f64::NAN, 2.0, 2.5, f64::INFINITY]);
+        assert!(bent.len() == 3 && bent.iter().all(|value| value.abs() < 1e-15), "{bent:?}");
+        assert_eq!(without_line(&[3.0, 4.0, 7.0, 12.0]), [1.0, -1.0, -1.0, 1.0]);
+        assert_eq!((without_line(&[7.0]), without_line(&[f64::NAN])), (vec![0.0], vec![]));
+    }
 
     #[test]
     fn a_curves_rate_is_that_of_the_signal() {

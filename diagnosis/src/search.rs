@@ -31,6 +31,8 @@ const BESIDE: f64 = 0.35;
 const APART: f64 = 2.5;
 /// Errors that are larger by less than this factor tell nothing apart, however steady the difference is.
 const SAME: f64 = 1.005;
+/// Errors of a rough fit that are larger by less than this factor may be as small when it is a close one.
+const NEAR: f64 = 1.1;
 /// Errors that are larger by more than this factor are not made good by being less common, or by signals that are less late.
 const LITTLE_MORE: f64 = 1.5;
 
@@ -201,13 +203,16 @@ impl World<'_> {
             let chosen = self.chosen(&found.base, &passing).cloned();
             let beside: Vec<&Tried> =
                 tried.iter().filter(|it| passes(it) || it.evidence.passes_beside_another()).collect();
-            let rivals = chosen.as_ref().map_or_else(Vec::new, |it| self.rivals(&found.base, it, &beside));
-            merge(&mut found.tried, tried);
-            let Some(chosen) = chosen else { break };
-            let Ok(fitted) = chosen.fitted else { break };
-            found.accepted.push(Accepted { term: chosen.term, evidence: chosen.evidence, rivals });
+            let Some(chosen) = chosen else {
+                merge(&mut found.tried, tried);
+                break;
+            };
+            let Ok(fitted) = &chosen.fitted else { break };
             // The others were fitted well enough to be compared; this one is to be built on.
             current = self.fitted(&fitted.terms, std::slice::from_ref(&fitted.point), Stop::NOISY)?;
+            let rivals = self.rivals(&found.base, &chosen, &current, &beside);
+            found.accepted.push(Accepted { term: chosen.term, evidence: chosen.evidence, rivals });
+            merge(&mut found.tried, tried);
             if is_table(chosen.term) {
                 break;
             }
@@ -272,21 +277,25 @@ impl World<'_> {
     }
 
     /// Those that explain the data as well as the chosen one, and are not the same with something more, nor need more late
-    /// signals.
-    fn rivals(&self, base: &Fitted, chosen: &Tried, passing: &[&Tried]) -> Vec<Term> {
+    /// signals. What is nearly as good is fitted as closely as the chosen one before it is told apart.
+    fn rivals(&self, base: &Fitted, chosen: &Tried, close: &Fitted, passing: &[&Tried]) -> Vec<Term> {
         let Ok(best) = &chosen.fitted else { return Vec::new() };
         let own = parts(best);
         let rival = |other: &&&Tried| {
             let Ok(fitted) = &other.fitted else { return false };
             let more = contains(other.term, chosen.term, &parts(fitted), &own);
             let later = self.late(fitted) > self.late(best);
-            other.term != chosen.term
-                && !is_table(other.term)
-                && !more
-                && !later
-                && self.as_good(base, best, fitted)
+            if other.term == chosen.term || is_table(other.term) || more || later {
+                return false;
+            }
+            let near = || {
+                let closer = || self.fitted(&fitted.terms, std::slice::from_ref(&fitted.point), Stop::NOISY);
+                self.left(base, fitted) < NEAR * self.left(base, best)
+                    && closer().is_ok_and(|it| self.as_good(base, close, &it))
+            };
+            self.as_good(base, best, fitted) || near()
         };
-        passing.iter().filter(rival).map(|it| it.term).collect()
+        passing.par_iter().filter(rival).map(|it| it.term).collect()
     }
 }
 
@@ -334,8 +343,8 @@ pub(crate) fn worth(base: &Fitted) -> f64 {
     12.0_f64.max(0.005 * 2.0 * base.cost)
 }
 
-/// Numbers of the causes that begin to act beyond a threshold.
-const THRESHOLDS: &[&str] = &["09", "12", "20", "26"];
+/// Numbers of the causes that begin to act beyond a threshold, or only near a standstill.
+const THRESHOLDS: &[&str] = &["02", "09", "12", "20", "26"];
 
 /// Whether nothing shows of a term while it is absent, and of what it does only now and then.
 fn has_threshold(term: Term) -> bool {

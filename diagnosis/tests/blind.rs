@@ -62,6 +62,7 @@ named! {
     breakaway_friction_of_a_drive: "drive-02g";
     plain_friction_of_a_drive: "drive-16";
     cogging_of_a_drive: "drive-27";
+    friction_of_a_drive_and_a_constant_force: "drive-16-33g";
 }
 
 /// Nothing is there, or nothing that matters: no cause is claimed.

@@ -83,11 +83,12 @@ fn friction_and_a_slope_are_found_in_a_drive_of_which_nothing_was_known() {
     let report: Value =
         serde_json::from_str(&fs::read_to_string(path("report/report.json")).unwrap()).unwrap();
     let list = |key: &str| report[key].as_array().unwrap().clone();
-    let named: Vec<String> = list("effects").iter().map(|it| it["id"].as_str().unwrap().to_owned()).collect();
+    let mut named: Vec<String> =
+        list("effects").iter().map(|it| it["id"].as_str().unwrap().to_owned()).collect();
+    named.sort();
     // A slope and an offset of the force cell are the same here: either is right, said or not.
     assert!(["named", "ambiguous"].contains(&report["verdict"].as_str().unwrap()), "{}", report["verdict"]);
-    assert_eq!(named[..2], ["16", "33"], "{named:?}");
-    assert!(named[2..].iter().all(|id| id == "15"), "{named:?}");
+    assert_eq!(named, ["15", "16", "33"]);
     let parameters = list("effects").into_iter().flat_map(|it| it["parameters"].as_array().unwrap().clone());
     let of = |name: &str, values: &[Value], key: &str| {
         values.iter().find(|it| it["name"] == name).and_then(|it| it[key].as_f64()).unwrap_or(f64::NAN)

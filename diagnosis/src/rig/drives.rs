@@ -23,8 +23,9 @@ const VOLTAGES: &[&str] = &["voltage.command", "control.voltage", "voltage", "mo
 pub(super) const LINEAR_DRIVE: Kind = Kind {
     plant: models::linear_drive,
     model: "LinearDrive",
-    // The amplifier's gain is not told from mass and friction together: it is taken as known.
-    base: &["moving_mass", "guide.damping"],
+    // The amplifier's gain is not told from mass and friction together: it is taken as known. A constant force drives a mass
+    // that nothing holds ever further from where it was: whatever else is looked for would have to make up for it.
+    base: &["moving_mass", "guide.damping", "constant_load"],
     elements: &[ElementSignals {
         element: Element::Guide,
         deflection: "position",

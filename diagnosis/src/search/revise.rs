@@ -8,7 +8,7 @@ use crate::fit::Handle;
 use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
 
-use super::{APART, Accepted, Found, contains_by_name, is_table, matters_beside, merge};
+use super::{Accepted, Found, contains_by_name, is_table, matters_beside, merge};
 
 impl World<'_> {
     /// The found terms without one of them, fitted.
@@ -85,9 +85,8 @@ impl World<'_> {
                 if tried.evidence.refusal().is_some() {
                     continue;
                 }
-                let behind = self.apart(&found.extended, fitted);
                 let here = &mut found.accepted[index];
-                if behind < -APART {
+                if !self.as_good(&found.base, fitted, &found.extended) {
                     here.rivals.clear();
                     (here.term, here.evidence) = (tried.term, tried.evidence);
                     found.extended = fitted.clone();

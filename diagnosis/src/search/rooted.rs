@@ -7,7 +7,7 @@ use crate::fit::Handle;
 use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
 
-use super::{APART, Accepted, Found, Tried, is_table, matters_beside};
+use super::{Accepted, Found, Tried, is_table, matters_beside};
 
 /// Relative change of an effect's size beyond which it is another one.
 const RESIZED: f64 = 0.5;
@@ -70,7 +70,7 @@ impl World<'_> {
             }
             let fits = without.instead(&suspect, &held)?;
             let behind = |it: &Fitted| self.apart(&found.extended, it);
-            let ahead = fits.iter().filter(|it| behind(&it.fitted) < -APART);
+            let ahead = fits.iter().filter(|it| !self.as_good(&held, &it.fitted, &found.extended));
             let ahead = ahead.min_by(|a, b| behind(&a.fitted).total_cmp(&behind(&b.fitted)));
             let best = ahead.map_or(&found.extended, |it| &it.fitted);
             let (term, evidence) = ahead.map_or((suspect.term, evidence), |it| (it.term, it.evidence));

@@ -100,6 +100,12 @@ fn the_page_says_what_the_findings_say() {
     for text in ["Guide friction in the body’s guide", "Stribeck friction", "Lock the wheel"] {
         assert!(ambiguous.contains(text), "{text}");
     }
+    let mut several = sample(Verdict::Ambiguous);
+    several.effects.extend(sample(Verdict::Named).effects.into_iter().filter(|effect| effect.id != "01"));
+    let several = report::html(&several);
+    assert!(
+        several.contains("cogging in the actuator; and Coulomb friction in the strut, guide friction in the")
+    );
     let nothing = report::html(&sample(Verdict::NoEffect));
     for text in ["Seen for certain from", "3.10 N", "Bump stop in the strut: not excited"] {
         assert!(nothing.contains(text), "{text}");

@@ -66,6 +66,8 @@ pub fn compact() -> Vec<Case> {
     all.push(driven(standard("drive-02g", vec![Hidden::new("02g")], 33)));
     all.push(driven(standard("drive-16", vec![Hidden::new("16")], 34)));
     all.push(driven(standard("drive-27", vec![Hidden::new("27")], 35)));
+    // Which one curve over the velocity imitates.
+    all.push(driven(standard("drive-16-33g", vec![Hidden::new("16"), Hidden::new("33g")], 36)));
     // A bush with play imitates it, and is less common.
     all.push(standard("common-07", vec![Hidden::new("07")], 1007));
     all
@@ -222,9 +224,14 @@ mod tests {
     fn the_compact_list_is_what_it_was() {
         let names: Vec<String> =
             compact().into_iter().map(|case| format!("{}/{}", case.name, case.seed)).collect();
-        assert_eq!(names.len(), 28);
-        let [first, .., mismatch, breaking, cogging, pulsing, last] = &names[..] else { panic!("{names:?}") };
+        assert_eq!(names.len(), 29);
+        let [first, .., mismatch, breaking, dry, cogging, pair, last] = &names[..] else {
+            panic!("{names:?}")
+        };
         assert_eq!([first, mismatch, last], ["single-01/1", "mismatch/26", "common-07/1007"]);
-        assert_eq!([breaking, cogging, pulsing], ["drive-02g/33", "drive-16/34", "drive-27/35"]);
+        assert_eq!(
+            [breaking, dry, cogging, pair],
+            ["drive-02g/33", "drive-16/34", "drive-27/35", "drive-16-33g/36"]
+        );
     }
 }
