@@ -158,9 +158,16 @@ impl Diagnosis<'_> {
         let fit = self.world.fit(&*dynamics, self.measured, Vec::new());
         let mut point =
             Point { starts: self.world.starts(self.measured), ..point.within(&self.world.rig.plant) };
-        // What any master finds with the extended model, which knows nothing of what measuring did to the signals.
+        // What any master finds with the extended model, which knows nothing of what measuring did to the signals, but for what
+        // is told of: a signal's delay and lag go together.
+        let output = |term: &Term| match term {
+            Term::Fault(Handle::Output(output, Fault::Delay | Fault::Lag)) => Some(*output),
+            _ => None,
+        };
+        let told: Vec<usize> = terms.iter().filter_map(output).collect();
         for handle in self.found.extended.coordinates.iter().map(|it| it.handle) {
-            if self.world.usual(handle).is_some() && !terms.contains(&Term::Fault(handle)) {
+            let kept = output(&Term::Fault(handle)).is_some_and(|it| told.contains(&it));
+            if self.world.usual(handle).is_some() && !kept {
                 point.set(handle, 0.0);
             }
         }

@@ -16,6 +16,13 @@ use crate::search::{Accepted, Criterion, Found};
 /// Length of a short stretch of data in seconds, over which no model goes far astray.
 const SHOT: f64 = 1.0;
 
+/// Cost of a hasty fit with an input turned over, in that of the fit without, above which a close one is not worth the time …
+const HOPELESS: f64 = 1.5;
+/// … and cost of the close one below which the input had the wrong sign …
+const CLEARLY: f64 = 0.8;
+/// … if Student's t of the difference over blocks of time is above this.
+const STEADILY: f64 = 4.0;
+
 /// A diagnosis that has come to its end.
 pub struct Diagnosis<'a> {
     /// What it was about.
@@ -88,15 +95,10 @@ pub fn diagnose<'a>(
     {
         base = other;
     }
-    // A sign is doubted only where something does not fit at all.
-    let doubted = if fits(&world, &base) { Vec::new() } else { signals(train) };
-    for handle in doubted {
+    for handle in signals(train) {
         let mut turned = start.clone();
         turned.set(handle, -2.0);
-        let other = world.fitted(&[], &[turned.clone()], Stop { iterations: 8, ..Stop::NOISY });
-        if let Ok(other) = other
-            && other.cost < 0.5 * base.cost
-        {
+        if let Some(other) = turned_over(&world, &base, &turned, handle) {
             (base, start) = (other, turned);
             reversed.push(handle);
         }
@@ -139,6 +141,25 @@ fn shot(world: &World<'_>, start: &Point) -> Option<Fitted> {
     let near = short.fitted(&[], &[Point { starts, ..start.clone() }], Stop::NOISY).ok()?;
     let point = Point { starts: start.starts.clone(), ..near.point };
     world.fitted(&[], &[point], Stop::NOISY).ok()
+}
+
+/// The fit with a signal turned over, if that is clearly better. An output's sign is doubted only where something does not fit
+/// at all. An input's always: where another one does most, all fits roughly with it the wrong way round.
+fn turned_over(world: &World<'_>, base: &Fitted, turned: &Point, handle: Handle) -> Option<Fitted> {
+    let fits = fits(world, base);
+    if fits && matches!(handle, Handle::Output(..)) {
+        return None;
+    }
+    let hasty = Stop { iterations: 8, ..Stop::NOISY };
+    let other = world.fitted(&[], &[turned.clone()], hasty).ok()?;
+    if other.cost < 0.5 * base.cost {
+        return Some(other);
+    }
+    if !fits || other.cost > HOPELESS * base.cost {
+        return None;
+    }
+    let other = world.fitted(&[], &[other.point], Stop::NOISY).ok()?;
+    (other.cost < CLEARLY * base.cost && world.apart(&other, base) > STEADILY).then_some(other)
 }
 
 /// Whether every signal is met at least roughly.

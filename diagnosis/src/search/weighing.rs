@@ -95,7 +95,7 @@ impl World<'_> {
     }
 
     /// Student's t of how much smaller one fit's errors are than another's, over all data.
-    pub(super) fn apart(&self, better: &Fitted, other: &Fitted) -> f64 {
+    pub(crate) fn apart(&self, better: &Fitted, other: &Fitted) -> f64 {
         let unit = self.errors(&better.train).mean_squares();
         let gains = |other: &Residuals, better: &Residuals| {
             self.errors(other).gains(&self.errors(better), self.block(), &unit)

@@ -189,6 +189,15 @@ fn held(time: &[f64], channel: &Channel) -> Option<Fault> {
         .filter(|run| !extremes.contains(&Some(values[run.start])))
         .collect();
     let longest = stretches.iter().map(Range::len).max().filter(|_| stretches.len() >= FEWEST_HELD)?;
+    // What friction holds moves off smoothly; a signal of which samples were lost has gone on meanwhile.
+    let change = |pair: &[f64]| (pair[1] - pair[0]).abs();
+    let mut changes: Vec<f64> = values.windows(2).map(change).filter(|&c| c > 0.0).collect();
+    let usual = median(&mut changes)?;
+    let mut jumps: Vec<f64> =
+        stretches.iter().filter_map(|run| Some((values.get(run.end)? - values[run.start]).abs())).collect();
+    if median(&mut jumps)? < usual {
+        return None;
+    }
     let places = describe(stretches.iter().map(|run| format!("{} s", number(time[run.start]))));
     let text = format!(
         "keeps one value for up to {longest} samples {} times, at {places}: samples were lost and the last one \

@@ -224,6 +224,22 @@ fn held_values() {
     assert_eq!(found, [vec![], vec![], stretches.to_vec()]);
 }
 
+/// An encoder on what sticks at every turn: no sample was lost.
+#[test]
+fn what_sticks_keeps_its_value() {
+    let mut record = clean(1, 0.01);
+    let values = &mut record.channels[2].values;
+    let mut at = values[0];
+    for value in values.iter_mut() {
+        // It follows once it is a tenth of a millimetre behind.
+        at += (*value - at).signum() * ((*value - at).abs() - 1e-4).max(0.0);
+        *value = at;
+    }
+    let still = values.windows(5).filter(|it| it.iter().all(|value| *value == it[0])).count();
+    assert!(still > 20, "{still}");
+    assert_eq!(check(&record).problems, []);
+}
+
 /// A contact that opens, computed: no noise, no sensor.
 #[test]
 fn flat_tops_without_noise_are_the_signals_own() {
