@@ -151,7 +151,7 @@ fn turned_over(world: &World<'_>, base: &Fitted, turned: &Point, handle: Handle)
         return None;
     }
     let hasty = Stop { iterations: 8, ..Stop::NOISY };
-    let other = world.fitted(&[], &[turned.clone()], hasty).ok()?;
+    let other = world.fitted(&[], std::slice::from_ref(turned), hasty).ok()?;
     if other.cost < 0.5 * base.cost {
         return Some(other);
     }
