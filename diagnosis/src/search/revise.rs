@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::catalogue::Element;
 use crate::correction::Fault;
 use crate::findings::Evidence;
 use crate::fit::Handle;
@@ -98,7 +99,8 @@ impl World<'_> {
         Ok(())
     }
 
-    /// Takes each accepted term away again, and drops it if nothing is lost.
+    /// Takes each accepted term away again, and drops it if nothing is lost. Beside a curve in the same element, more is asked of
+    /// a name: what the curve's points lie too far apart for looks like one law or another.
     pub(super) fn retest(&self, found: &mut Found) -> Result<(), String> {
         if found.accepted.len() < 2 {
             return Ok(());
@@ -109,9 +111,12 @@ impl World<'_> {
             let here = &found.accepted[index];
             let evidence = self.evidence(here.term, &found.base, &without, &found.extended);
             let evidence = Evidence { usual: here.evidence.usual, ..evidence };
+            let curved = |it: &Accepted| is_table(it.term) && element(it.term) == element(here.term);
+            let usual = evidence.usual || found.accepted.iter().any(curved);
             let others = found.accepted.iter().enumerate().filter(|(other, _)| *other != index);
             let largest = others.map(|(_, it)| it.evidence.phi_gain).fold(0.0, f64::max);
-            if evidence.refusal().is_some() || !matters_beside(found.accepted[index].term, &evidence, largest)
+            if (Evidence { usual, ..evidence }).refusal().is_some()
+                || !matters_beside(here.term, &evidence, largest)
             {
                 found.accepted.remove(index);
                 found.extended = without;
@@ -183,5 +188,14 @@ fn is_constant(term: Term) -> bool {
         Term::Cause(cause) => cause.id == "33",
         Term::Fault(Handle::Input(_, fault) | Handle::Output(_, fault)) => fault == Fault::Offset,
         Term::Fault(Handle::Parameter(_)) | Term::Table(_) => false,
+    }
+}
+
+/// Where a term acts; none if it is a sensor.
+fn element(term: Term) -> Option<Element> {
+    match term {
+        Term::Cause(cause) => Some(cause.element),
+        Term::Table(table) => Some(table.element),
+        Term::Fault(_) => None,
     }
 }

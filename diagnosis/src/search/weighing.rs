@@ -25,13 +25,14 @@ impl World<'_> {
         Errors { residuals, floor: &self.floor }
     }
 
-    /// Student's t of the gain over blocks, in units of what the better fit leaves. Of what acts beyond a threshold only, the
-    /// gains are as uneven as the events: there, it is enough if each event's own errors shrink steadily.
+    /// Student's t of the gain over blocks, in units of what the better fit leaves. Of what acts beyond a threshold only, or where
+    /// a resonance is excited, the gains are as uneven as the events: there, it is enough if each event's own errors shrink steadily.
     fn steadiness(&self, term: Term, null: &Residuals, other: &Residuals) -> f64 {
         let (null, other) = (self.errors(null), self.errors(other));
         let unit = other.mean_squares();
         let gain = student(&null.gains(&other, self.block(), &unit));
-        if has_threshold(term) { gain.max(student(&null.ratios(&other, self.block(), &unit))) } else { gain }
+        let uneven = has_threshold(term) || is_resonance(term);
+        if uneven { gain.max(student(&null.ratios(&other, self.block(), &unit))) } else { gain }
     }
 
     /// What speaks for a term by which one fit extends another; how much it explains is counted in the errors

@@ -127,6 +127,8 @@ fn the_numbers_beside_the_headline_are_of_all_signals() {
     for fact in ["mean of 2 signals0.40 → 0.80", "× noise floor2.2 … 3.8", "Held-out evidencet = 7.31"] {
         assert!(text.contains(fact), "{fact}");
     }
+    findings.signals.iter_mut().for_each(|signal| signal.noise_floor = 1e-9);
+    assert!(report::html(&findings).contains("&gt; 1000"));
 }
 
 #[test]

@@ -42,8 +42,8 @@ pub fn facts(findings: &Findings) -> Markup {
                     div {
                         dt { "Error, × noise floor" }
                         dd {
-                            (digits(*least, 2))
-                            @if digits(*least, 2) != digits(*most, 2) { span.arrow { " … " } (digits(*most, 2)) }
+                            (multiple(*least))
+                            @if multiple(*least) != multiple(*most) { span.arrow { " … " } (multiple(*most)) }
                         }
                     }
                 }
@@ -134,6 +134,11 @@ fn row(signal: &Signal, models: usize, repeated: bool) -> Markup {
             td.unit { (unit(&signal.unit)) }
         }
     }
+}
+
+/// How many times as large as noise an error is; of what is far above it, that it is.
+fn multiple(ratio: f64) -> String {
+    if ratio > 1000.0 { "> 1000".into() } else { digits(ratio, 2) }
 }
 
 /// Errors before, fitted and after as bars, with a mark at the noise floor.
