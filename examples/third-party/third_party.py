@@ -18,6 +18,7 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from leave import leave  # noqa: E402
 from output import folders, plt, save  # noqa: E402
 from ssp import open_system  # noqa: E402
 
@@ -185,3 +186,4 @@ def main():
 
 if __name__ == "__main__":
     main()
+    leave()

@@ -12,6 +12,9 @@ from pathlib import Path
 from matrix_jobs import off, system
 from matrix_masters import Ecos, Libcosimpy
 
+sys.path.insert(0, str(Path(__file__).parent.parent.parent / "examples" / "third-party"))
+from leave import leave  # noqa: E402
+
 # Rounding, amplified by what is simulated.
 TOLERANCE = 1e-9
 
@@ -30,3 +33,4 @@ def main():
 
 if __name__ == "__main__":
     main()
+    leave()
