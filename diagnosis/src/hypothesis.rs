@@ -1,6 +1,6 @@
 //! What may be the matter: a set of terms that are added to the starting model, and the fit with them.
 
-use strut_model::Value;
+use strut_model::{Value, unit};
 
 use crate::catalogue::{Cause, Element, Table, Typical};
 use crate::correction::{Correction, Fault};
@@ -189,9 +189,9 @@ impl World<'_> {
             let (declared, value) = (&plant.parameters[index], self.rig.parameters[index]);
             let (low, high) =
                 (declared.min.unwrap_or(f64::NEG_INFINITY), declared.max.unwrap_or(f64::INFINITY));
-            // Near zero, what must not be zero makes equations that nothing can integrate.
-            let bounds =
-                if low > 0.0 { (low.max(value / AROUND), high.min(value * AROUND)) } else { (low, high) };
+            // Near zero, what must not be zero makes equations that nothing can integrate; but there may be no spring.
+            let least = if declared.unit == unit::N_PER_M { low } else { low.max(value / AROUND) };
+            let bounds = if low > 0.0 { (least, high.min(value * AROUND)) } else { (low, high) };
             let known = self.known.iter().find(|(of, _, _)| *of == index);
             // A data sheet is right within a factor of two or so, where the data do not know better; of what it does
             // not know it says zero.

@@ -176,6 +176,16 @@ fn pivot_friction_is_found_in_a_sas_rig() {
 }
 
 #[test]
+fn a_damper_alone_has_no_spring() {
+    let hidden = [("strut.stiffness", 200.0), ("strut.damping", 700.0), ("strut.coulomb.force", 20.0)];
+    let said = Case::of("element-dyno").diagnosed(&hidden);
+    assert_eq!(said.terms, ["01 strut"]);
+    said.covers("strut.coulomb.force", 20.0, 0.15);
+    // Of 22 kN/m, which its model has.
+    assert!((said.value("strut.stiffness") - 200.0).abs() < 50.0, "{}", said.value("strut.stiffness"));
+}
+
+#[test]
 fn nothing_is_claimed_of_a_sound_drive() {
     assert_eq!(Case { step: 4e-3, ..Case::of(MOTOR) }.diagnosed(&[]).terms, NOTHING);
 }
