@@ -2,9 +2,11 @@
 //!
 //! The separator is `,`, `;` or a tab, found from the header. With `;` or tabs the numbers may have a decimal
 //! comma. Lines that start with `#` are comments. An empty cell, `NaN` or `NA` is a missing sample.
-//! Units may also stand in round brackets, or in a row of their own below the names.
+//! Units may also stand in round brackets, or in a row of their own below the names. A column of dates and times of
+//! day is one of seconds.
 
 use super::table::Table;
+use super::timestamp::Timestamps;
 use super::{Channel, DataError, Record};
 use csv::{ReaderBuilder, StringRecord, WriterBuilder};
 use std::borrow::Cow;
@@ -29,14 +31,20 @@ pub(crate) fn parse(file: &str, bytes: &[u8]) -> Result<Table, DataError> {
     }
     let mut columns = header(file, &row)?;
     let mut line = row.position().map_or(1, csv::Position::line);
-    let mut first = true;
+    let mut stamps: Vec<Option<Timestamps>> = Vec::new();
     while next(&mut row)? {
         line = row.position().map_or(line, csv::Position::line);
-        if first && take_units(&row, &mut columns) {
-            continue;
+        if stamps.is_empty() {
+            if take_units(&row, &mut columns) {
+                continue;
+            }
+            stamps = row.iter().map(|cell| Timestamps::from(cell.trim())).collect();
+            stamps.resize_with(columns.len(), || None);
+            for (column, _) in columns.iter_mut().zip(&stamps).filter(|(_, stamps)| stamps.is_some()) {
+                column.unit = "s".into();
+            }
         }
-        first = false;
-        add_row(file, line, separator, &row, &mut columns)?;
+        add_row(file, line, separator, &row, &stamps, &mut columns)?;
     }
     if columns[0].values.is_empty() {
         return Err(DataError::file(file, "has a header, but no samples"));
@@ -123,8 +131,8 @@ fn header(file: &str, row: &StringRecord) -> Result<Vec<Channel>, DataError> {
         if name.is_empty() {
             return Err(error(i + 1, "the column has no name: write one, such as `force [N]`".into()));
         }
-        if columns.iter().any(|column| column.name == name) {
-            return Err(error(i + 1, format!("a second column `{name}`: rename one of them")));
+        if columns.iter().any(|column| column.name == name && column.unit == unit) {
+            return Err(error(i + 1, format!("a second column `{cell}`: rename one of them")));
         }
         columns.push(Channel { name: name.into(), unit: unit.into(), values: Vec::new() });
     }
@@ -163,6 +171,7 @@ fn add_row(
     line: u64,
     separator: u8,
     row: &StringRecord,
+    stamps: &[Option<Timestamps>],
     columns: &mut [Channel],
 ) -> Result<(), DataError> {
     let error = |column: usize, text: String| DataError::Cell { file: file.into(), line, column, text };
@@ -175,10 +184,18 @@ fn add_row(
         );
         return Err(error(row.len().min(columns.len()), text));
     }
-    for (i, (column, cell)) in columns.iter_mut().zip(row).enumerate() {
+    for (i, ((column, stamps), cell)) in columns.iter_mut().zip(stamps).zip(row).enumerate() {
         let cell = cell.trim();
-        let value = number(cell, separator).ok_or_else(|| {
-            let text = format!("`{cell}` in `{}` is not a number: leave missing samples empty", column.name);
+        let value = match stamps {
+            Some(stamps) => stamps.seconds(cell),
+            None => number(cell, separator),
+        };
+        let value = value.ok_or_else(|| {
+            let (wanted, remedy) = match stamps {
+                Some(_) => ("a time as in the first row", "write all in one way"),
+                None => ("a number", "leave missing samples empty"),
+            };
+            let text = format!("`{cell}` in `{}` is not {wanted}: {remedy}", column.name);
             error(i + 1, text)
         })?;
         column.values.push(value);

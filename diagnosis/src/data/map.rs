@@ -1,7 +1,7 @@
 //! From a file's columns to the model's signals: names, units, signs, delays.
 //!
 //! ```toml
-//! time = { column = "Timestamp", unit = "ms" }
+//! time = { column = "Timestamp", unit = "ms" }     # or its name alone
 //!
 //! [signals]
 //! deflection = { column = "Weg_FL", unit = "mm", scale = -1.0, offset = 0.01, delay = 0.002 }
@@ -79,11 +79,16 @@ impl Map {
         #[derive(Deserialize)]
         #[serde(deny_unknown_fields)]
         struct File {
-            time: Option<TimeColumn>,
+            time: Option<toml::Value>,
             #[serde(default)]
             signals: BTreeMap<String, toml::Value>,
         }
         let file: File = toml::from_str(text).map_err(|e| DataError::Map(e.to_string()))?;
+        let time = match file.time {
+            Some(toml::Value::String(column)) => Some(TimeColumn { column, unit: None }),
+            Some(table) => Some(table.try_into().map_err(|e| DataError::Map(format!("`time`: {e}")))?),
+            None => None,
+        };
         let mut signals = BTreeMap::new();
         for (name, value) in file.signals {
             let source = match value {
@@ -101,7 +106,7 @@ impl Map {
             }
             signals.insert(name, source);
         }
-        Ok(Self { time: file.time, signals })
+        Ok(Self { time, signals })
     }
 
     /// Takes the wanted signals out of a record. What the map does not mention is found by its name or an alias,
@@ -143,24 +148,51 @@ impl Map {
     fn source(&self, record: &Record, wanted: &Wanted) -> Result<Option<(usize, Source)>, DataError> {
         let columns = &record.channels;
         if let Some(source) = self.signals.get(&wanted.name) {
-            let index =
-                columns.iter().position(|column| column.is_called(&source.column)).ok_or_else(|| {
-                    let hint =
-                        did_you_mean(&source.column, columns.iter().map(|column| column.name.as_str()));
-                    let text =
-                        format!("the map takes `{}` from it, but there is no such column{hint}", wanted.name);
-                    DataError::signal(&record.name, &source.column, text)
-                })?;
+            let unit = source.unit.as_deref();
+            let index = only(record, wanted, unit, |column| column.is_called(&source.column))?;
+            let index = index.ok_or_else(|| {
+                let hint = did_you_mean(&source.column, columns.iter().map(|column| column.name.as_str()));
+                let text =
+                    format!("the map takes `{}` from it, but there is no such column{hint}", wanted.name);
+                DataError::signal(&record.name, &source.column, text)
+            })?;
             return Ok(Some((index, source.clone())));
         }
-        let names = std::iter::once(&wanted.name).chain(&wanted.aliases);
-        Ok(names.into_iter().find_map(|name| {
+        for name in std::iter::once(&wanted.name).chain(&wanted.aliases) {
             let (name, scale) = name.strip_prefix('-').map_or((name.as_str(), 1.0), |name| (name, -1.0));
-            let index = columns.iter().position(|column| plain(&column.name) == plain(name))?;
-            let column = columns[index].name.clone();
-            Some((index, Source { column, unit: None, scale, offset: 0.0, delay: 0.0 }))
-        }))
+            if let Some(index) = only(record, wanted, None, |column| plain(&column.name) == plain(name))? {
+                let column = columns[index].name.clone();
+                return Ok(Some((index, Source { column, unit: None, scale, offset: 0.0, delay: 0.0 })));
+            }
+        }
+        Ok(None)
     }
+}
+
+/// The column that is called as it should be. Of several of one name (`Force (V)`, `Force (N)`) the one whose unit fits.
+fn only(
+    record: &Record,
+    wanted: &Wanted,
+    unit: Option<&str>,
+    called: impl Fn(&Channel) -> bool,
+) -> Result<Option<usize>, DataError> {
+    let of_the_name: Vec<usize> =
+        (0..record.channels.len()).filter(|it| called(&record.channels[*it])).collect();
+    let fits = |index: &&usize| {
+        let unit = unit.unwrap_or(&record.channels[**index].unit).trim();
+        unit.is_empty() || units::conversion(unit, &wanted.unit).is_ok()
+    };
+    let fitting: Vec<&usize> = of_the_name.iter().filter(fits).collect();
+    if let [one, other, ..] = fitting[..] {
+        let [one, other] = [one, other].map(|it| &record.channels[*it]);
+        let text = format!(
+            "there are two of it, in {} and {}: name the one in the map, `\"{}\" = \"{} [{}]\"`",
+            one.unit, other.unit, wanted.name, one.name, one.unit
+        );
+        return Err(DataError::signal(&record.name, &one.name, text));
+    }
+    // If none fits, the unit of the first is what is wrong.
+    Ok(fitting.first().copied().or(of_the_name.first()).copied())
 }
 
 /// A name without what does not tell names apart.
@@ -262,6 +294,25 @@ mod tests {
         let map = Map::parse("time = { column = \"Stamp\", unit = \"ms\" }").unwrap();
         let record = crate::data::parse("run.csv", b"Stamp,x\n0,1\n5,2\n", map.time.as_ref()).unwrap();
         assert_eq!(record.time, [0.0, 0.005]);
+        let map = Map::parse("time = \"x\"").unwrap();
+        let record = crate::data::parse("run.csv", b"Stamp,x\n0,1\n5,2\n", map.time.as_ref()).unwrap();
+        assert_eq!(record.time, [1.0, 2.0]);
+        assert!(Map::parse("time = { columns = \"x\" }").unwrap_err().to_string().contains("columns"));
+    }
+
+    #[test]
+    fn of_two_columns_of_a_name_the_unit_decides() {
+        let file = || record(&[("Force", "V", RAMP), ("Force", "kN", RAMP)]);
+        let signals = [wanted("force", "N", &[])];
+        for map in ["", "[signals]\nforce = \"Force\"", "[signals]\nforce = \"Force (kN)\""] {
+            let mapped = Map::parse(map).unwrap().apply(file(), &signals).unwrap();
+            assert_eq!(mapped.record.channels[0].values, RAMP.map(|it| 1e3 * it), "{map}");
+        }
+        let both = || record(&[("Force", "N", RAMP), ("Force", "kN", RAMP)]);
+        let message = error("", both(), &signals);
+        assert!(message.contains("`\"force\" = \"Force [N]\"`"), "{message}");
+        let mapped = Map::parse("[signals]\nforce = \"Force [N]\"").unwrap().apply(both(), &signals);
+        assert_eq!(mapped.unwrap().record.channels[0].values, RAMP);
     }
 
     #[test]

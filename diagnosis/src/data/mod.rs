@@ -13,6 +13,7 @@ mod matlab;
 mod mdf4;
 mod noise;
 pub mod table;
+mod timestamp;
 pub mod uniform;
 pub mod units;
 

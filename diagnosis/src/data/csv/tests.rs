@@ -41,6 +41,20 @@ fn tabs_and_missing_samples() {
 }
 
 #[test]
+fn timestamps_are_seconds_from_the_first() {
+    let record =
+        read("Timestamp,F (V),F (N)\n2025-11-14 19:45:00.370690,1,2\n2025-11-14 19:45:00.374023,3,4\n");
+    assert_eq!(record.time[0], 0.0);
+    assert!((record.time[1] - 0.003333).abs() < 1e-12);
+    let titles: Vec<_> = record.channels.iter().map(|c| (c.name.as_str(), c.unit.as_str())).collect();
+    assert_eq!(titles, [("F", "V"), ("F", "N")]);
+    let record = read("Zeit;F\n;N\n19:45:00;1,5\n19:45:01;2\n");
+    assert_eq!((record.time[1], record.channels[0].values[0]), (1.0, 1.5));
+    let message = error("t,F\n19:45:00,1\n2,2\n");
+    assert!(message.contains("`2` in `t` is not a time as in the first row"), "{message}");
+}
+
+#[test]
 fn latin_1_units() {
     let record = parse("run.csv", b"t [s],a [m/s\xB2]\n0,1\n", None).unwrap();
     assert_eq!(record.channels[0].unit, "m/s²");
