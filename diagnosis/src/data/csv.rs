@@ -57,13 +57,9 @@ pub(crate) fn parse(file: &str, bytes: &[u8]) -> Result<Table, DataError> {
 /// # Errors
 /// What the sink reports.
 pub fn write(record: &Record, sink: impl io::Write) -> io::Result<()> {
-    let titled = |channel: &Channel| match channel.unit.as_str() {
-        "" => channel.name.clone(),
-        unit => format!("{} [{unit}]", channel.name),
-    };
     let mut writer = WriterBuilder::new().from_writer(sink);
     writer.write_field("time [s]")?;
-    writer.write_record(record.channels.iter().map(titled))?;
+    writer.write_record(record.channels.iter().map(Channel::title))?;
     for (i, time) in record.time.iter().enumerate() {
         writer.write_field(time.to_string())?;
         writer.write_record(record.channels.iter().map(|channel| channel.values[i].to_string()))?;

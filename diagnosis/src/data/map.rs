@@ -55,6 +55,15 @@ pub struct Wanted {
     pub aliases: Vec<String>,
 }
 
+impl Wanted {
+    /// What it is called, its own name first, and the sign under which it is.
+    fn names(&self) -> impl Iterator<Item = (&str, f64)> {
+        std::iter::once(&self.name)
+            .chain(&self.aliases)
+            .map(|name| name.strip_prefix('-').map_or((name.as_str(), 1.0), |name| (name, -1.0)))
+    }
+}
+
 /// A record with the model's names and units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mapped {
@@ -116,7 +125,7 @@ impl Map {
     /// The map names a column or a signal that does not exist; a unit is unknown or does not fit.
     pub fn apply(&self, record: Record, wanted: &[Wanted]) -> Result<Mapped, DataError> {
         for name in self.signals.keys() {
-            if !wanted.iter().any(|wanted| wanted.name == *name) {
+            if !wanted.iter().any(|wanted| wanted.names().any(|(of, _)| of == name)) {
                 let hint = did_you_mean(name, wanted.iter().map(|wanted| wanted.name.as_str()));
                 return Err(DataError::Map(format!("the model has no signal `{name}`{hint}")));
             }
@@ -133,7 +142,7 @@ impl Map {
             channels.push(take(&record, index, &source, wanted)?);
         }
         let names = record.channels.iter().zip(used).filter(|(_, used)| !used);
-        let unused = names.map(|(channel, _)| channel.name.clone()).collect();
+        let unused = names.map(|(channel, _)| channel.title()).collect();
         if channels.is_empty() {
             let text = format!(
                 "none of the model's signals is among its columns; name the columns in a map: `[signals]`, `{} = \"…\"`",
@@ -147,19 +156,19 @@ impl Map {
     /// The column of a signal and what to do with it; none if the file does not have it.
     fn source(&self, record: &Record, wanted: &Wanted) -> Result<Option<(usize, Source)>, DataError> {
         let columns = &record.channels;
-        if let Some(source) = self.signals.get(&wanted.name) {
+        for (name, sign) in wanted.names() {
+            let Some(source) = self.signals.get(name) else { continue };
             let unit = source.unit.as_deref();
             let index = only(record, wanted, unit, |column| column.is_called(&source.column))?;
             let index = index.ok_or_else(|| {
                 let hint = did_you_mean(&source.column, columns.iter().map(|column| column.name.as_str()));
-                let text =
-                    format!("the map takes `{}` from it, but there is no such column{hint}", wanted.name);
+                let text = format!("the map takes `{name}` from it, but there is no such column{hint}");
                 DataError::signal(&record.name, &source.column, text)
             })?;
-            return Ok(Some((index, source.clone())));
+            let (scale, offset) = (sign * source.scale, sign * source.offset);
+            return Ok(Some((index, Source { scale, offset, ..source.clone() })));
         }
-        for name in std::iter::once(&wanted.name).chain(&wanted.aliases) {
-            let (name, scale) = name.strip_prefix('-').map_or((name.as_str(), 1.0), |name| (name, -1.0));
+        for (name, scale) in wanted.names() {
             if let Some(index) = only(record, wanted, None, |column| plain(&column.name) == plain(name))? {
                 let column = columns[index].name.clone();
                 return Ok(Some((index, Source { column, unit: None, scale, offset: 0.0, delay: 0.0 })));
@@ -186,8 +195,11 @@ fn only(
     if let [one, other, ..] = fitting[..] {
         let [one, other] = [one, other].map(|it| &record.channels[*it]);
         let text = format!(
-            "there are two of it, in {} and {}: name the one in the map, `\"{}\" = \"{} [{}]\"`",
-            one.unit, other.unit, wanted.name, one.name, one.unit
+            "there are two of it, in {} and {}: name the one in the map, `\"{}\" = \"{}\"`",
+            one.unit,
+            other.unit,
+            wanted.name,
+            one.title()
         );
         return Err(DataError::signal(&record.name, &one.name, text));
     }
@@ -298,6 +310,14 @@ mod tests {
         let record = crate::data::parse("run.csv", b"Stamp,x\n0,1\n5,2\n", map.time.as_ref()).unwrap();
         assert_eq!(record.time, [1.0, 2.0]);
         assert!(Map::parse("time = { columns = \"x\" }").unwrap_err().to_string().contains("columns"));
+    }
+
+    #[test]
+    fn a_map_may_use_an_alias() {
+        let map = Map::parse("[signals]\nstroke = { column = \"x\", scale = 2.0, offset = 1.0 }").unwrap();
+        let mapped =
+            map.apply(record(&[("x", "mm", RAMP)]), &[wanted("position", "m", &["-stroke"])]).unwrap();
+        assert_eq!(mapped.record.channels[0].values[..2], [-1.0, -1.002]);
     }
 
     #[test]

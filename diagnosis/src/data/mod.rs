@@ -46,6 +46,14 @@ pub struct Channel {
 }
 
 impl Channel {
+    /// Name and unit, as a header has them.
+    pub(crate) fn title(&self) -> String {
+        match self.unit.as_str() {
+            "" => self.name.clone(),
+            unit => format!("{} [{unit}]", self.name),
+        }
+    }
+
     /// Whether somebody means it by a name: its own, or as a header has it, with the unit in brackets.
     pub(crate) fn is_called(&self, name: &str) -> bool {
         name == self.name || csv::title(name.trim()) == (self.name.as_str(), self.unit.as_str())
