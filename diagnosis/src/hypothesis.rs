@@ -21,8 +21,11 @@ const TIMING: f64 = 4e-4;
 /// Time over which the velocity at a section's start is guessed from a measured position, in seconds.
 const RATE: f64 = 0.02;
 
-/// A parameter that must not be zero is looked for within this factor of the data sheet's.
-const AROUND: f64 = 20.0;
+/// What a data sheet says of a parameter: its standard deviation over its value, and the factor within which it is looked
+/// for if it must not be zero.
+const SHEET: (f64, f64) = (1.0, 20.0);
+/// The same of a model's start value, which is of the usual order at best.
+const START: (f64, f64) = (10.0, 1000.0);
 
 /// Something that is added to the starting model.
 #[derive(Clone, Copy, Debug)]
@@ -189,13 +192,13 @@ impl World<'_> {
             let (declared, value) = (&plant.parameters[index], self.rig.parameters[index]);
             let (low, high) =
                 (declared.min.unwrap_or(f64::NEG_INFINITY), declared.max.unwrap_or(f64::INFINITY));
+            let (deviation, around) = if self.rig.stated[index] { SHEET } else { START };
             // Near zero, what must not be zero makes equations that nothing can integrate; but there may be no spring.
-            let least = if declared.unit == unit::N_PER_M { low } else { low.max(value / AROUND) };
-            let bounds = if low > 0.0 { (least, high.min(value * AROUND)) } else { (low, high) };
+            let least = if declared.unit == unit::N_PER_M { low } else { low.max(value / around) };
+            let bounds = if low > 0.0 { (least, high.min(value * around)) } else { (low, high) };
             let known = self.known.iter().find(|(of, _, _)| *of == index);
-            // A data sheet is right within a factor of two or so, where the data do not know better; of what it does
-            // not know it says zero.
-            let sheet = (value != 0.0).then_some((value, value.abs()));
+            // It is right within a factor where the data do not know better; of what nobody knows it says zero.
+            let sheet = (value != 0.0).then_some((value, deviation * value.abs()));
             let prior = known.map(|(_, mean, deviation)| (*mean, *deviation)).or(sheet);
             coordinates.push(Coordinate { handle: Handle::Parameter(index), bounds, prior });
         }

@@ -24,6 +24,8 @@ pub struct Rig {
     pub plant: Plant,
     /// The values of its parameters.
     pub parameters: Vec<f64>,
+    /// Which of them its parameter set states. The others are a model's start values: of this rig they say nothing.
+    pub stated: Vec<bool>,
     /// The values of its settings.
     pub choices: Vec<Value>,
     /// The values of its states at the start.
@@ -188,6 +190,7 @@ impl Rig {
         })?;
         let plant = (kind.plant)();
         let mut parameters: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
+        let mut stated = vec![false; parameters.len()];
         let mut choices = plant.choices.clone();
         let mut start: Vec<f64> = plant.states.iter().map(|it| it.start).collect();
         for (name, given) in &set.values {
@@ -197,7 +200,10 @@ impl Rig {
                 _ => None,
             };
             match (plant.parameter(name), plant.setting(name), number) {
-                (Some(index), _, Some(number)) => parameters[index] = number,
+                (Some(index), _, Some(number)) => {
+                    parameters[index] = number;
+                    stated[index] = true;
+                }
                 (_, Some(index), _) => choices[index] = choice(&plant, index, &given.value)?,
                 (None, None, Some(number)) if plant.state(name).is_some() => {
                     plant.state(name).into_iter().for_each(|index| start[index] = number);
@@ -214,7 +220,7 @@ impl Rig {
         let dynamics = plant.prepare(&choices)?;
         dynamics.check(&parameters)?;
         let (name, fmu, taken) = (kebab(&set.fmu), set.fmu.clone(), Vec::new());
-        Ok(Self { name, fmu, plant, parameters, choices, start, taken, kind })
+        Ok(Self { name, fmu, plant, parameters, stated, choices, start, taken, kind })
     }
 
     /// How it is driven; none if there is one way only.
