@@ -250,9 +250,17 @@ pub struct Truth {
     pub base: Vec<Value>,
     /// Deviation of each column's noise.
     pub noise: Vec<Value>,
-    /// Root mean square of what is left of each column of the held-out records by who knows the parameters, the effects
-    /// and what drove the rig, but nothing of the clutter.
-    pub oracle: Vec<Value>,
+    /// What is left of the held-out records by who knows the parameters and the effects, but nothing of the clutter.
+    pub oracle: Oracle,
+}
+
+/// Root mean square of what is left of each column; nothing where it is not asked for.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Oracle {
+    /// By a model that is driven by the inputs as they were recorded, as any model is.
+    pub recorded: Vec<Value>,
+    /// By one that is driven by what really drove the rig: no model can do better.
+    pub exact: Vec<Value>,
 }
 
 /// A case's data.

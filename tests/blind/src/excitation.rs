@@ -10,10 +10,12 @@ pub const STANDSTILL: f64 = 0.5;
 /// Distance of a profile's knots, in seconds.
 const STEP: f64 = 5e-4;
 
-/// A quantity over time: a cubic through knots, so that its rate of change is exactly its derivative.
+/// A quantity over time: a cubic through knots, so that its rate of change is exactly its derivative, but for a recorded one.
 #[derive(Clone, Debug, Default)]
 pub struct Profile {
     knots: Vec<f64>,
+    /// Rates of change at the knots of a recorded one, straight between them.
+    rates: Option<Vec<f64>>,
 }
 
 impl Profile {
@@ -25,7 +27,7 @@ impl Profile {
             let t = k as f64 * STEP - STANDSTILL;
             if t <= 0.0 { 0.0 } else { law(t) * fade_in(t) }
         });
-        Self { knots: knots.collect() }
+        Self { knots: knots.collect(), rates: None }
     }
 
     /// Nothing moves.
@@ -44,22 +46,26 @@ impl Profile {
         if time < STEP || self.knots.is_empty() {
             return (0.0, 0.0);
         }
-        let place = time / STEP;
-        let index = place as usize;
-        let share = place - index as f64;
-        let knot = |k: usize| self.knots[k.min(self.knots.len() - 1)];
-        let (before, left, right, after) = (knot(index - 1), knot(index), knot(index + 1), knot(index + 2));
-        let (rise_left, rise_right) = ((right - before) / 2.0, (after - left) / 2.0);
-        let square = 3.0 * (right - left) - 2.0 * rise_left - rise_right;
-        let cube = rise_left + rise_right - 2.0 * (right - left);
-        let value = left + share * (rise_left + share * (square + share * cube));
-        let slope = rise_left + share * (2.0 * square + share * 3.0 * cube);
-        (value, slope / STEP)
+        let (value, slope) = along(&self.knots, time / STEP);
+        (value, self.rates.as_ref().map_or(slope / STEP, |rates| straight(rates, time / STEP)))
+    }
+
+    /// Through samples that were taken at `rate` a second; its rate of change are their central differences, as those have
+    /// them who read a record.
+    pub fn through(samples: &[f64], rate: f64) -> Self {
+        let count = ((samples.len() - 1) as f64 / (rate * STEP)).round() as usize + 1;
+        let place = |k: usize| k as f64 * STEP * rate;
+        let slopes: Vec<f64> = (0..samples.len()).map(|k| along(samples, k as f64).1 * rate).collect();
+        Self {
+            knots: (0..count).map(|k| along(samples, place(k)).0).collect(),
+            rates: Some((0..count).map(|k| straight(&slopes, place(k))).collect()),
+        }
     }
 
     /// The profile, `factor` times as large.
     pub fn scaled(&self, factor: f64) -> Self {
-        Self { knots: self.knots.iter().map(|x| x * factor).collect() }
+        let scaled = |all: &Vec<f64>| all.iter().map(|x| x * factor).collect();
+        Self { knots: scaled(&self.knots), rates: self.rates.as_ref().map(scaled) }
     }
 
     /// The profile such that its largest absolute value is `peak`.
@@ -72,8 +78,29 @@ impl Profile {
     pub fn plus(&self, other: &Self) -> Self {
         let count = self.knots.len().max(other.knots.len());
         let of = |profile: &Self, k: usize| profile.knots.get(k).copied().unwrap_or(0.0);
-        Self { knots: (0..count).map(|k| of(self, k) + of(other, k)).collect() }
+        Self { knots: (0..count).map(|k| of(self, k) + of(other, k)).collect(), rates: None }
     }
+}
+
+/// Value and slope between knots at distances of 1, along the cubic whose slopes at the knots are central differences.
+fn along(knots: &[f64], place: f64) -> (f64, f64) {
+    let index = place as usize;
+    let share = place - index as f64;
+    let knot = |k: usize| knots[k.min(knots.len() - 1)];
+    let (before, left, right, after) =
+        (knot(index.saturating_sub(1)), knot(index), knot(index + 1), knot(index + 2));
+    let (rise_left, rise_right) = ((right - before) / 2.0, (after - left) / 2.0);
+    let square = 3.0 * (right - left) - 2.0 * rise_left - rise_right;
+    let cube = rise_left + rise_right - 2.0 * (right - left);
+    let value = left + share * (rise_left + share * (square + share * cube));
+    (value, rise_left + share * (2.0 * square + share * 3.0 * cube))
+}
+
+/// Value between knots at distances of 1, along straight lines.
+fn straight(knots: &[f64], place: f64) -> f64 {
+    let index = place as usize;
+    let knot = |k: usize| knots[k.min(knots.len() - 1)];
+    knot(index) + (place - index as f64) * (knot(index + 1) - knot(index))
 }
 
 /// From 0 to 1 in half a second, without a corner.

@@ -3,11 +3,12 @@
 mod excitations;
 mod sizing;
 
-use crate::case::{Case, Generated, Plant, Present, Table, Truth, Value};
+use crate::case::{Case, Generated, Oracle, Plant, Present, Table, Truth, Value};
 use crate::catalogue::Entry;
+use crate::excitation::Profile;
 use crate::random::Random;
 use crate::rig::{Rig, signals, start, true_base, true_signal};
-use crate::sensors::rms;
+use crate::sensors::{Sensor, rms};
 use excitations::{Excitation, excitations};
 use sizing::Sizing;
 
@@ -28,6 +29,7 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
         rig.clutter_plant(level, &mut Random::new(case.seed, "clutter"));
         rig.clutter_sensors(level, &mut Random::new(case.seed, "clutter of sensors"));
     }
+    let sound = rig.sensors.clone();
     let mut effects = vec![];
     for number in 0..case.effects.len() {
         let (present, values) = sizing.present(number)?;
@@ -40,11 +42,21 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
     let tables = |all: &[Excitation], purpose: &str| {
         all.iter().map(|excitation| table(case, &rig, excitation, purpose)).collect()
     };
+    let (train, exact): (Vec<Table>, Vec<Excitation>) = (tables(&train, "train"), test);
+    let test: Vec<Table> = tables(&exact, "test");
+    // Who knows of a fault of an input's sensor takes it back.
+    let mut known = rig.clone();
+    for (sensor, sound) in known.sensors.values_mut().zip(sound.into_values()) {
+        *sensor = Sensor { noise: sensor.noise, ..sound };
+    }
+    let recorded: Vec<Excitation> = exact.iter().map(|it| recorded(case, &known, it)).collect();
+    let foreseen = |by: &[Excitation]| by.iter().map(|it| foreseen(case, &oracle, it)).collect::<Vec<_>>();
     // A loop has the motor say what the position does: who would foresee both has no error to compare with.
-    let foreseeable = if case.plant == Plant::LinearDrive { &[][..] } else { &test[..] };
-    let foreseen: Vec<Columns> = foreseeable.iter().map(|it| foreseen(case, &oracle, it)).collect();
-    let (train, test): (Vec<Table>, Vec<Table>) = (tables(&train, "train"), tables(&test, "test"));
-    let oracle = left(&test, &foreseen);
+    let oracle = if case.plant == Plant::LinearDrive {
+        Oracle::default()
+    } else {
+        Oracle { recorded: left(&test, &foreseen(&recorded)), exact: left(&test, &foreseen(&exact)) }
+    };
     let base = changed(base, &effects);
     Ok(Generated { train, test, start, truth: Truth { case: case.clone(), effects, base, noise, oracle } })
 }
@@ -60,6 +72,20 @@ fn changed(mut base: Vec<Value>, effects: &[Present]) -> Vec<Value> {
         }
     }
     base
+}
+
+/// An excitation as its sensors recorded it.
+fn recorded(case: &Case, rig: &Rig, excitation: &Excitation) -> Excitation {
+    let motion = rig.run(&excitation.road, &excitation.command, case.reach());
+    let columns = rig.measured(case, &motion, &name("test", excitation));
+    let through = |number: usize| Profile::through(&columns[number].2, case.rate);
+    let command = if case.plant.is_car() { through(1) } else { Profile::still() };
+    Excitation { name: excitation.name, road: through(0), command }
+}
+
+/// A record's name.
+fn name(purpose: &str, excitation: &Excitation) -> String {
+    format!("{purpose}-{}", excitation.name)
 }
 
 /// What a rig shows.
@@ -105,7 +131,7 @@ fn check(case: &Case) -> Result<(), String> {
 }
 
 fn table(case: &Case, rig: &Rig, excitation: &Excitation, purpose: &str) -> Table {
-    let name = format!("{purpose}-{}", excitation.name);
+    let name = name(purpose, excitation);
     let motion = rig.run(&excitation.road, &excitation.command, case.reach());
     let measured = rig.measured(case, &motion, &name);
     let count = measured[0].2.len();

@@ -9,7 +9,7 @@ mod tests;
 
 use std::collections::BTreeSet;
 
-use crate::case::{Plant, Present, Truth, Value};
+use crate::case::{Oracle, Plant, Present, Truth, Value};
 use crate::catalogue::{Place, number};
 
 use spot::Spot;
@@ -74,11 +74,21 @@ pub struct Score {
     pub covered: (usize, usize),
     /// How many of the base parameters' cover it, where all that is there is named.
     pub base_covered: (usize, usize),
-    /// The rise of Φ on the held-out data, summed over the signals, and that of an oracle which knows parameters and
-    /// effects; none if there are no effects with a name, or no oracle.
-    pub gained: Option<(f64, f64)>,
+    /// What the extended model gains; none if there are no effects with a name, or no oracle.
+    pub gained: Option<Gain>,
     /// How long the diagnosis took.
     pub seconds: f64,
+}
+
+/// By how much Φ rises on the held-out data over that of the starting model with fitted parameters, summed over signals.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Gain {
+    /// With the extended model.
+    pub model: f64,
+    /// With an oracle's [`Oracle::recorded`].
+    pub recorded: f64,
+    /// With an oracle's [`Oracle::exact`].
+    pub exact: f64,
 }
 
 /// Judges a report.
@@ -116,7 +126,7 @@ pub fn score(truth: &Truth, report: &str) -> Result<Score, String> {
         sensor_or_plant: found.map(|_| sensors.contains(&said_sensor)),
         covered: coverage(&report, effects),
         base_covered: if outcome == Outcome::Correct { base_coverage(&report, truth) } else { (0, 0) },
-        gained: (!effects.is_empty() && !out_of_catalogue && !truth.oracle.is_empty())
+        gained: (!effects.is_empty() && !out_of_catalogue && truth.oracle != Oracle::default())
             .then(|| gained(&report, truth)),
         seconds: report.seconds,
     })
@@ -244,17 +254,18 @@ fn count(covered: &mut (usize, usize), intervals: &[Interval], truth: &[Value]) 
     }
 }
 
-/// The rise of Φ that the extended model brings, and the oracle's.
-fn gained(report: &Report, truth: &Truth) -> (f64, f64) {
-    let mut gained = (0.0, 0.0);
+fn gained(report: &Report, truth: &Truth) -> Gain {
+    let mut gain = Gain::default();
     for signal in &report.signals {
-        let oracle = truth.oracle.iter().find(|value| value.name == signal.name);
+        let left = |by: &[Value]| by.iter().find(|value| value.name == signal.name).map(|it| it.value);
+        let oracle = left(&truth.oracle.recorded).zip(left(&truth.oracle.exact));
         let known = signal.phi_after.zip(signal.rms_fitted.zip(signal.rms_after));
-        if let (Some(oracle), Some((phi, (fitted, after)))) = (oracle, known) {
+        if let (Some((recorded, exact)), Some((phi, (fitted, after)))) = (oracle, known) {
             let size = after / (1.0 - phi);
-            gained.0 += (fitted - after) / size;
-            gained.1 += (fitted - oracle.value) / size;
+            gain.model += (fitted - after) / size;
+            gain.recorded += (fitted - recorded) / size;
+            gain.exact += (fitted - exact) / size;
         }
     }
-    gained
+    gain
 }

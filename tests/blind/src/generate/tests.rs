@@ -51,22 +51,42 @@ fn the_sum_of_the_forces_is_in_the_record() {
     }
 }
 
-/// Who knows all but the clutter misses the noise, and with clutter more.
+/// Who knows all but the clutter misses the noise, and with clutter more; who is driven by what was recorded, what the
+/// inputs' noise makes of the motion.
 #[test]
 fn an_oracle_leaves_the_noise_and_the_clutter() {
     let oracle = |clutter| {
         let truth = generate(&Case { clutter, ..short(vec![Hidden::new("01")]) }).unwrap().truth;
-        truth
-            .oracle
-            .iter()
-            .zip(&truth.noise)
-            .map(|(left, noise)| left.value / noise.value)
-            .collect::<Vec<f64>>()
+        [truth.oracle.exact, truth.oracle.recorded].map(|by| {
+            by.iter().zip(&truth.noise).map(|(left, noise)| left.value / noise.value).collect::<Vec<f64>>()
+        })
     };
-    let (without, with) = (oracle(0), oracle(1));
+    let ([without, driven], [with, _]) = (oracle(0), oracle(1));
     assert!(without.iter().all(|ratio| (ratio - 1.0).abs() < 0.05), "{without:?}");
     // The deflection, and not the road.
     assert!(with[4] > 3.0 && with[0] < 1.05, "{with:?}");
+    // A tyre's force is its stiffness times the road's noise, and more; the body hardly follows.
+    assert!(driven[5] > 1.05 && driven[4] < 1.5, "{driven:?}");
+}
+
+/// The damper makes force of the motion's noise, which comes on top of the cell's own.
+#[test]
+fn an_oracle_with_the_recorded_motion_of_a_dyno_makes_force_of_its_noise() {
+    let case = Case { plant: Plant::StrutDyno, clutter: 0, ..short(vec![Hidden::new("08")]) };
+    let truth = generate(&case).unwrap().truth;
+    let of = |name: &str| truth.base.iter().find(|value| value.name == name).unwrap().value;
+    let noise = |name: &str| truth.noise.iter().find(|value| value.name == name).unwrap().value;
+    let left = |by: &[Value]| by.iter().find(|value| value.name == "force").unwrap().value;
+    // Central differences of white noise, straight lines between them, the filter: its power times the integral of
+    // sin²(2πf) sinc⁴(πf) over |f| < 0.4, with f in periods per sample.
+    let velocity = noise("motion.position") * case.rate * 0.31719_f64.sqrt();
+    let due = (of("strut.damping") * velocity).hypot(noise("force"));
+    assert!(
+        (left(&truth.oracle.recorded) / due - 1.0).abs() < 0.1,
+        "{} N for {due} N",
+        left(&truth.oracle.recorded)
+    );
+    assert!((left(&truth.oracle.exact) / noise("force") - 1.0).abs() < 0.05);
 }
 
 #[test]
@@ -217,7 +237,7 @@ fn the_drives_record_holds_the_resistance() {
     let made = clean(Plant::LinearDrive, vec![Hidden::new("33g")]);
     let of = |name: &str| made.truth.base.iter().find(|value| value.name == name).unwrap().value;
     let load = made.truth.effects[0].parameters[0].value;
-    assert!(made.truth.oracle.is_empty());
+    assert_eq!(made.truth.oracle, Oracle::default());
     for table in made.train.iter().chain(&made.test) {
         let (force, x) = (table.column("force").unwrap(), table.column("position").unwrap());
         // The momentum's balance over whole stretches: no derivative of the position but at their ends.

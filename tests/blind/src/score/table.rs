@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use super::{Outcome, Score};
+use super::{Gain, Outcome, Score};
 
 /// Wilson's 95 % interval of a share.
 pub fn wilson(hits: usize, of: usize) -> (f64, f64) {
@@ -54,16 +54,16 @@ pub fn markdown(scores: &[Score]) -> String {
     row("95 % intervals that cover", "90–98 %", &mut scores.iter().flat_map(|score| each(score.covered)));
     let mut base = scores.iter().flat_map(|score| each(score.base_covered));
     row("the same of base parameters", "90–98 %", &mut base);
-    let gains: Vec<(f64, f64)> = scores.iter().filter_map(|score| score.gained).collect();
-    let (gained, oracle) = gains.iter().fold((0.0, 0.0), |sum, it| (sum.0 + it.0, sum.1 + it.1));
-    if oracle > 0.0 {
-        let percent = 100.0 * gained / oracle;
-        writeln!(
-            text,
-            "| Φ gained on held-out data, of an oracle's | ≥ 90 % | {percent:.1} % | {} | – |",
-            gains.len()
-        )
-        .expect("a string takes everything");
+    let gains: Vec<Gain> = scores.iter().filter_map(|score| score.gained).collect();
+    let sum = |of: fn(&Gain) -> f64| gains.iter().map(of).sum::<f64>();
+    let oracles = [
+        ("Φ gained on held-out data, of an oracle's", "≥ 90 %", sum(|it| it.recorded)),
+        ("the same of one that knows the inputs without noise", "–", sum(|it| it.exact)),
+    ];
+    for (name, wanted, oracle) in oracles.iter().filter(|it| it.2 > 0.0) {
+        let percent = 100.0 * sum(|it| it.model) / oracle;
+        writeln!(text, "| {name} | {wanted} | {percent:.1} % | {} | – |", gains.len())
+            .expect("a string takes everything");
     }
     if !scores.is_empty() {
         let mean = scores.iter().map(|score| score.seconds).sum::<f64>() / scores.len() as f64;
