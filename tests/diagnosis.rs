@@ -101,6 +101,40 @@ fn an_actuator_s_delay_is_in_the_extended_model_and_a_sensor_s_gain_is_told_besi
     print!("{}", strut::python("tests/masters/diagnosed.py", [&out, &records]));
 }
 
+/// A sensor that shows nothing of what is slow has a response without a name. It lies outside of the model, and is told such
+/// that the errors come out.
+#[test]
+fn a_sensor_s_response_without_a_name_is_told_by_its_curve() {
+    let folder = folder("response");
+    let (records, out) = (folder.join("records"), folder.join("report"));
+    strut::run(diagnose().args(["simulate", "--out"]).arg(&records));
+    for name in ["train.csv", "test.csv"] {
+        let path = records.join(name);
+        let text = fs::read_to_string(&path).expect("it was just made");
+        fs::write(&path, high_passed(&text, "body.acceleration", 0.2)).expect("it is ours");
+    }
+    let mut command = diagnose();
+    command.args(["--rig", RIG, "--effects", "33,34,35,36,40,G5", "--train"]).arg(records.join("train.csv"));
+    let output = strut::run(command.arg("--test").arg(records.join("test.csv")).arg("--out").arg(&out));
+    let terminal = String::from_utf8_lossy(&output.stdout);
+    let report = report(&out);
+    assert_eq!(report["verdict"], "unnamed", "{terminal}");
+    assert!(named(&report).is_empty(), "{terminal}");
+    let curve = &report["unnamed"];
+    assert_eq!((&curve["location"], &curve["variable"]), (&"body.acceleration".into(), &"time".into()));
+    let list = |field: &str| {
+        let values = curve[field].as_array().expect("a list").iter();
+        values.map(|it| it.as_f64().expect("a number")).collect::<Vec<f64>>()
+    };
+    let slow: Vec<_> = list("x").into_iter().zip(list("y")).filter(|(after, _)| *after > 0.02).collect();
+    assert!(slow.len() > 8, "{terminal}");
+    for (after, value) in slow {
+        assert!((value - (-after / 0.2).exp()).abs() < 0.08, "{after} s: {value}\n{terminal}");
+    }
+    print!("{}", strut::python("tests/masters/diagnosed.py", [&out, &records]));
+    looked_at(&out.join("report.html"));
+}
+
 /// A table with another function of one of its columns.
 fn with_column(text: &str, name: &str, change: impl Fn(&[f64]) -> Vec<f64>) -> String {
     let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
@@ -118,6 +152,18 @@ fn with_column(text: &str, name: &str, change: impl Fn(&[f64]) -> Vec<f64>) -> S
 
 fn scaled(text: &str, name: &str, factor: f64) -> String {
     with_column(text, name, |values| values.iter().map(|value| factor * value).collect())
+}
+
+/// A column as of a first-order high-pass with a time constant in s, at 1 kHz.
+fn high_passed(text: &str, name: &str, time_constant: f64) -> String {
+    with_column(text, name, |values| {
+        let mut slow = 0.0;
+        let pass = |value: &f64| {
+            slow += (value - slow) * (1e-3 / time_constant);
+            value - slow
+        };
+        values.iter().map(pass).collect()
+    })
 }
 
 /// A column some samples early; the last values are held.

@@ -6,10 +6,10 @@ mod unnamed;
 
 use strut_model::Declaration;
 
-use crate::correction::{Correction, Fault};
+use crate::correction::{AFTER, Correction, Fault};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::findings::{
-    BaseParameter, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal,
+    Answer, BaseParameter, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal,
     SignalCorrection, Start, Verdict,
 };
 use crate::fit::{Handle, Point, Residuals};
@@ -17,7 +17,7 @@ use crate::hypothesis::Term;
 use crate::naming::{self, name};
 use crate::recorded::{Recorded, Source};
 use crate::screening::rms;
-use crate::search::Accepted;
+use crate::search::{Accepted, has_no_name};
 
 /// Relative change of a base parameter that matters, if it is significant.
 const MISMATCH: f64 = 0.03;
@@ -51,9 +51,10 @@ impl Diagnosis<'_> {
         let (signals, starts, corrections) = self.signals();
         let base_parameters = self.base_parameters();
         let accepted = self.found.accepted.iter().chain(&self.rooted);
-        let named: Vec<&Accepted> = accepted.filter(|it| !matches!(it.term, Term::Table(_))).collect();
+        let named: Vec<&Accepted> = accepted.filter(|it| !has_no_name(it.term)).collect();
         let mut unnamed = self.found.accepted.iter().find_map(|it| match it.term {
             Term::Table(table) => Some(self.curve(table)),
+            Term::Response(output) => Some(self.response(output)),
             Term::Cause(_) | Term::Fault(_) => None,
         });
         let mut effects: Vec<Effect> = named.iter().map(|it| self.effect(it)).collect();
@@ -161,7 +162,9 @@ impl Diagnosis<'_> {
         // What any master finds with the extended model, which knows nothing of what measuring did to the signals, but for what
         // is told of: a signal's delay and lag go together.
         let output = |term: &Term| match term {
-            Term::Fault(Handle::Output(output, Fault::Delay | Fault::Lag)) => Some(*output),
+            Term::Fault(Handle::Output(output, Fault::Delay | Fault::Lag)) | Term::Response(output) => {
+                Some(*output)
+            }
             _ => None,
         };
         let told: Vec<usize> = terms.iter().filter_map(output).collect();
@@ -181,9 +184,13 @@ impl Diagnosis<'_> {
         let plant = &self.world.rig.plant;
         let of = |input: bool| {
             move |(declared, correction): (&Declaration, &Correction)| {
-                let amounts = Fault::ALL.map(|fault| (fault.name(), correction.get(fault)));
+                let amounts = Fault::NAMED.map(|fault| (fault.name(), correction.get(fault)));
+                let response = correction.response();
+                let points =
+                    || response.0.iter().zip(AFTER).map(|(more, after)| Answer { after, value: 1.0 + more });
+                let response = if response.is_neutral() { Vec::new() } else { points().collect() };
                 let signal = declared.name.clone();
-                let told = SignalCorrection { signal, input, amounts: amounts.into() };
+                let told = SignalCorrection { signal, input, amounts: amounts.into(), response };
                 (!correction.is_neutral()).then_some(told)
             }
         };

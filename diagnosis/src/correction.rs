@@ -1,6 +1,11 @@
-//! What a sensor or an actuator makes of a signal: gain, offset, drift, lag, delay, wrong rate, curvature.
+//! What a sensor or an actuator makes of a signal: gain, offset, drift, lag, delay, wrong rate, curvature; or a response that
+//! has no name.
+
+mod response;
 
 use crate::recorded::derivative;
+
+pub use response::{AFTER, Response};
 
 /// Steps in which a slightly bent line is straightened to the last digit.
 const NEWTON: usize = 6;
@@ -24,11 +29,13 @@ pub enum Fault {
     Cubic,
     /// Relative error of the sampling rate: samples are taken at `(1 + rate) t`.
     Rate,
+    /// By how much the response to a step of one exceeds one, after a time of [`AFTER`].
+    Response(usize),
 }
 
 impl Fault {
-    /// All of them.
-    pub const ALL: [Self; 8] = [
+    /// All that have a name.
+    pub const NAMED: [Self; 8] = [
         Self::Gain,
         Self::Offset,
         Self::Drift,
@@ -50,13 +57,14 @@ impl Fault {
             Self::Quadratic => "quadratic",
             Self::Cubic => "cubic",
             Self::Rate => "rate",
+            Self::Response(_) => "response",
         }
     }
 
     /// Unit of its parameter for a signal of a unit.
     pub fn unit(self, signal: &str) -> String {
         match self {
-            Self::Gain | Self::Rate => "1".into(),
+            Self::Gain | Self::Rate | Self::Response(_) => "1".into(),
             Self::Offset => signal.into(),
             Self::Drift => format!("{signal}/s"),
             Self::Lag | Self::Delay => "s".into(),
@@ -83,26 +91,39 @@ impl Samples {
 }
 
 /// Every change of one signal: `(1 + gain) lag(y(t')) + offset + drift t` with `t' = (1 + rate) t − delay` and the signal bent
-/// before, `y + q y² + c y³`.
+/// before, `y + q y² + c y³`; the lag's output passes the response without a name.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Correction {
+    /// Of [`Fault::NAMED`].
     amounts: [f64; 8],
+    response: Response,
 }
 
 impl Correction {
     /// How much of a fault there is.
     pub fn get(&self, fault: Fault) -> f64 {
-        self.amounts[fault as usize]
+        match fault {
+            Fault::Response(point) => self.response.0[point],
+            _ => self.amounts[number(fault)],
+        }
     }
 
     /// Sets how much of a fault there is.
     pub fn set(&mut self, fault: Fault, amount: f64) {
-        self.amounts[fault as usize] = amount;
+        match fault {
+            Fault::Response(point) => self.response.0[point] = amount,
+            _ => self.amounts[number(fault)] = amount,
+        }
     }
 
     /// Whether it changes nothing.
     pub fn is_neutral(&self) -> bool {
-        self.amounts.iter().all(|amount| *amount == 0.0)
+        self.amounts.iter().all(|amount| *amount == 0.0) && self.response.is_neutral()
+    }
+
+    /// The response without a name.
+    pub fn response(&self) -> &Response {
+        &self.response
     }
 
     /// What becomes of a signal.
@@ -110,7 +131,8 @@ impl Correction {
         self.through(signal, samples, true)
     }
 
-    /// What a signal was before this became of it: the inverse of [`Self::applied`], a lag by the signal's derivative.
+    /// What a signal was before this became of it: the inverse of [`Self::applied`], a lag by the signal's derivative. A
+    /// response without a name stays: what it has taken away cannot be had back.
     pub fn removed(&self, signal: &[f64], samples: Samples) -> Vec<f64> {
         let [gain, offset, drift, lag, delay, quadratic, cubic, rate] = self.amounts;
         let linear = |(index, y): (usize, &f64)| (y - offset - drift * samples.time(index)) / (1.0 + gain);
@@ -148,14 +170,9 @@ impl Correction {
             .zip(change)
             .map(|(y, dy)| dy * (1.0 + 2.0 * quadratic * y + 3.0 * cubic * y * y))
             .collect();
-        let straight = Self {
-            amounts: {
-                let mut a = self.amounts;
-                a[Fault::Quadratic as usize] = 0.0;
-                a[Fault::Cubic as usize] = 0.0;
-                a
-            },
-        };
+        let mut straight = *self;
+        straight.set(Fault::Quadratic, 0.0);
+        straight.set(Fault::Cubic, 0.0);
         straight.through(&bent, samples, false)
     }
 
@@ -172,6 +189,9 @@ impl Correction {
         if lag > 0.0 {
             lagged(&mut result, lag / samples.step);
         }
+        if !self.response.is_neutral() {
+            result = self.response.applied(&result, samples.step);
+        }
         if gain != 0.0 {
             result.iter_mut().for_each(|y| *y *= 1.0 + gain);
         }
@@ -181,6 +201,21 @@ impl Correction {
             }
         }
         result
+    }
+}
+
+/// Place of a fault among those with a name.
+fn number(fault: Fault) -> usize {
+    match fault {
+        Fault::Gain => 0,
+        Fault::Offset => 1,
+        Fault::Drift => 2,
+        Fault::Lag => 3,
+        Fault::Delay => 4,
+        Fault::Quadratic => 5,
+        Fault::Cubic => 6,
+        Fault::Rate => 7,
+        Fault::Response(_) => unreachable!("a response has no name"),
     }
 }
 
@@ -268,7 +303,7 @@ mod tests {
 
         #[test]
         fn what_is_removed_is_what_was_applied(amounts in prop::array::uniform8(-0.1..0.1_f64)) {
-            let mut correction = Correction { amounts };
+            let mut correction = Correction { amounts, ..Correction::default() };
             correction.set(Fault::Rate, 0.05 * amounts[7]);
             correction.set(Fault::Lag, 0.05 * amounts[3].abs());
             correction.set(Fault::Delay, 0.1 * amounts[4]);
@@ -281,7 +316,8 @@ mod tests {
 
         #[test]
         fn the_tangent_is_the_derivative(amounts in prop::array::uniform8(-0.2..0.2_f64), h in 1e-6..1e-5_f64) {
-            let correction = Correction { amounts };
+            let mut correction = Correction { amounts, ..Correction::default() };
+            correction.set(Fault::Response(5), amounts[0]);
             let y = sine(50, 1e-2, |t| (9.0 * t).sin());
             let change = sine(50, 1e-2, |t| (4.0 * t).cos());
             let moved: Vec<f64> = y.iter().zip(&change).map(|(y, d)| y + h * d).collect();

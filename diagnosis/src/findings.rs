@@ -329,6 +329,17 @@ pub struct SignalCorrection {
     /// Its parameters by their names, SI.
     #[serde(flatten)]
     pub amounts: BTreeMap<&'static str, f64>,
+    /// The step response without a name that the lag's output passes, straight between its points; empty if there is none.
+    pub response: Vec<Answer>,
+}
+
+/// A point of a step response.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Answer {
+    /// Time after the step in seconds.
+    pub after: f64,
+    /// The response to a step of one.
+    pub value: f64,
 }
 
 /// A force, or another quantity, over a variable; without points where it is only known to be there.
@@ -336,7 +347,7 @@ pub struct SignalCorrection {
 pub struct Curve {
     /// Where it acts.
     pub location: String,
-    /// What it is: `force`, `damping rate`; empty if it is not known.
+    /// What it is: `force`, `damping rate`, `step response` of a sensor; empty if it is not known.
     pub quantity: String,
     /// Over which variable.
     pub variable: String,
@@ -352,6 +363,16 @@ pub struct Curve {
     pub low: Vec<f64>,
     /// Upper end of its 95 % interval.
     pub high: Vec<f64>,
+}
+
+impl Curve {
+    /// The [`Curve::quantity`] of a sensor's.
+    pub const RESPONSE: &'static str = "step response";
+
+    /// Whether it is of a sensor, not of the plant.
+    pub fn is_of_sensor(&self) -> bool {
+        self.quantity == Self::RESPONSE
+    }
 }
 
 /// Something wrong with the data.

@@ -2,8 +2,8 @@
 
 use strut_model::{Value, unit};
 
-use crate::catalogue::{Cause, Element, Table, Typical};
-use crate::correction::{Correction, Fault};
+use crate::catalogue::{self, Cause, Element, Part, Scale, Table, Typical};
+use crate::correction::{AFTER, Correction, Fault};
 use crate::fit::{Coordinate, Fit, Handle, Point, Residuals, Trace};
 use crate::lsq::{self, Linear, Problem, Stop};
 use crate::plant::Dynamics;
@@ -36,6 +36,8 @@ pub enum Term {
     Table(&'static Table),
     /// What a sensor or an actuator makes of a signal.
     Fault(Handle),
+    /// A linear response of a sensor without a name, by its output's index.
+    Response(usize),
 }
 
 impl PartialEq for Term {
@@ -44,6 +46,7 @@ impl PartialEq for Term {
             (Self::Cause(a), Self::Cause(b)) => std::ptr::eq(*a, *b),
             (Self::Table(a), Self::Table(b)) => std::ptr::eq(*a, *b),
             (Self::Fault(a), Self::Fault(b)) => a == b,
+            (Self::Response(a), Self::Response(b)) => a == b,
             _ => false,
         }
     }
@@ -196,6 +199,7 @@ impl World<'_> {
             // Near zero, what must not be zero makes equations that nothing can integrate; but there may be no spring.
             let least = if declared.unit == unit::N_PER_M { low } else { low.max(value / around) };
             let bounds = if low > 0.0 { (least, high.min(value * around)) } else { (low, high) };
+            let bounds = self.sought(index).map_or(bounds, |(from, to)| (from.min(value), to.max(value)));
             let known = self.known.iter().find(|(of, _, _)| *of == index);
             // It is right within a factor where the data do not know better; of what nobody knows it says zero.
             let sheet = (value != 0.0).then_some((value, deviation * value.abs()));
@@ -219,6 +223,21 @@ impl World<'_> {
             }
         }
         coordinates
+    }
+
+    /// The bounds of a velocity that nobody states and that is part of a cause's law: where it would be looked for if the rig did
+    /// not have the cause already. Of friction that turns over in no time at all, no derivative tells anything.
+    fn sought(&self, index: usize) -> Option<(f64, f64)> {
+        if self.rig.stated[index] {
+            return None;
+        }
+        let plant = &self.rig.plant;
+        let mut parts = catalogue::causes(plant).flat_map(|it| it.parts.iter().map(move |part| (it, part)));
+        let own =
+            |part: &Part| part.scale == Scale::VELOCITY && plant.parameter(part.parameter) == Some(index);
+        let (cause, part) = parts.find(|(_, part)| own(part))?;
+        let unit = part.scale.of(&self.typical(cause.element));
+        Some((part.bounds.0 * unit, part.bounds.1 * unit))
     }
 
     /// The coordinates that a term brings.
@@ -257,6 +276,14 @@ impl World<'_> {
                 let of = |handle| Coordinate { handle, bounds: self.fault_bounds(handle), prior: None };
                 std::iter::once(handle).chain(drift).map(of).collect()
             }
+            Term::Response(output) => (0..AFTER.len())
+                .map(|point| Coordinate {
+                    handle: Handle::Output(output, Fault::Response(point)),
+                    bounds: (-10.0, 10.0),
+                    // A ridge, as a table has one.
+                    prior: Some((0.0, 1.0)),
+                })
+                .collect(),
         }
     }
 
@@ -270,7 +297,7 @@ impl World<'_> {
             Fault::Lag => (0.0, 0.2),
             Fault::Delay => (-0.05, 0.05),
             Fault::Rate => (-0.02, 0.02),
-            Fault::Offset | Fault::Drift | Fault::Quadratic | Fault::Cubic => {
+            Fault::Offset | Fault::Drift | Fault::Quadratic | Fault::Cubic | Fault::Response(_) => {
                 (f64::NEG_INFINITY, f64::INFINITY)
             }
         }

@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::fit::{Coordinate, Handle, Point};
-use crate::hypothesis::{Fitted, POINTS, World};
+use crate::hypothesis::{Fitted, POINTS, Term, World};
 use crate::lsq::Problem;
 use crate::recorded::Recorded;
 use crate::screening::{Changes, groups};
@@ -98,6 +98,10 @@ impl World<'_> {
         let (h, g) = fit.beside(&fitted.point, &columns, &groups(&probes));
         let mut most: Vec<Option<(f64, DVector<f64>)>> = vec![None; terms.len()];
         for (probe, range) in &probes {
+            // It can do all that a gain, a lag and a delay can, which count on their own.
+            if matches!(terms[probe.term], Term::Response(_)) {
+                continue;
+            }
             let found =
                 pull(&h, &g, fitted.coordinates.len(), range).filter(|(gain, _)| *gain > worth(fitted));
             let most = &mut most[probe.term];

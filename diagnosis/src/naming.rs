@@ -50,15 +50,25 @@ pub fn name(term: Term, plant: &Plant) -> Name {
             sensor: false,
         },
         Term::Fault(handle) => of_fault(handle, plant),
+        Term::Response(output) => Name {
+            id: "G5".into(),
+            element: plant.outputs[output].name.clone(),
+            name: "unnamed response of the sensor".into(),
+            equation: "a table of the step response over time".into(),
+            experiment: "sweep the sensor beside one whose response is known".into(),
+            sensor: true,
+        },
     }
 }
 
 /// Numbers of all that may be the matter with a plant, ascending.
 pub fn numbers(plant: &Plant) -> Vec<String> {
-    let inputs = (0..plant.inputs.len()).flat_map(|it| Fault::ALL.map(|fault| Handle::Input(it, fault)));
-    let outputs = (0..plant.outputs.len()).flat_map(|it| Fault::ALL.map(|fault| Handle::Output(it, fault)));
+    let inputs = (0..plant.inputs.len()).flat_map(|it| Fault::NAMED.map(|fault| Handle::Input(it, fault)));
+    let outputs = (0..plant.outputs.len()).flat_map(|it| Fault::NAMED.map(|fault| Handle::Output(it, fault)));
     let faults = inputs.chain(outputs).map(Term::Fault);
-    let terms = causes(plant).map(Term::Cause).chain(tables(plant).map(Term::Table)).chain(faults);
+    let responses = (0..plant.outputs.len()).map(Term::Response);
+    let plants = causes(plant).map(Term::Cause).chain(tables(plant).map(Term::Table));
+    let terms = plants.chain(faults).chain(responses);
     let mut numbers: Vec<String> = terms.map(|term| name(term, plant).id).collect();
     numbers.sort();
     numbers.dedup();
@@ -87,6 +97,7 @@ fn of_fault(handle: Handle, plant: &Plant) -> Name {
         (Fault::Delay, _, _) => "36",
         (Fault::Quadratic | Fault::Cubic, _, _) => "39",
         (Fault::Rate, _, _) => "40",
+        (Fault::Response(_), _, _) => "G5",
     };
     let (what, equation, experiment) = match fault {
         Fault::Gain => ("gain", "(1 + gain) y", "weigh the masses, or turn the sensor over"),
@@ -98,6 +109,7 @@ fn of_fault(handle: Handle, plant: &Plant) -> Name {
         Fault::Delay => ("delay", "y(t - delay)", "strike once and compare the signals' onsets"),
         Fault::Quadratic => ("curvature", "y + quadratic y^2", "calibrate with gauge blocks"),
         Fault::Cubic => ("curvature", "y + cubic y^3", "calibrate with gauge blocks"),
+        Fault::Response(_) => ("response", "a step response", "sweep to high frequencies"),
         Fault::Rate => ("sampling rate", "y((1 + rate) t)", "compare the clocks, or record for longer"),
     };
     Name {

@@ -14,6 +14,7 @@ use crate::fit::{Handle, Point, Residuals};
 use crate::hypothesis::{Fitted, Term, World};
 use crate::naming::name;
 use crate::recorded::{Recorded, Source};
+use crate::search::has_no_name;
 
 pub use probes::Probe;
 pub use typical::typical;
@@ -62,12 +63,13 @@ impl World<'_> {
         for measured in &record.measured {
             let name = &plant.outputs[measured.output].name;
             // A drift is looked for with the offset that it starts from.
-            for fault in Fault::ALL.into_iter().filter(|fault| *fault != Fault::Drift) {
+            for fault in Fault::NAMED.into_iter().filter(|fault| *fault != Fault::Drift) {
                 let bends = matches!(fault, Fault::Quadratic | Fault::Cubic);
                 if !bends || name.ends_with("deflection") {
                     terms.push(Term::Fault(Handle::Output(measured.output, fault)));
                 }
             }
+            terms.push(Term::Response(measured.output));
         }
         for (input, source) in record.inputs.iter().enumerate() {
             if matches!(source, Source::Measured(_)) && !self.twofold(record, input) {
@@ -116,7 +118,7 @@ impl World<'_> {
             .flat_map(|(index, term)| self.probes(index, *term, &fitted.point))
             .collect();
         let changed = |term: Term, point: &Point| -> Option<Residuals> {
-            if let Term::Fault(Handle::Output(output, _)) = term {
+            if let Term::Fault(Handle::Output(output, _)) | Term::Response(output) = term {
                 return Some(self.seen(output, &point.outputs[output], &unseen, &predicted));
             }
             let mut all = fitted.terms.clone();
@@ -199,7 +201,7 @@ impl World<'_> {
             let amounts = factor.solve(&right);
             let gain = amounts.dot(&right);
             let screened = &mut screened[probe.term];
-            if !matches!(terms[probe.term], Term::Table(_)) {
+            if !has_no_name(terms[probe.term]) {
                 let size = self.first_size(terms[probe.term], &probe.points[0], &fitted.point);
                 screened.detectable = screened.detectable.min(5.0 * size * factor.inverse()[(0, 0)].sqrt());
             }

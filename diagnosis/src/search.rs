@@ -10,6 +10,7 @@ use std::collections::BTreeSet;
 
 use rayon::prelude::*;
 
+use crate::correction::Fault;
 use crate::findings::Evidence;
 use crate::fit::{Handle, Point};
 use crate::hypothesis::{Fitted, Term, World};
@@ -22,6 +23,8 @@ const FITTED: usize = 7;
 const BEHIND: f64 = 0.15;
 /// Tables that are fitted where names do not suffice.
 const TABLES: usize = 2;
+/// Sensors' responses that are fitted beside them.
+const RESPONSES: usize = 1;
 /// Causes at most.
 const MOST: usize = 4;
 /// Share of the largest cause's rise of Φ below which a further one is not told from the small effects that every real
@@ -110,11 +113,13 @@ impl World<'_> {
         Tried { term, fitted, evidence, score }
     }
 
-    /// Another start, with the data sheet's parameters, where those of the fit without the term have strayed: they have done
-    /// the missing cause's work as well as they could, and the way back from there is long.
+    /// Another start, with the data sheet's parameters and signals in time, where those of the fit without the term have
+    /// strayed: they have done the missing cause's work as well as they could, and the way back from there is long.
     fn with_the_sheet(&self, null: &Fitted, screened: &Screened) -> Option<Point> {
         let sheet = null.coordinates.iter().filter_map(|it| match (it.handle, it.prior) {
             (Handle::Parameter(_), Some((mean, deviation))) => Some((it.handle, mean, deviation)),
+            // As late as no measurement makes it.
+            (Handle::Output(..), Some((mean, deviation))) => Some((it.handle, mean, rooted::LATE * deviation)),
             _ => None,
         });
         let strayed =
@@ -133,7 +138,7 @@ impl World<'_> {
     /// Those of the screened terms with a name that are worth a fit: what screens far below the best, or below what
     /// matters at all, is left out.
     fn promising<'b>(&self, base: &Fitted, screened: &'b [Screened]) -> Vec<&'b Screened> {
-        let named: Vec<&Screened> = screened.iter().filter(|it| !is_table(it.term)).collect();
+        let named: Vec<&Screened> = screened.iter().filter(|it| !has_no_name(it.term)).collect();
         let best = named.first().map_or(0.0, |it| it.gain);
         let least = worth(base).max(BEHIND * best);
         let mut chosen: Vec<&Screened> =
@@ -157,7 +162,13 @@ impl World<'_> {
     /// The tables that are worth a fit beside a gain.
     fn curves<'b>(&self, base: &Fitted, screened: &'b [Screened], gain: f64) -> Vec<&'b Screened> {
         let least = worth(base).max(gain);
-        screened.iter().filter(|it| is_table(it.term) && it.gain > least).take(TABLES).collect()
+        let worthy = |response: bool| {
+            let kind = move |it: &&Screened| {
+                has_no_name(it.term) && matches!(it.term, Term::Response(_)) == response && it.gain > least
+            };
+            screened.iter().filter(kind)
+        };
+        worthy(false).take(TABLES).chain(worthy(true).take(RESPONSES)).collect()
     }
 
     fn try_all(&self, base: &Fitted, null: &Fitted, screened: &[&Screened]) -> Vec<Tried> {
@@ -213,7 +224,7 @@ impl World<'_> {
             let rivals = self.rivals(&found.base, &chosen, &current, &beside);
             found.accepted.push(Accepted { term: chosen.term, evidence: chosen.evidence, rivals });
             merge(&mut found.tried, tried);
-            if is_table(chosen.term) {
+            if has_no_name(chosen.term) {
                 break;
             }
         }
@@ -231,7 +242,7 @@ impl World<'_> {
 
     /// The best of those with a name that pass; without any, the best table.
     fn chosen<'b>(&self, base: &Fitted, passing: &[&'b Tried]) -> Option<&'b Tried> {
-        let named = passing.iter().find(|it| !is_table(it.term));
+        let named = passing.iter().find(|it| !has_no_name(it.term));
         named.map(|it| self.simplest(base, it, passing)).or_else(|| passing.first().copied())
     }
 
@@ -240,7 +251,7 @@ impl World<'_> {
     fn far_better(&self, base: &Fitted, tried: &[Tried], passing: &[&Tried]) -> Vec<Tried> {
         let left = |it: &Tried| it.fitted.as_ref().map_or(f64::INFINITY, |fitted| self.left(base, fitted));
         let rare = passing.iter().map(|it| left(it)).fold(f64::INFINITY, f64::min);
-        let waived = tried.iter().filter(|it| it.evidence.usual && !is_table(it.term)).cloned();
+        let waived = tried.iter().filter(|it| it.evidence.usual && !has_no_name(it.term)).cloned();
         let waived = waived.map(|it| Tried { evidence: Evidence { usual: false, ..it.evidence }, ..it });
         let better = |it: &Tried| {
             !passing.is_empty() && LITTLE_MORE * left(it) < rare && it.evidence.refusal().is_none()
@@ -258,7 +269,7 @@ impl World<'_> {
                     && simpler.coordinates.len() < fitted.coordinates.len()
                     && self.late(simpler) <= self.late(fitted)
                     || self.late(simpler) < self.late(fitted)
-                        && !is_table(other.term)
+                        && !has_no_name(other.term)
                         && self.left(base, simpler) < LITTLE_MORE * self.left(base, fitted))
             {
                 let added = self.evidence(chosen.term, base, simpler, fitted);
@@ -285,7 +296,7 @@ impl World<'_> {
             let Ok(fitted) = &other.fitted else { return false };
             let more = contains(other.term, chosen.term, &parts(fitted), &own);
             let later = self.late(fitted) > self.late(best);
-            if other.term == chosen.term || is_table(other.term) || more || later {
+            if other.term == chosen.term || has_no_name(other.term) || more || later {
                 return false;
             }
             let near = || {
@@ -302,14 +313,15 @@ impl World<'_> {
 /// Whether a cause is told from the small effects that every real rig has, where another one raises Φ by so much. What has
 /// no name has to raise it by as much as what has one.
 fn matters_beside(term: Term, evidence: &Evidence, largest: f64) -> bool {
-    if is_table(term) {
+    if has_no_name(term) {
         return evidence.phi_gain > largest;
     }
     evidence.phi_gain > BESIDE * largest || (evidence.takes_the_bulk() && !evidence.usual)
 }
 
-fn is_table(term: Term) -> bool {
-    matches!(term, Term::Table(_))
+/// Whether a term is a curve that the catalogue has no name for.
+pub(crate) fn has_no_name(term: Term) -> bool {
+    matches!(term, Term::Table(_) | Term::Response(_))
 }
 
 /// Whether a term can do all that another one can: by what it changes, or as the catalogue says.
@@ -322,6 +334,9 @@ fn contains_by_name(larger: Term, smaller: Term) -> bool {
     match (larger, smaller) {
         (Term::Cause(larger), Term::Cause(smaller)) => {
             larger.element == smaller.element && larger.contains.contains(&smaller.id)
+        }
+        (Term::Response(output), Term::Fault(Handle::Output(of, fault))) => {
+            output == of && matches!(fault, Fault::Gain | Fault::Lag | Fault::Delay)
         }
         _ => false,
     }

@@ -42,7 +42,8 @@ def derivative(signal, step):
 def corrected(report, signals, step, first, into):
     """Signals on their way into the model, or out of it: (1 + gain) lag(y(t')) + offset + drift t, t' = (1 + rate) t - delay.
 
-    They are bent before, y + q y² + c y³; t counts from the record's beginning, `first` samples earlier.
+    They are bent before, y + q y² + c y³; t counts from the record's beginning, `first` samples earlier. After the lag they
+    pass a step response.
     """
     signals = dict(signals)
     for it in (it for it in report["corrections"] if it["input"] == into and it["signal"] in signals):
@@ -50,6 +51,7 @@ def corrected(report, signals, step, first, into):
         y = y * (1.0 + y * (it["quadratic"] + y * it["cubic"]))
         time = step * (first + np.arange(len(y)))
         y = lagged(delayed(y, (it["delay"] - it["rate"] * time) / step), it["lag"] / step)
+        y = answered(y, step, [(point["after"], point["value"]) for point in it["response"]])
         signals[it["signal"]] = (1.0 + it["gain"]) * y + it["offset"] + it["drift"] * time
     return signals
 
@@ -72,6 +74,28 @@ def lagged(y, samples):
         return y
     times = np.arange(len(y), dtype=float)
     return lsim(([1.0], [samples, 1.0]), y - y[0], times, interp=True)[1] + y[0]
+
+
+def answered(y, step, points):
+    """With a step response that is straight between its points, of a signal that rested at its first value before.
+
+    Between two points the step response rises evenly: the signal's mean over the delays between them counts by that rise.
+    """
+    if not points:
+        return y
+    times = step * np.arange(len(y))
+    areas = step * np.concatenate(([0.0], np.cumsum(0.5 * (y[1:] + y[:-1]))))
+
+    def area(delay):
+        at = times - delay
+        return np.where(at < 0.0, y[0] * at, np.interp(at, times, areas))
+
+    (after, value), *further = points
+    result = value * y
+    for later, higher in further:
+        result = result + (higher - value) * (area(after) - area(later)) / (later - after)
+        after, value = later, higher
+    return result
 
 
 def inputs(fmu, signals, step):

@@ -74,6 +74,11 @@ fn without_name(curve: &Curve, nearest: &[Effect]) -> String {
         (true, true) => "these data do not determine its curve".to_owned(),
     };
     let Curve { location, quantity, variable, .. } = curve;
+    if curve.is_of_sensor() {
+        return format!(
+            "The sensor of {location} has a response that has no name in the catalogue, neither a gain nor a lag nor a delay; {known}."
+        );
+    }
     let what = match quantity.as_str() {
         "" => format!("something at {location}"),
         quantity => format!("a {quantity} in the {location} over {variable}"),

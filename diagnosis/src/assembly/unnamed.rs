@@ -1,6 +1,7 @@
 //! What is told of a cause that has no name.
 
 use crate::catalogue::{Element, Scale, Table};
+use crate::correction::{AFTER, Fault};
 use crate::diagnosis::Diagnosis;
 use crate::findings::Curve;
 use crate::fit::Handle;
@@ -32,7 +33,7 @@ impl Diagnosis<'_> {
         let (location, over, (quantity, unit)) = match term {
             Term::Cause(cause) => (Some(cause.element), of_cause(cause.is_over_velocity()), ("force", "N")),
             Term::Table(table) => (Some(table.element), table.scale, table.quantity()),
-            Term::Fault(_) => (None, Scale::ONE, ("", "")),
+            Term::Fault(_) | Term::Response(_) => (None, Scale::ONE, ("", "")),
         };
         let Some(element) = location else {
             let signal = name(term, &self.world.rig.plant).element;
@@ -71,6 +72,31 @@ impl Diagnosis<'_> {
             curve.x.iter_mut().for_each(|x| *x = -*x);
             for list in [&mut curve.x, &mut curve.y, &mut curve.low, &mut curve.high] {
                 list.reverse();
+            }
+        }
+        curve
+    }
+
+    /// The step response of an output's sensor.
+    pub(super) fn response(&self, output: usize) -> Curve {
+        let mut curve = Curve {
+            location: self.world.rig.plant.outputs[output].name.clone(),
+            quantity: Curve::RESPONSE.into(),
+            variable: "time".into(),
+            variable_unit: "s".into(),
+            unit: "1".into(),
+            ..Curve::default()
+        };
+        for (point, after) in AFTER.into_iter().enumerate() {
+            let handle = Handle::Output(output, Fault::Response(point));
+            let found = self.intervals.iter().find(|it| it.handle == handle);
+            if let Some(Interval { value, half, .. }) = found
+                && *half < 1.0
+            {
+                curve.x.push(after);
+                curve.y.push(1.0 + value);
+                curve.low.push(1.0 + value - half);
+                curve.high.push(1.0 + value + half);
             }
         }
         curve

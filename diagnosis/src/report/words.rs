@@ -244,6 +244,9 @@ pub fn headline(findings: &Findings) -> String {
             }
         }
         Verdict::Unnamed => match &findings.unnamed {
+            Some(curve) if curve.is_of_sensor() => {
+                format!("The sensor of {} has a response that has no name in the catalogue.", curve.location)
+            }
             Some(curve) => format!(
                 "The model lacks something {}, over {}, that has no name in the catalogue.",
                 place(&curve.location),

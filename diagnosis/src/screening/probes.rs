@@ -1,7 +1,7 @@
 //! How terms are tried out: by which amounts, and in which shapes.
 
 use crate::catalogue::{Cause, Part, Table};
-use crate::correction::Fault;
+use crate::correction::{AFTER, Fault};
 use crate::fit::{Handle, Point};
 use crate::hypothesis::{POINTS, Term, World};
 use crate::recorded::Source;
@@ -29,6 +29,15 @@ impl World<'_> {
                 .map(|shape| Probe { term: index, points: self.addends(cause, shape, at) })
                 .collect(),
             Term::Table(table) => vec![Probe { term: index, points: self.knots(table, at) }],
+            Term::Response(output) => {
+                let point = |point: usize| {
+                    let handle = Handle::Output(output, Fault::Response(point));
+                    let mut moved = at.clone();
+                    moved.set(handle, at.get(handle) + self.typical_fault(handle));
+                    moved
+                };
+                vec![Probe { term: index, points: (0..AFTER.len()).map(point).collect() }]
+            }
             Term::Fault(handle) => {
                 let probe = |amount: f64| {
                     let mut point = at.clone();
@@ -125,7 +134,7 @@ impl World<'_> {
         };
         let magnitude = magnitude.max(f64::MIN_POSITIVE);
         match fault {
-            Fault::Gain => 0.05,
+            Fault::Gain | Fault::Response(_) => 0.05,
             Fault::Offset => 0.1 * magnitude,
             Fault::Drift => 0.1 * magnitude / (record.len() as f64 * record.step),
             Fault::Lag | Fault::Delay => record.step.max(1e-3),

@@ -9,7 +9,14 @@ use crate::fit::Handle;
 use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
 
-use super::{Accepted, Found, contains_by_name, is_table, matters_beside, merge};
+use super::{Accepted, Found, contains_by_name, has_no_name, matters_beside, merge};
+
+/// Share of a name's errors that a curve in its place leaves at most …
+const CLEARLY: f64 = 0.85;
+/// … and Student's t of the difference that it exceeds.
+const CLEARLY_APART: f64 = 4.0;
+/// Share of several names' errors that one curve in their place may leave.
+const SEVERAL: f64 = 1.1;
 
 impl World<'_> {
     /// The found terms without one of them, fitted.
@@ -111,7 +118,7 @@ impl World<'_> {
             let here = &found.accepted[index];
             let evidence = self.evidence(here.term, &found.base, &without, &found.extended);
             let evidence = Evidence { usual: here.evidence.usual, ..evidence };
-            let curved = |it: &Accepted| is_table(it.term) && element(it.term) == element(here.term);
+            let curved = |it: &Accepted| has_no_name(it.term) && element(it.term) == element(here.term);
             let usual = evidence.usual || found.accepted.iter().any(curved);
             let others = found.accepted.iter().enumerate().filter(|(other, _)| *other != index);
             let largest = others.map(|(_, it)| it.evidence.phi_gain).fold(0.0, f64::max);
@@ -134,7 +141,7 @@ impl World<'_> {
     pub(super) fn unname(&self, found: &mut Found) {
         let shapes: Vec<Term> = {
             let named: Vec<Term> =
-                found.accepted.iter().map(|it| it.term).filter(|it| !is_table(*it)).collect();
+                found.accepted.iter().map(|it| it.term).filter(|it| !has_no_name(*it)).collect();
             let shaped: Vec<Term> = named.iter().copied().filter(|it| !is_constant(*it)).collect();
             if shaped.is_empty() { named } else { shaped }
         };
@@ -147,16 +154,31 @@ impl World<'_> {
         let passing = tried.iter().filter(|it| it.evidence.refusal().is_none());
         let best = passing.filter_map(|it| Some((it, it.fitted.as_ref().ok()?))).next();
         let Some((table, fitted)) = best else { return };
-        let factor = if several { 1.1 } else { 0.85 };
-        let enough = self.left(&found.base, fitted) < factor * self.left(&found.base, &found.extended);
-        if enough
-            && (several || self.apart(fitted, &found.extended) > 4.0)
-            && self.is_the_cause(found, (table.term, fitted), (first, several))
-        {
+        let left = |it: &Fitted| self.left(&found.base, it);
+        let enough = if several {
+            left(fitted) < SEVERAL * left(&found.extended)
+        } else {
+            self.is_clearly_better(&found.base, (table.term, fitted), &found.extended)
+        };
+        if enough && self.is_the_cause(found, (table.term, fitted), (first, several)) {
             let accepted = Accepted { term: table.term, evidence: table.evidence, rivals: Vec::new() };
             found.extended = fitted.clone();
             found.accepted = vec![accepted];
         }
+    }
+
+    /// Whether a curve explains clearly more than a name does: a sensor's response, of its own signal.
+    pub(super) fn is_clearly_better(
+        &self,
+        base: &Fitted,
+        (curve, fitted): (Term, &Fitted),
+        named: &Fitted,
+    ) -> bool {
+        let left = match curve {
+            Term::Response(output) => self.left_of(output, named, fitted) / 2.0,
+            _ => self.left(base, fitted) / self.left(base, named),
+        };
+        left < CLEARLY && self.apart(fitted, named) > CLEARLY_APART
     }
 
     /// Whether a table is the cause itself. If what was found first is needed beside it, they are about different things; and
@@ -187,7 +209,7 @@ fn is_constant(term: Term) -> bool {
     match term {
         Term::Cause(cause) => cause.id == "33",
         Term::Fault(Handle::Input(_, fault) | Handle::Output(_, fault)) => fault == Fault::Offset,
-        Term::Fault(Handle::Parameter(_)) | Term::Table(_) => false,
+        Term::Fault(Handle::Parameter(_)) | Term::Table(_) | Term::Response(_) => false,
     }
 }
 
@@ -196,6 +218,6 @@ fn element(term: Term) -> Option<Element> {
     match term {
         Term::Cause(cause) => Some(cause.element),
         Term::Table(table) => Some(table.element),
-        Term::Fault(_) => None,
+        Term::Fault(_) | Term::Response(_) => None,
     }
 }

@@ -7,13 +7,13 @@ use crate::fit::Handle;
 use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
 
-use super::{Accepted, Found, Tried, is_table, matters_beside};
+use super::{Accepted, Found, Tried, contains_by_name, has_no_name, matters_beside};
 
 /// Relative change of an effect's size beyond which it is another one.
 const RESIZED: f64 = 0.5;
 /// Standard deviations of a channel's timing beyond which it is a fault that matters if the errors show it, and beyond which
 /// it matters however little they do.
-const LATE: f64 = 5.0;
+pub(super) const LATE: f64 = 5.0;
 const TOO_LATE: f64 = 7.0;
 
 /// What may have been fitted away: the cause, and the values without it of all that it is fitted by.
@@ -70,11 +70,16 @@ impl World<'_> {
             }
             let fits = without.instead(&suspect, &held)?;
             let behind = |it: &Fitted| self.apart(&found.extended, it);
-            let ahead = fits.iter().filter(|it| !self.as_good(&held, &it.fitted, &found.extended));
+            let better = |it: &Rival| {
+                let clearly = || self.is_clearly_better(&held, (it.term, &it.fitted), &found.extended);
+                !self.as_good(&held, &it.fitted, &found.extended) && (!has_no_name(it.term) || clearly())
+            };
+            let ahead = fits.iter().filter(|it| better(it));
             let ahead = ahead.min_by(|a, b| behind(&a.fitted).total_cmp(&behind(&b.fitted)));
             let best = ahead.map_or(&found.extended, |it| &it.fitted);
             let (term, evidence) = ahead.map_or((suspect.term, evidence), |it| (it.term, it.evidence));
-            let rivals = fits.iter().filter(|it| it.term != term && self.as_good(&held, best, &it.fitted));
+            let other = |it: &&Rival| it.term != term && !has_no_name(it.term);
+            let rivals = fits.iter().filter(other).filter(|it| self.as_good(&held, best, &it.fitted));
             let rivals = rivals.map(|it| it.term).collect();
             let told = Accepted { term, evidence, rivals };
             match ahead {
@@ -95,9 +100,12 @@ impl World<'_> {
         let screened = self.screened(held)?;
         let mut promising = self.promising(held, &screened);
         promising.retain(|it| it.term != suspect.term);
+        // Of curves only those that are no more than the suspect itself in a shape that has no name.
+        let shapeless = |it: Term| has_no_name(it) && contains_by_name(it, suspect.term);
+        promising.extend(screened.iter().filter(|it| shapeless(it.term)));
         let rival = |it: Tried| {
             let evidence = suspect.weighed(it.term, it.evidence);
-            let passes = evidence.refusal().is_none() && !is_table(it.term);
+            let passes = evidence.refusal().is_none();
             passes.then_some(Rival { term: it.term, evidence, fitted: it.fitted.ok()? })
         };
         Ok(self.try_all(held, held, &promising).into_iter().filter_map(rival).collect())
@@ -126,7 +134,8 @@ impl World<'_> {
         let of = |output: usize| {
             let own = |it: &Handle| matches!(it, Handle::Output(of, _) if *of == output);
             let handles = fitted.coordinates.iter().map(|it| it.handle).filter(own);
-            let found = |it: &Handle| fitted.terms.contains(&Term::Fault(*it));
+            let response = fitted.terms.contains(&Term::Response(output));
+            let found = |it: &Handle| response || fitted.terms.contains(&Term::Fault(*it));
             let handles: Vec<Handle> = handles.filter(|it| self.usual(*it).is_some() && !found(it)).collect();
             // A delay and a lag that oppose one another leave a signal as late as their sum.
             let sum: f64 = handles.iter().map(|it| fitted.point.get(*it)).sum();

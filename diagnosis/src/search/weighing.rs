@@ -10,7 +10,7 @@ use crate::naming::{Name, name};
 use crate::recorded::Recorded;
 use crate::screening::rms;
 
-use super::{has_threshold, is_table};
+use super::{has_no_name, has_threshold};
 
 /// Numbers of what every rig has a little of: memory and compliance in its rubber, springs that are not quite straight, cogging,
 /// sensors' filters and timing, of what is measured of the drive, too. What has no name is as common.
@@ -63,7 +63,7 @@ impl World<'_> {
     fn is_usual(&self, term: Term) -> bool {
         let Name { id, sensor, .. } = name(term, &self.rig.plant);
         let timing = matches!(term, Term::Fault(Handle::Input(_, Fault::Lag | Fault::Delay)));
-        is_table(term) || USUAL.contains(&id.as_str()) || sensor && timing
+        has_no_name(term) || USUAL.contains(&id.as_str()) || sensor && timing
     }
 
     /// The largest rise of Φ among the signals: on the training and on the held-out data. It is of what the model has to tell:
@@ -110,6 +110,17 @@ impl World<'_> {
     /// gained.
     pub(super) fn left(&self, unit: &Fitted, fitted: &Fitted) -> f64 {
         self.shares(unit, fitted).iter().sum()
+    }
+
+    /// The same of one output alone.
+    pub(super) fn left_of(&self, output: usize, unit: &Fitted, fitted: &Fitted) -> f64 {
+        let of = |record: &Recorded| record.measured.iter().position(|it| it.output == output);
+        let row = self.train.first().and_then(of);
+        let each = [(&unit.train, &fitted.train), (&unit.test, &fitted.test)].map(|(unit, fitted)| {
+            let squares = |it: &Residuals| self.errors(it).mean_squares();
+            row.map_or(1.0, |row| squares(fitted)[row] / squares(unit)[row])
+        });
+        each.iter().sum()
     }
 
     /// Share of another fit's error that is left, on the training and on the held-out data.

@@ -20,6 +20,14 @@ const FURTHER: [&str; 3] = ["18", "22", "26"];
 /// Effects of a quarter car with a servo valve.
 const WITH_VALVE: [&str; 4] = ["01", "28", "29", "30"];
 
+/// What is the matter with a sensor and has no number.
+const UNNAMED_OF_SENSORS: [(&str, &str); 4] = [
+    ("U5", "body.acceleration"),
+    ("U5", "wheel.force"),
+    ("U6", "body.acceleration"),
+    ("U6", "suspension.deflection"),
+];
+
 /// Effects of a linear drive.
 const OF_DRIVE: [&str; 4] = ["02g", "16", "27", "33g"];
 
@@ -52,6 +60,7 @@ pub fn compact() -> Vec<Case> {
         .collect();
     all.push(standard("pair-01-08", vec![Hidden::new("01"), Hidden::new("08")], 21));
     all.push(standard("unnamed-U1", vec![Hidden::new("U1")], 22));
+    all.push(standard("unnamed-U5", vec![Hidden::at("U5", "wheel.force")], 37));
     all.push(standard("sensor-34", vec![Hidden::at("34", "wheel.force")], 23));
     all.push(standard("sensor-33", vec![Hidden::at("33", "wheel.acceleration")], 27));
     all.push(standard("sensor-36", vec![Hidden::at("36", "body.acceleration")], 28));
@@ -99,6 +108,9 @@ fn full_of(seed: u64) -> Vec<Case> {
     all.push(standard(format!("sensor-42-{seed}"), vec![Hidden::at("42", "road.position")], seed));
     for id in ["U1", "U2", "U3", "U4"] {
         all.push(standard(format!("unnamed-{id}-{seed}"), vec![Hidden::new(id)], seed));
+    }
+    for (id, signal) in UNNAMED_OF_SENSORS {
+        all.push(standard(format!("unnamed-{id}-{signal}-{seed}"), vec![Hidden::at(id, signal)], seed));
     }
     for pair in PAIRS {
         let effects = pair.map(Hidden::new).to_vec();
@@ -224,7 +236,7 @@ mod tests {
     fn the_compact_list_is_what_it_was() {
         let names: Vec<String> =
             compact().into_iter().map(|case| format!("{}/{}", case.name, case.seed)).collect();
-        assert_eq!(names.len(), 29);
+        assert_eq!(names.len(), 30);
         let [first, .., mismatch, breaking, dry, cogging, pair, last] = &names[..] else {
             panic!("{names:?}")
         };

@@ -1,6 +1,6 @@
 //! From the true signal to what the record shows.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use crate::car::RATE;
 use crate::random::Random;
@@ -12,6 +12,10 @@ pub struct Sensor {
     pub lag: f64,
     /// A second one, of the clutter, in s.
     pub bandwidth: f64,
+    /// Natural frequency in Hz and damping ratio of a second-order response.
+    pub resonance: Option<(f64, f64)>,
+    /// Frequency in Hz below which nothing passes, as of a first-order high-pass; zero is none.
+    pub high_pass: f64,
     /// Time by which the signal comes late, in s; exact, and negative if the others are late.
     pub skew: f64,
     /// How much later its samples are taken than their number says, as a share of the time.
@@ -40,6 +44,8 @@ impl Default for Sensor {
         Self {
             lag: 0.0,
             bandwidth: 0.0,
+            resonance: None,
+            high_pass: 0.0,
             skew: 0.0,
             rate_error: 0.0,
             moved_mass: 0.0,
@@ -57,7 +63,9 @@ impl Default for Sensor {
 impl Sensor {
     /// The samples that it shows of `signal`, which has [`RATE`] samples a second, at `rate` a second.
     pub fn measure(&self, signal: &[f64], rate: f64, random: &mut Random) -> Vec<f64> {
-        let slow = delayed(&lagged(&lagged(signal, self.lag), self.bandwidth), self.skew);
+        let ringing = resonating(signal, self.resonance);
+        let passed = high_passed(&ringing, self.high_pass);
+        let slow = delayed(&lagged(&lagged(&passed, self.lag), self.bandwidth), self.skew);
         let mut shown = decimated(&stretched(&slow, self.rate_error), rate);
         for (k, value) in shown.iter_mut().enumerate() {
             let drifted = self.offset + self.drift * k as f64 / rate;
@@ -101,6 +109,37 @@ fn lagged(signal: &[f64], time_constant: f64) -> Vec<f64> {
         out[k] = keep * out[k - 1] + (average - keep) * signal[k - 1] + (1.0 - average) * signal[k];
     }
     out
+}
+
+/// What a second-order response with a natural frequency in Hz and a damping ratio makes of a signal, from rest at its beginning.
+fn resonating(signal: &[f64], response: Option<(f64, f64)>) -> Vec<f64> {
+    let Some((frequency, ratio)) = response else { return signal.to_vec() };
+    let omega = TAU * frequency;
+    let rates = |[y, v]: [f64; 2], x: f64| [v, omega * (omega * (x - y) - 2.0 * ratio * v)];
+    let mut state = [signal[0], 0.0];
+    let mut out = vec![signal[0]; signal.len()];
+    for k in 1..signal.len() {
+        let half = |slope: [f64; 2], step: f64| std::array::from_fn(|i| state[i] + step / RATE * slope[i]);
+        let middle = 0.5 * (signal[k - 1] + signal[k]);
+        let first = rates(state, signal[k - 1]);
+        let second = rates(half(first, 0.5), middle);
+        let third = rates(half(second, 0.5), middle);
+        let fourth = rates(half(third, 1.0), signal[k]);
+        state = std::array::from_fn(|i| {
+            state[i] + (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]) / (6.0 * RATE)
+        });
+        out[k] = state[0];
+    }
+    out
+}
+
+/// What is left of a signal above a frequency in Hz, as of a charge amplifier.
+fn high_passed(signal: &[f64], frequency: f64) -> Vec<f64> {
+    if frequency <= 0.0 {
+        return signal.to_vec();
+    }
+    let slow = lagged(signal, 1.0 / (TAU * frequency));
+    signal.iter().zip(slow).map(|(x, slow)| x - slow).collect()
 }
 
 /// `delay` seconds later, straight lines between the samples.
@@ -163,8 +202,6 @@ pub fn rms(signal: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::TAU;
-
     use super::*;
 
     fn sine(frequency: f64, seconds: f64) -> Vec<f64> {
@@ -231,6 +268,25 @@ mod tests {
             let phase = TAU * 10.0 * k as f64 / 1000.0 - omega_t.atan();
             let truth = phase.sin() / (1.0 + omega_t * omega_t).sqrt();
             assert!((seen - truth).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn responses_have_the_size_and_phase_of_theory() {
+        let (frequency, ratio): (f64, f64) = (10.0, 0.2);
+        let ringing =
+            shown(&Sensor { resonance: Some((25.0, ratio)), ..Sensor::default() }, &sine(frequency, 4.0));
+        let coupled = shown(&Sensor { high_pass: 5.0, ..Sensor::default() }, &sine(frequency, 4.0));
+        // 1/(1 - r² + 2 i z r) and i s/(1 + i s).
+        let (r, s) = (frequency / 25.0, frequency / 5.0);
+        let (real, imaginary) = (1.0 - r * r, 2.0 * ratio * r);
+        let omega = TAU * frequency;
+        for k in 2000..3000 {
+            let t = k as f64 / 1000.0;
+            let expected = (omega * t - imaginary.atan2(real)).sin() / real.hypot(imaginary);
+            assert!((ringing[k] - expected).abs() < 1e-3, "{} for {expected}", ringing[k]);
+            let expected = (omega * t + (1.0 / s).atan()).sin() * s / s.hypot(1.0);
+            assert!((coupled[k] - expected).abs() < 1e-3, "{} for {expected}", coupled[k]);
         }
     }
 

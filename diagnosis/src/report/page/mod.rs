@@ -110,6 +110,22 @@ fn unnamed(findings: &Findings) -> Markup {
     let range = finite.fold(None, |range: Option<(f64, f64)>, x| {
         Some(range.map_or((x, x), |(low, high)| (low.min(x), high.max(x))))
     });
+    if curve.is_of_sensor() {
+        return html! {
+            section {
+                h2 { "The cause without a name" }
+                p {
+                    "Neither a gain nor a lag nor a delay of the sensor of " (curve.location) " fits. This is what it would show \
+                     after a step of one, as far as these records tell. The extended model does not hold it: "
+                    code { "report.json" } " has it among " code { "corrections" } "."
+                }
+                figure {
+                    figcaption { "Response of the sensor to a step, with its 95 % band" }
+                    (pictures::unnamed(curve))
+                }
+            }
+        };
+    }
     html! {
         section {
             h2 { "The cause without a name" }

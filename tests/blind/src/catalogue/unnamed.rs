@@ -50,4 +50,25 @@ pub(super) static ENTRIES: &[Entry] = &[
             ],
         )
     },
+    Entry {
+        variable: "time",
+        ..entry(
+            "U5",
+            "resonance of a sensor",
+            Place::Sensor,
+            &[
+                drawn("frequency", "Hz", (25.0, 60.0), Role::Inverse, (8.0, 300.0)),
+                drawn("damping_ratio", "1", (0.1, 0.3), SHAPE, ANY),
+            ],
+        )
+    },
+    Entry {
+        variable: "time",
+        ..entry(
+            "U6",
+            "high-pass of a sensor",
+            Place::Sensor,
+            &[drawn("high_pass", "Hz", (0.3, 1.0), ZERO, (0.0, 10.0))],
+        )
+    },
 ];

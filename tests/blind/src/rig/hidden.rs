@@ -118,6 +118,9 @@ impl Rig {
                 "lag" => sensor.lag = *value,
                 "skew" => sensor.skew += value,
                 "quantum" => sensor.quantum = *value,
+                "frequency" => sensor.resonance = Some((*value, values[1])),
+                "damping_ratio" => {}
+                "high_pass" => sensor.high_pass = *value,
                 "range" => sensor.range = *value,
                 "rate" => sensor.rate_error = *value,
                 "force_cell.mass" => sensor.moved_mass = *value,
