@@ -2,6 +2,7 @@
 
 mod bic;
 mod nested;
+mod resettled;
 mod revise;
 mod rooted;
 mod weighing;
@@ -119,7 +120,9 @@ impl World<'_> {
         let sheet = null.coordinates.iter().filter_map(|it| match (it.handle, it.prior) {
             (Handle::Parameter(_), Some((mean, deviation))) => Some((it.handle, mean, deviation)),
             // As late as no measurement makes it.
-            (Handle::Output(..), Some((mean, deviation))) => Some((it.handle, mean, rooted::LATE * deviation)),
+            (Handle::Output(..), Some((mean, deviation))) => {
+                Some((it.handle, mean, rooted::LATE * deviation))
+            }
             _ => None,
         });
         let strayed =
@@ -194,6 +197,13 @@ impl World<'_> {
             let promising = self.promising(&found.base, &screened);
             progress(&format!("fitting {} causes", promising.len()));
             let mut tried = self.try_all(&found.base, &current, &promising);
+            if let Some(better) = self.resettled(&current, &tried) {
+                if found.accepted.is_empty() {
+                    found.base = better.clone();
+                }
+                current = better;
+                tried = self.weighed_again(&found.base, &current, tried);
+            }
             let largest = found.accepted.iter().map(|it| it.evidence.phi_gain).fold(0.0, f64::max);
             let passes = |it: &Tried| {
                 let evidence = &it.evidence;
@@ -212,12 +222,16 @@ impl World<'_> {
             let common = self.far_better(&found.base, &tried, &passing);
             let passing: Vec<&Tried> = if common.is_empty() { passing } else { common.iter().collect() };
             let chosen = self.chosen(&found.base, &passing).cloned();
-            let beside: Vec<&Tried> =
-                tried.iter().filter(|it| passes(it) || it.evidence.passes_beside_another()).collect();
             let Some(chosen) = chosen else {
                 merge(&mut found.tried, tried);
                 break;
             };
+            let beside = |it: &Tried| {
+                let common = Evidence { usual: false, ..it.evidence };
+                let better = it.score > chosen.score && common.passes_beside_another();
+                passes(it) || it.evidence.passes_beside_another() || better
+            };
+            let beside: Vec<&Tried> = tried.iter().filter(|it| beside(it)).collect();
             let Ok(fitted) = &chosen.fitted else { break };
             // The others were fitted well enough to be compared; this one is to be built on.
             current = self.fitted(&fitted.terms, std::slice::from_ref(&fitted.point), Stop::NOISY)?;
@@ -287,8 +301,8 @@ impl World<'_> {
         self.apart(best, other) < APART || self.left(base, other) < SAME * self.left(base, best)
     }
 
-    /// Those that explain the data as well as the chosen one, and are not the same with something more, nor need more late
-    /// signals. What is nearly as good is fitted as closely as the chosen one before it is told apart.
+    /// Those that explain the data as well as the chosen one, or better and are only too common to be named, and are not the same
+    /// with something more, nor need more late signals. What is nearly as good is fitted as closely as the chosen one before it is told apart.
     fn rivals(&self, base: &Fitted, chosen: &Tried, close: &Fitted, passing: &[&Tried]) -> Vec<Term> {
         let Ok(best) = &chosen.fitted else { return Vec::new() };
         let own = parts(best);
