@@ -9,7 +9,7 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::catalogue;
-use crate::correction::{Correction, Fault};
+use crate::correction::{AFTER, Correction, Fault};
 use crate::fit::{Handle, Point, Residuals};
 use crate::hypothesis::{Fitted, Term, World};
 use crate::naming::name;
@@ -18,6 +18,9 @@ use crate::search::has_no_name;
 
 pub use probes::Probe;
 pub use typical::typical;
+
+/// How many times as long as a sensor remembers a stretch has to be: what a signal was before is not known.
+const MEMORIES: f64 = 4.0;
 
 /// A term that may explain something.
 #[derive(Clone, Debug)]
@@ -69,7 +72,9 @@ impl World<'_> {
                     terms.push(Term::Fault(Handle::Output(measured.output, fault)));
                 }
             }
-            terms.push(Term::Response(measured.output));
+            if self.stretches() > MEMORIES * AFTER[AFTER.len() - 1] {
+                terms.push(Term::Response(measured.output));
+            }
         }
         for (input, source) in record.inputs.iter().enumerate() {
             if matches!(source, Source::Measured(_)) && !self.twofold(record, input) {
@@ -89,6 +94,13 @@ impl World<'_> {
         }
         terms.retain(|term| self.only.is_empty() || self.only.contains(&name(*term, plant).id));
         terms
+    }
+
+    /// Mean duration of the stretches to learn from, in s.
+    fn stretches(&self) -> f64 {
+        let sections =
+            || self.train.iter().flat_map(|it| it.sections.iter().map(|section| (it.step, section.len())));
+        sections().map(|(step, length)| step * length as f64).sum::<f64>() / sections().count().max(1) as f64
     }
 
     /// Whether an input is measured as a position and as a velocity: one of them wrong would contradict the other.

@@ -13,12 +13,13 @@ use super::Tried;
 
 /// Causes from whose fits it is tried.
 const LEADING: usize = 2;
-/// Share of the cost by which another minimum is a better one.
+/// Share of the cost by which another minimum is a better one …
 const BETTER: f64 = 0.02;
+/// … and of what they gain, that is gained without them.
+const MOSTLY: f64 = 0.5;
 
 impl World<'_> {
-    /// A fit without any of the tried causes that leaves clearly less than the one that they were added to, started from where
-    /// the best of them have come to.
+    /// A fit without any of the tried causes that gains most of what the best of them do, started from where these have come to.
     pub(super) fn resettled(&self, null: &Fitted, tried: &[Tried]) -> Option<Fitted> {
         let without = |it: &Tried| -> Option<Point> {
             let mut point = null.point.clone();
@@ -30,8 +31,10 @@ impl World<'_> {
             Some(point)
         };
         let starts: Vec<Point> = tried.iter().filter_map(without).take(LEADING).collect();
+        let costs = tried.iter().filter_map(|it| Some(it.fitted.as_ref().ok()?.cost)).take(LEADING);
+        let gained = null.cost - costs.fold(null.cost, f64::min);
         let rough = self.fitted(&null.terms, &starts, Stop::ROUGH).ok()?;
-        if rough.cost > (1.0 - BETTER) * null.cost {
+        if null.cost - rough.cost < (MOSTLY * gained).max(BETTER * null.cost) {
             return None;
         }
         self.fitted(&null.terms, from_ref(&rough.point), Stop::NOISY).ok()
