@@ -16,7 +16,7 @@ pub const POINTS: usize = 11;
 
 /// Standard deviation of a channel's timing in seconds: multiplexers and buses make such delays, and the filters of
 /// accelerometers have such time constants. They are no fault.
-const TIMING: f64 = 4e-4;
+pub const TIMING: f64 = 4e-4;
 
 /// Time over which the velocity at a section's start is guessed from a measured position, in seconds.
 const RATE: f64 = 0.02;

@@ -5,11 +5,12 @@ use crate::comparison::{Errors, student};
 use crate::correction::Fault;
 use crate::findings::Evidence;
 use crate::fit::{Handle, Residuals, strain};
-use crate::hypothesis::{Fitted, Term, World};
+use crate::hypothesis::{Fitted, TIMING, Term, World};
 use crate::naming::{Name, name};
 use crate::recorded::Recorded;
 use crate::screening::rms;
 
+use super::rooted::LATE;
 use super::{has_no_name, has_threshold};
 
 /// Numbers of what every rig has a little of: memory and compliance in its rubber, springs that are not quite straight, cogging,
@@ -54,16 +55,21 @@ impl World<'_> {
             explained: if is_resonance(term) { learnt.max(held_out) } else { held_out },
             phi_gain: everywhere(term, self.phi_gains(null, fitted)),
             taken: everywhere(term, self.shares(null, fitted).map(|share| 1.0 - share)),
-            usual: self.is_usual(term),
+            usual: self.is_usual(term, fitted),
             grave: false,
         }
     }
 
-    /// Whether every rig has a little of it.
-    fn is_usual(&self, term: Term) -> bool {
+    /// Whether every rig has a little of it. Of a command that is late, by no more than signals are.
+    fn is_usual(&self, term: Term, fitted: &Fitted) -> bool {
         let Name { id, sensor, .. } = name(term, &self.rig.plant);
-        let timing = matches!(term, Term::Fault(Handle::Input(_, Fault::Lag | Fault::Delay)));
-        has_no_name(term) || USUAL.contains(&id.as_str()) || sensor && timing
+        let timing = match term {
+            Term::Fault(handle @ Handle::Input(_, Fault::Lag | Fault::Delay)) => {
+                sensor || fitted.point.get(handle).abs() < LATE * TIMING
+            }
+            _ => false,
+        };
+        has_no_name(term) || USUAL.contains(&id.as_str()) || timing
     }
 
     /// The largest rise of Φ among the signals: on the training and on the held-out data. It is of what the model has to tell:
