@@ -70,16 +70,16 @@ impl World<'_> {
             }
             let fits = without.instead(&suspect, &held)?;
             let behind = |it: &Fitted| self.apart(&found.extended, it);
-            let better = |it: &Rival| {
-                let clearly = || self.is_clearly_better(&held, (it.term, &it.fitted), &found.extended);
-                !self.as_good(&held, &it.fitted, &found.extended) && (!has_no_name(it.term) || clearly())
-            };
-            let ahead = fits.iter().filter(|it| better(it));
+            let (curves, names): (Vec<&Rival>, Vec<&Rival>) =
+                fits.iter().partition(|it| has_no_name(it.term));
+            let ahead = names.iter().filter(|it| !self.as_good(&held, &it.fitted, &found.extended));
             let ahead = ahead.min_by(|a, b| behind(&a.fitted).total_cmp(&behind(&b.fitted)));
+            let named = ahead.map_or(&found.extended, |it| &it.fitted);
+            let better = |it: &&&Rival| self.is_clearly_better(&held, (it.term, &it.fitted), named);
+            let ahead = curves.iter().find(better).or(ahead);
             let best = ahead.map_or(&found.extended, |it| &it.fitted);
             let (term, evidence) = ahead.map_or((suspect.term, evidence), |it| (it.term, it.evidence));
-            let other = |it: &&Rival| it.term != term && !has_no_name(it.term);
-            let rivals = fits.iter().filter(other).filter(|it| self.as_good(&held, best, &it.fitted));
+            let rivals = names.iter().filter(|it| it.term != term && self.as_good(&held, best, &it.fitted));
             let rivals = rivals.map(|it| it.term).collect();
             let told = Accepted { term, evidence, rivals };
             match ahead {
