@@ -20,7 +20,7 @@ struct Drawing {
 }
 
 impl Drawing {
-    /// By the places that the catalogue's candidates have in this rig, and by its signals where few candidates are asked for.
+    /// By the places that the catalogue's candidates have in this rig.
     fn of(findings: &Findings) -> Option<Self> {
         let has = |wanted: Part| {
             let candidates = findings.candidates.iter().map(|candidate| candidate.element.as_str());
@@ -28,8 +28,7 @@ impl Drawing {
             let unnamed = findings.unnamed.iter().map(|curve| curve.location.as_str());
             candidates.chain(effects).chain(unnamed).any(|element| part(element) == Some(wanted))
         };
-        let wheel = findings.signals.iter().any(|signal| signal.name.starts_with("wheel."));
-        let (strut, tire, actuator) = (has(Part::Strut), has(Part::Tire) || wheel, has(Part::Actuator));
+        let (strut, tire, actuator) = (has(Part::Strut), has(Part::Tire), has(Part::Actuator));
         let guide = has(Part::Guide);
         if tire {
             Some(Self { upper: "body", lower: "wheel", strut: true, guide: true, tire, actuator: true })
