@@ -5,7 +5,7 @@ mod response;
 
 use crate::recorded::derivative;
 
-pub use response::{AFTER, Response};
+pub use response::{AFTER, Response, UNKNOWN};
 
 /// Steps in which a slightly bent line is straightened to the last digit.
 const NEWTON: usize = 6;
@@ -45,6 +45,11 @@ impl Fault {
         Self::Cubic,
         Self::Rate,
     ];
+
+    /// Its place among those with a name.
+    fn number(self) -> Option<usize> {
+        Self::NAMED.iter().position(|it| *it == self)
+    }
 
     /// Its name, as the last part of a parameter's.
     pub fn name(self) -> &'static str {
@@ -104,15 +109,16 @@ impl Correction {
     pub fn get(&self, fault: Fault) -> f64 {
         match fault {
             Fault::Response(point) => self.response.0[point],
-            _ => self.amounts[number(fault)],
+            _ => fault.number().map_or(0.0, |number| self.amounts[number]),
         }
     }
 
     /// Sets how much of a fault there is.
     pub fn set(&mut self, fault: Fault, amount: f64) {
-        match fault {
-            Fault::Response(point) => self.response.0[point] = amount,
-            _ => self.amounts[number(fault)] = amount,
+        if let Fault::Response(point) = fault {
+            self.response.0[point] = amount;
+        } else if let Some(number) = fault.number() {
+            self.amounts[number] = amount;
         }
     }
 
@@ -201,21 +207,6 @@ impl Correction {
             }
         }
         result
-    }
-}
-
-/// Place of a fault among those with a name.
-fn number(fault: Fault) -> usize {
-    match fault {
-        Fault::Gain => 0,
-        Fault::Offset => 1,
-        Fault::Drift => 2,
-        Fault::Lag => 3,
-        Fault::Delay => 4,
-        Fault::Quadratic => 5,
-        Fault::Cubic => 6,
-        Fault::Rate => 7,
-        Fault::Response(_) => unreachable!("a response has no name"),
     }
 }
 

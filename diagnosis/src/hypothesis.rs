@@ -3,7 +3,7 @@
 use strut_model::{Value, unit};
 
 use crate::catalogue::{self, Cause, Element, Part, Scale, Table, Typical};
-use crate::correction::{AFTER, Correction, Fault};
+use crate::correction::{AFTER, Correction, Fault, UNKNOWN};
 use crate::fit::{Coordinate, Fit, Handle, Point, Residuals, Trace};
 use crate::lsq::{self, Linear, Problem, Stop};
 use crate::plant::Dynamics;
@@ -281,7 +281,7 @@ impl World<'_> {
                     handle: Handle::Output(output, Fault::Response(point)),
                     bounds: (-10.0, 10.0),
                     // A ridge, as a table has one.
-                    prior: Some((0.0, 1.0)),
+                    prior: Some((0.0, UNKNOWN)),
                 })
                 .collect(),
         }

@@ -301,8 +301,9 @@ impl World<'_> {
         self.apart(best, other) < APART || self.left(base, other) < SAME * self.left(base, best)
     }
 
-    /// Those that explain the data as well as the chosen one, or better and are only too common to be named, and are not the same
-    /// with something more, nor need more late signals. What is nearly as good is fitted as closely as the chosen one before it is told apart.
+    /// Those that explain the data as well as the chosen one, or better and are only too common to be named, and are not the
+    /// same with something more, nor need more late signals. What is nearly as good is fitted as closely as the chosen one
+    /// before it is told apart.
     fn rivals(&self, base: &Fitted, chosen: &Tried, close: &Fitted, passing: &[&Tried]) -> Vec<Term> {
         let Ok(best) = &chosen.fitted else { return Vec::new() };
         let own = parts(best);

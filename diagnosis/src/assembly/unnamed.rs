@@ -1,7 +1,7 @@
 //! What is told of a cause that has no name.
 
 use crate::catalogue::{Element, Scale, Table};
-use crate::correction::{AFTER, Fault};
+use crate::correction::{AFTER, Fault, UNKNOWN};
 use crate::diagnosis::Diagnosis;
 use crate::findings::Curve;
 use crate::fit::Handle;
@@ -91,7 +91,7 @@ impl Diagnosis<'_> {
             let handle = Handle::Output(output, Fault::Response(point));
             let found = self.intervals.iter().find(|it| it.handle == handle);
             if let Some(Interval { value, half, .. }) = found
-                && *half < 1.0
+                && *half < UNKNOWN
             {
                 curve.x.push(after);
                 curve.y.push(1.0 + value);

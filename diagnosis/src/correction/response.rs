@@ -4,6 +4,9 @@
 pub const AFTER: [f64; 14] =
     [0.0, 4e-3, 8e-3, 13e-3, 20e-3, 28e-3, 38e-3, 55e-3, 85e-3, 0.14, 0.23, 0.38, 0.62, 1.0];
 
+/// Deviation of a point of which the data say nothing.
+pub const UNKNOWN: f64 = 1.0;
+
 /// By how much a step response exceeds one at the times of [`AFTER`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Response(pub [f64; AFTER.len()]);
