@@ -94,6 +94,7 @@ impl Diagnosis<'_> {
             verdict,
             summary: String::new(),
             effects,
+            common: self.found.common.iter().map(|it| self.effect(it)).collect(),
             base_parameters,
             pictures: self.pictures(),
             signals,
@@ -288,13 +289,16 @@ impl Diagnosis<'_> {
 
     fn candidates(&self) -> Vec<Candidate> {
         let plant = &self.world.rig.plant;
-        let accepted = |term: Term| self.found.accepted.iter().any(|it| it.term == term);
+        let among = |all: &[Accepted], term: Term| all.iter().any(|it| it.term == term);
         let screened = self.found.screened.iter().map(|it| {
             let words = name(it.term, plant);
             let own = self.world.own_coordinates(it.term);
             let tried = self.found.tried.iter().find(|tried| tried.term == it.term);
             let outcome = match tried {
-                _ if accepted(it.term) => "accepted".into(),
+                _ if among(&self.found.accepted, it.term) => "accepted".into(),
+                _ if among(&self.found.common, it.term) => {
+                    "fitted along: every rig has a little of it".into()
+                }
                 None => "not seen in what the model misses".into(),
                 Some(tried) => match (&tried.fitted, tried.evidence.refusal()) {
                     (Err(error), _) => error.clone(),

@@ -117,6 +117,9 @@ pub fn diagnose<'a>(
     if world.dwarfed(&mut found, &rooted)? {
         rooted = world.rooted(&mut found)?;
     }
+    if world.criterion == Criterion::Gates {
+        world.beside_the_common(&mut found, &mut rooted, progress)?;
+    }
     progress("comparing what each excitation says");
     let intervals = world.intervals(&found.extended)?;
     Ok(Diagnosis { world, measured, before, found, rooted, intervals, reversed })

@@ -29,6 +29,8 @@ pub struct Findings {
     pub summary: String,
     /// What was found, in the order of its gain.
     pub effects: Vec<Effect>,
+    /// Small effects that every rig has a little of, fitted along so that the causes show; the extended model holds them.
+    pub common: Vec<Effect>,
     /// Parameters of the starting model that were fitted.
     pub base_parameters: Vec<BaseParameter>,
     /// The model's errors on the held-out data, before and after.
@@ -66,6 +68,7 @@ impl Findings {
             verdict: Verdict::BadData,
             summary: format!("The data cannot be used. {}", texts.collect::<Vec<_>>().join(" ")),
             effects: Vec::new(),
+            common: Vec::new(),
             base_parameters: Vec::new(),
             signals: Vec::new(),
             starts: Vec::new(),
@@ -224,7 +227,7 @@ impl Evidence {
     }
 
     /// The first gate that is not passed of those that tell whether it is there at all.
-    fn doubt(&self) -> Option<String> {
+    pub fn doubt(&self) -> Option<String> {
         let Self { delta_bic, block_t, held_out_t, explained, .. } = *self;
         let required = self.required();
         if !explained.is_finite() {

@@ -1,6 +1,7 @@
 //! The search for causes: forward, with gates, on data that was not learnt from.
 
 mod bic;
+mod common;
 mod nested;
 mod resettled;
 mod revise;
@@ -18,8 +19,9 @@ use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
 use crate::screening::Screened;
 
-/// Causes that are fitted in a round.
+/// Causes that are fitted in a round, and in one beside what is common: most have been tried without.
 const FITTED: usize = 7;
+const FITTED_BESIDE: usize = 4;
 /// Share of the best cause's screened gain below which none is fitted.
 const BEHIND: f64 = 0.15;
 /// Tables that are fitted where names do not suffice.
@@ -28,6 +30,8 @@ const TABLES: usize = 2;
 const RESPONSES: usize = 1;
 /// Causes at most.
 const MOST: usize = 4;
+/// Small and common effects that are fitted along at most.
+const ALONG: usize = 3;
 /// Share of the largest cause's rise of Φ below which a further one is not told from the small effects that every real
 /// rig has.
 const BESIDE: f64 = 0.35;
@@ -83,6 +87,8 @@ pub struct Found {
     pub extended: Fitted,
     /// The accepted terms.
     pub accepted: Vec<Accepted>,
+    /// What every rig has a little of and was fitted along, so that the accepted terms show.
+    pub common: Vec<Accepted>,
     /// What screening said in the first round.
     pub screened: Vec<Screened>,
     /// All that was fitted, the last word on each term.
@@ -92,7 +98,8 @@ pub struct Found {
 impl Found {
     /// The starting model, with nothing added.
     fn nothing(base: Fitted) -> Self {
-        Self { extended: base.clone(), base, accepted: Vec::new(), screened: Vec::new(), tried: Vec::new() }
+        let extended = base.clone();
+        Self { base, extended, accepted: vec![], common: vec![], screened: vec![], tried: vec![] }
     }
 }
 
@@ -190,68 +197,99 @@ impl World<'_> {
             return self.search_by_bic(base, progress);
         }
         let mut found = Found::nothing(base);
-        let mut current = found.base.clone();
-        while found.accepted.len() < MOST {
-            progress("comparing every cause to what is missing");
-            let screened = self.screened(&current)?;
-            let promising = self.promising(&found.base, &screened);
-            progress(&format!("fitting {} causes", promising.len()));
-            let mut tried = self.try_all(&found.base, &current, &promising);
-            if let Some(better) = self.resettled(&current, &tried) {
-                if found.accepted.is_empty() {
-                    found.base = better.clone();
-                }
-                current = better;
-                tried = self.weighed_again(&found.base, &current, tried);
-            }
-            let largest = found.accepted.iter().map(|it| it.evidence.phi_gain).fold(0.0, f64::max);
-            let passes = |it: &Tried| {
-                let evidence = &it.evidence;
-                // A richer law of what was found takes its place.
-                let refines = found.accepted.iter().any(|other| contains_by_name(it.term, other.term));
-                evidence.refusal().is_none() && (refines || matters_beside(it.term, evidence, largest))
-            };
-            if !tried.iter().any(passes) {
-                let curves = self.curves(&found.base, &screened, 0.0);
-                tried.extend(self.try_all(&found.base, &current, &curves));
-            }
-            if found.screened.is_empty() {
-                found.screened = screened;
-            }
-            let passing: Vec<&Tried> = tried.iter().filter(|it| passes(it)).collect();
-            let common = self.far_better(&found.base, &tried, &passing);
-            let passing: Vec<&Tried> = if common.is_empty() { passing } else { common.iter().collect() };
-            let chosen = self.chosen(&found.base, &passing).cloned();
-            let Some(chosen) = chosen else {
-                merge(&mut found.tried, tried);
-                break;
-            };
-            let beside = |it: &Tried| {
-                let common = Evidence { usual: false, ..it.evidence };
-                let better = it.score > chosen.score && common.passes_beside_another();
-                passes(it) || it.evidence.passes_beside_another() || better
-            };
-            let beside: Vec<&Tried> = tried.iter().filter(|it| beside(it)).collect();
-            let Ok(fitted) = &chosen.fitted else { break };
-            // The others were fitted well enough to be compared; this one is to be built on.
-            current = self.fitted(&fitted.terms, std::slice::from_ref(&fitted.point), Stop::NOISY)?;
-            let rivals = self.rivals(&found.base, &chosen, &current, &beside);
-            found.accepted.push(Accepted { term: chosen.term, evidence: chosen.evidence, rivals });
-            merge(&mut found.tried, tried);
-            if has_no_name(chosen.term) {
-                break;
-            }
+        self.forward(&mut found, progress)?;
+        self.revised(&mut found, progress)?;
+        Ok(found)
+    }
+
+    /// Adds causes to what was found, one after the other.
+    fn forward(&self, found: &mut Found, progress: &(dyn Fn(&str) + Sync)) -> Result<(), String> {
+        while found.accepted.len() < MOST
+            && found.common.len() <= ALONG
+            && self.another(found, progress)?
+            && !found.accepted.last().is_some_and(|it| has_no_name(it.term))
+        {}
+        Ok(())
+    }
+
+    /// Adds the cause that explains most of what the model still misses, if any passes. Tells whether one did.
+    fn another(&self, found: &mut Found, progress: &(dyn Fn(&str) + Sync)) -> Result<bool, String> {
+        progress("comparing every cause to what is missing");
+        let screened = self.screened(&found.extended)?;
+        let mut promising = self.promising(&found.base, &screened);
+        if !found.common.is_empty() {
+            promising.truncate(FITTED_BESIDE);
         }
-        found.extended = current;
-        self.limit(&mut found)?;
-        self.retest(&mut found)?;
-        if found.accepted.len() > 1 {
+        progress(&format!("fitting {} causes", promising.len()));
+        let mut tried = self.try_all(&found.base, &found.extended, &promising);
+        if let Some(better) = self.resettled(&found.extended, &tried) {
+            if found.extended.terms.is_empty() {
+                found.base = better.clone();
+            }
+            found.extended = better;
+            tried = self.weighed_again(&found.base, &found.extended, tried);
+        }
+        let largest =
+            found.accepted.iter().chain(&found.common).map(|it| it.evidence.phi_gain).fold(0.0, f64::max);
+        let passes = |it: &Tried| {
+            let evidence = &it.evidence;
+            // A richer law of what was found takes its place.
+            let refines = found.accepted.iter().any(|other| contains_by_name(it.term, other.term));
+            evidence.refusal().is_none() && (refines || matters_beside(it.term, evidence, largest))
+        };
+        // Beside what is common, names are at stake: a curve without one would have shown before.
+        if !tried.iter().any(passes) && found.common.is_empty() {
+            let curves = self.curves(&found.base, &screened, 0.0);
+            tried.extend(self.try_all(&found.base, &found.extended, &curves));
+        }
+        let passing: Vec<&Tried> = tried.iter().filter(|it| passes(it)).collect();
+        let common = self.far_better(&found.base, &tried, &passing);
+        let passing: Vec<&Tried> = if common.is_empty() { passing } else { common.iter().collect() };
+        let chosen = self.chosen(&found.base, &passing).cloned();
+        let beside = |it: &Tried, chosen: &Tried| {
+            let common = Evidence { usual: false, ..it.evidence };
+            let better = it.score > chosen.score && common.passes_beside_another();
+            passes(it) || it.evidence.passes_beside_another() || better
+        };
+        let next = match &chosen {
+            Some(chosen @ Tried { fitted: Ok(fitted), .. }) => {
+                let beside: Vec<&Tried> = tried.iter().filter(|it| beside(it, chosen)).collect();
+                // The others were fitted well enough to be compared; this one is to be built on.
+                let close = self.fitted(&fitted.terms, std::slice::from_ref(&fitted.point), Stop::NOISY)?;
+                let rivals = self.rivals(&found.base, chosen, &close, &beside);
+                Some((Accepted { term: chosen.term, evidence: chosen.evidence, rivals }, close))
+            }
+            _ => None,
+        };
+        if found.screened.is_empty() {
+            found.screened = screened;
+        }
+        merge(&mut found.tried, tried);
+        let Some((accepted, close)) = next else { return Ok(false) };
+        found.extended = close;
+        // What is left beside a cause is little, and what is common may be most of it.
+        let small = accepted.evidence.usual
+            && accepted.evidence.phi_gain <= Evidence::REQUIRED_OF_USUAL.phi_gain
+            && !found.accepted.is_empty();
+        if small {
+            found.common.push(Accepted { rivals: Vec::new(), ..accepted });
+        } else {
+            found.accepted.push(accepted);
+        }
+        Ok(true)
+    }
+
+    /// Second thoughts about what was found.
+    fn revised(&self, found: &mut Found, progress: &(dyn Fn(&str) + Sync)) -> Result<(), String> {
+        self.limit(found)?;
+        self.retest(found)?;
+        if found.accepted.len() + found.common.len() > 1 {
             progress("trying rivals in the place of each cause");
-            self.swap(&mut found)?;
+            self.swap(found)?;
         }
         progress("drawing curves in the place of names");
-        self.unname(&mut found);
-        Ok(found)
+        self.unname(found);
+        Ok(())
     }
 
     /// The best of those with a name that pass; without any, the best table.
@@ -301,6 +339,20 @@ impl World<'_> {
         self.apart(best, other) < APART || self.left(base, other) < SAME * self.left(base, best)
     }
 
+    /// A fit that is nearly as good as the best one, as closely as that one before they are told apart; another as it is.
+    fn closely(
+        &self,
+        base: &Fitted,
+        fitted: Result<Fitted, String>,
+        best: &Fitted,
+    ) -> Result<Fitted, String> {
+        let fitted = fitted?;
+        if self.left(base, &fitted) < NEAR * self.left(base, best) {
+            return self.fitted(&fitted.terms, std::slice::from_ref(&fitted.point), Stop::NOISY);
+        }
+        Ok(fitted)
+    }
+
     /// Those that explain the data as well as the chosen one, or better and are only too common to be named, and are not the
     /// same with something more, nor need more late signals. What is nearly as good is fitted as closely as the chosen one
     /// before it is told apart.
@@ -314,12 +366,8 @@ impl World<'_> {
             if other.term == chosen.term || has_no_name(other.term) || more || later {
                 return false;
             }
-            let near = || {
-                let closer = || self.fitted(&fitted.terms, std::slice::from_ref(&fitted.point), Stop::NOISY);
-                self.left(base, fitted) < NEAR * self.left(base, best)
-                    && closer().is_ok_and(|it| self.as_good(base, close, &it))
-            };
-            self.as_good(base, best, fitted) || near()
+            let closer = || self.closely(base, Ok(fitted.clone()), best);
+            self.as_good(base, best, fitted) || closer().is_ok_and(|it| self.as_good(base, close, &it))
         };
         passing.par_iter().filter(rival).map(|it| it.term).collect()
     }

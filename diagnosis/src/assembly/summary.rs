@@ -1,10 +1,7 @@
 //! The verdict in a few sentences, with the numbers that matter.
 
 use crate::findings::{Curve, Effect, Findings, Signal, Verdict};
-use crate::report::words::{digits, located, unit};
-
-/// Significant digits of a value.
-const DIGITS: usize = 4;
+use crate::report::words::{digits, sized, value};
 
 /// Errors that exceed a signal's noise by this factor are told as not explained …
 const ABOVE_NOISE: f64 = 3.0;
@@ -39,11 +36,7 @@ pub(super) fn of(findings: &Findings) -> String {
 
 fn list(effects: &[Effect]) -> String {
     let told = effects.iter().map(|effect| {
-        let named = located(&effect.name, &effect.element);
-        let sized = match effect.parameters.first() {
-            Some(it) => format!("{named} ({} = {})", it.name, value(it.value, &it.unit)),
-            None => named,
-        };
+        let sized = sized(effect);
         match effect.ambiguous_with.as_slice() {
             [] => sized,
             rivals => format!("{sized}, which these records cannot tell from {}", rivals.join(", ")),
@@ -52,15 +45,11 @@ fn list(effects: &[Effect]) -> String {
     told.collect::<Vec<_>>().join("; ")
 }
 
-fn value(value: f64, symbol: &str) -> String {
-    format!("{} {}", digits(value, DIGITS), unit(symbol)).trim_end().to_owned()
-}
-
 fn parameters(findings: &Findings) -> Option<String> {
     let changed = findings.base_parameters.iter().filter(|it| it.mismatch);
     let changed: Vec<String> = changed
         .map(|it| {
-            let (after, before) = (value(it.after, &it.unit), digits(it.before, DIGITS));
+            let (after, before) = (value(it.after, &it.unit), digits(it.before, 4));
             format!("{} is {after} instead of {before}", it.name)
         })
         .collect();

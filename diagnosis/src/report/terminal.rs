@@ -4,7 +4,8 @@ use textwrap::Options;
 use unicode_width::UnicodeWidthStr;
 
 use super::words::{
-    badge, capitalised, cause, count, digits, fit, headline, interval, located, number, percent, place, unit,
+    badge, capitalised, cause, count, digits, fit, headline, interval, located, number, percent, place,
+    sized, unit,
 };
 use crate::findings::{Effect, Findings, Verdict};
 
@@ -26,6 +27,7 @@ pub fn terminal(findings: &Findings) -> String {
         lines.effect(findings, effect);
     }
     lines.more(findings.effects.len());
+    lines.common(findings);
     lines.base_parameters(findings);
     lines.signals(findings);
     lines.detectable(findings);
@@ -108,6 +110,15 @@ impl Lines {
             effect.experiment.as_ref().filter(|text| Some(*text) != findings.experiment.as_ref())
         {
             self.wrapped("  ", &format!("to tell: {experiment}"));
+        }
+    }
+
+    /// What is no finding, but part of the model now.
+    fn common(&mut self, findings: &Findings) {
+        if !findings.common.is_empty() {
+            self.blank();
+            let all: Vec<String> = findings.common.iter().map(sized).collect();
+            self.wrapped("", &format!("Fitted along, as every rig has a little of it: {}", all.join("; ")));
         }
     }
 

@@ -102,6 +102,20 @@ pub fn quantity(value: f64, symbol: &str) -> String {
     format!("{} {}", number(value), unit(symbol)).trim_end().to_owned()
 }
 
+/// The same to the digits of a result.
+pub fn value(value: f64, symbol: &str) -> String {
+    format!("{} {}", digits(value, 4), unit(symbol)).trim_end().to_owned()
+}
+
+/// What an effect is, where, and how much of it there is: `friction in the strut (strut.coulomb.force = 61.2 N)`.
+pub fn sized(effect: &Effect) -> String {
+    let named = located(&effect.name, &effect.element);
+    match effect.parameters.first() {
+        Some(it) => format!("{named} ({} = {})", it.name, value(it.value, &it.unit)),
+        None => named,
+    }
+}
+
 /// `name / unit`, for axes.
 pub fn labelled(name: &str, symbol: &str) -> String {
     let unit = unit(symbol);

@@ -74,14 +74,8 @@ impl World<'_> {
     /// rival. What was a rival while another cause was still missing may be none any more.
     pub(super) fn swap(&self, found: &mut Found) -> Result<(), String> {
         for index in 0..found.accepted.len() {
-            let accepted: Vec<Term> = found.accepted.iter().map(|it| it.term).collect();
-            let rivals: Vec<Term> = found.accepted[index]
-                .rivals
-                .iter()
-                .filter(|term| !accepted.contains(term))
-                .copied()
-                .collect();
-            found.accepted[index].rivals.clear();
+            let mut rivals = std::mem::take(&mut found.accepted[index].rivals);
+            rivals.retain(|term| !found.extended.terms.contains(term));
             if rivals.is_empty() {
                 continue;
             }
@@ -89,16 +83,18 @@ impl World<'_> {
             let screened = self.screened(&without)?;
             let candidates = screened.iter().filter(|it| rivals.contains(&it.term));
             for tried in candidates.map(|it| self.tried(&found.base, &without, it)) {
-                let Ok(fitted) = &tried.fitted else { continue };
-                if tried.evidence.refusal().is_some() {
+                let Ok(fitted) = &self.closely(&found.base, tried.fitted, &found.extended) else { continue };
+                if (Evidence { usual: false, ..tried.evidence }).refusal().is_some() {
                     continue;
                 }
                 let here = &mut found.accepted[index];
-                if !self.as_good(&found.base, fitted, &found.extended) {
+                let better = !self.as_good(&found.base, fitted, &found.extended);
+                // What is common takes no place, however much better it does: it is one of the rivals then.
+                if better && tried.evidence.refusal().is_none() {
                     here.rivals.clear();
                     (here.term, here.evidence) = (tried.term, tried.evidence);
                     found.extended = fitted.clone();
-                } else if self.as_good(&found.base, &found.extended, fitted) {
+                } else if better || self.as_good(&found.base, &found.extended, fitted) {
                     here.rivals.push(tried.term);
                 }
             }
@@ -109,11 +105,8 @@ impl World<'_> {
     /// Takes each accepted term away again, and drops it if nothing is lost. Beside a curve in the same element, more is asked of
     /// a name: what the curve's points lie too far apart for looks like one law or another.
     pub(super) fn retest(&self, found: &mut Found) -> Result<(), String> {
-        if found.accepted.len() < 2 {
-            return Ok(());
-        }
         let mut index = 0;
-        while index < found.accepted.len() && found.accepted.len() > 1 {
+        while index < found.accepted.len() && found.accepted.len() + found.common.len() > 1 {
             let without = self.without(found, index)?;
             let here = &found.accepted[index];
             let evidence = self.evidence(here.term, &found.base, &without, &found.extended);
@@ -121,7 +114,8 @@ impl World<'_> {
             let curved = |it: &Accepted| has_no_name(it.term) && element(it.term) == element(here.term);
             let usual = evidence.usual || found.accepted.iter().any(curved);
             let others = found.accepted.iter().enumerate().filter(|(other, _)| *other != index);
-            let largest = others.map(|(_, it)| it.evidence.phi_gain).fold(0.0, f64::max);
+            let others = others.map(|(_, it)| it).chain(&found.common);
+            let largest = others.map(|it| it.evidence.phi_gain).fold(0.0, f64::max);
             if (Evidence { usual, ..evidence }).refusal().is_some()
                 || !matters_beside(here.term, &evidence, largest)
             {

@@ -36,6 +36,7 @@ pub fn empty(verdict: Verdict) -> Findings {
         corrections: vec![],
         unnamed: None,
         nearest: Vec::new(),
+        common: Vec::new(),
         experiment: None,
         data_problems: vec![],
         candidates: vec![],

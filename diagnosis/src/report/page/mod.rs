@@ -33,6 +33,7 @@ pub fn html(findings: &Findings) -> String {
                     (tables::fatal_problems(findings))
                     @if parameters_first { (tables::base_parameters(findings)) }
                     (effects::section(findings))
+                    (effects::common(findings))
                     (unnamed(findings))
                     (experiment(findings))
                     (tables::detectable(findings))
