@@ -32,6 +32,8 @@ pub struct Car {
     pub tire_quadratic: f64,
     /// Tyre, in N s/m.
     pub tire_damping: f64,
+    /// Whether the tyre is glued to the road, as no tyre is: to see what leaving the road changes.
+    pub tire_is_glued: bool,
     /// Time constant in s with which the tyre smooths the road; zero is none.
     pub enveloping: f64,
     /// A mass that swings on the body.
@@ -136,13 +138,16 @@ impl Car {
         (self.sprung_mass + self.unsprung_mass + frame) * GRAVITY
     }
 
-    /// Dynamic force that presses on the road; the tyre cannot pull.
+    /// Dynamic force that presses on the road; the tyre cannot pull unless it is glued.
     fn tire_force(&self, compression: f64, velocity: f64) -> f64 {
+        let spring = compression * (self.tire_stiffness + self.tire_quadratic * compression);
+        if self.tire_is_glued {
+            return spring + self.tire_damping * velocity;
+        }
         let load = self.load();
         // Beyond its vertex the parabola turns up again: there the tyre is long in the air.
         let turned =
             self.tire_quadratic > 0.0 && compression < -self.tire_stiffness / (2.0 * self.tire_quadratic);
-        let spring = compression * (self.tire_stiffness + self.tire_quadratic * compression);
         if turned || spring <= -load {
             return -load;
         }

@@ -62,6 +62,8 @@ pub struct Score {
     pub out_of_catalogue: bool,
     /// Whether there was clutter.
     pub clutter: bool,
+    /// Whether every effect is as large beside it as the case asks for, as far as that is known.
+    pub full_size: bool,
     /// Whether the first name is one of those that are there; none if nothing is.
     pub first_right: Option<bool>,
     /// Whether the first cause is at the right place.
@@ -116,6 +118,7 @@ pub fn score(truth: &Truth, report: &str) -> Result<Score, String> {
         effects: effects.len(),
         out_of_catalogue,
         clutter: truth.case.clutter > 0,
+        full_size: effects.iter().all(|it| it.ratio.is_none_or(|ratio| ratio >= truth.case.ratio)),
         first_right: (!effects.is_empty()).then(|| {
             let right = |named: &Named| effects.iter().any(|effect| is_named(effect, named));
             report.effects.first().is_some_and(right)

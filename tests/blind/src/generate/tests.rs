@@ -142,8 +142,9 @@ fn effects_outdo_the_clutter_and_every_one_can_be_hidden() {
                 entry.id
             );
         }
-        // The parabola of a tyre that shall still lift off is bounded.
-        assert!(ratio > 2.0 || ["19", "20"].contains(&entry.id), "{}: {ratio}", entry.id);
+        // The parabola of a tyre that shall still lift off is bounded, and how far it lifts off is a matter of the road.
+        let least = if ["19", "20"].contains(&entry.id) { 0.5 } else { 2.0 };
+        assert!(ratio > least, "{}: {ratio}", entry.id);
     }
 }
 

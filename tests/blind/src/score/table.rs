@@ -40,6 +40,8 @@ pub fn markdown(scores: &[Score]) -> String {
     let good = |score: &Score| matches!(score.outcome, Outcome::Correct | Outcome::OneOfTwo);
     let alarm = |score: &Score| score.outcome == Outcome::FalseAlarm;
     row("correct, or one of two", "≥ 95 %", &mut single().map(good));
+    let full = || single().filter(|score| score.full_size);
+    row("the same where effects are as large as the targets ask", "≥ 95 %", &mut full().map(good));
     row("first name right", "≥ 95 %", &mut single().filter_map(|score| score.first_right));
     row("false alarms without clutter", "≤ 1 %", &mut without(false).map(alarm));
     row("false alarms with clutter", "≤ 5 %", &mut without(true).map(alarm));
