@@ -63,6 +63,8 @@ named! {
     plain_friction_of_a_drive: "drive-16";
     cogging_of_a_drive: "drive-27";
     friction_of_a_drive_and_a_constant_force: "drive-16-33g";
+    a_frame_s_mode_behind_a_late_command: "behind-18";
+    a_late_deflection_behind_a_curved_spring: "behind-36";
 }
 
 /// Nothing is there, or nothing that matters: no cause is claimed.

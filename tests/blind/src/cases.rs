@@ -79,6 +79,9 @@ pub fn compact() -> Vec<Case> {
     all.push(driven(standard("drive-16-33g", vec![Hidden::new("16"), Hidden::new("33g")], 36)));
     // A bush with play imitates it, and is less common.
     all.push(standard("common-07", vec![Hidden::new("07")], 1007));
+    // Behind a late command, and that and a curved spring, which are only clutter.
+    all.push(standard("behind-18", vec![Hidden::new("18")], 1012));
+    all.push(standard("behind-36", vec![Hidden::at("36", "suspension.deflection")], 1012));
     all
 }
 
@@ -236,11 +239,12 @@ mod tests {
     fn the_compact_list_is_what_it_was() {
         let names: Vec<String> =
             compact().into_iter().map(|case| format!("{}/{}", case.name, case.seed)).collect();
-        assert_eq!(names.len(), 30);
-        let [first, .., mismatch, breaking, dry, cogging, pair, last] = &names[..] else {
+        assert_eq!(names.len(), 32);
+        let [first, .., mismatch, breaking, dry, cogging, pair, common, frame, late] = &names[..] else {
             panic!("{names:?}")
         };
-        assert_eq!([first, mismatch, last], ["single-01/1", "mismatch/26", "common-07/1007"]);
+        assert_eq!([first, mismatch, common], ["single-01/1", "mismatch/26", "common-07/1007"]);
+        assert_eq!([frame, late], ["behind-18/1012", "behind-36/1012"]);
         assert_eq!(
             [breaking, dry, cogging, pair],
             ["drive-02g/33", "drive-16/34", "drive-27/35", "drive-16-33g/36"]
