@@ -209,6 +209,11 @@ impl World<'_> {
             && self.another(found, progress)?
             && !found.accepted.last().is_some_and(|it| has_no_name(it.term))
         {}
+        // Where nothing is beside it, what does far better than anything rare is the cause, however common.
+        if found.accepted.is_empty() {
+            let (common, far_better) = found.common.drain(..).partition(|it| it.evidence.usual);
+            (found.common, found.accepted) = (common, far_better);
+        }
         Ok(())
     }
 
@@ -237,14 +242,16 @@ impl World<'_> {
             let refines = found.accepted.iter().any(|other| contains_by_name(it.term, other.term));
             evidence.refusal().is_none() && (refines || matters_beside(it.term, evidence, largest))
         };
-        // Beside what is common, names are at stake: a curve without one would have shown before.
-        if !tried.iter().any(passes) && found.common.is_empty() {
-            let curves = self.curves(&found.base, &screened, 0.0);
+        if !tried.iter().any(passes) {
+            let mut curves = self.curves(&found.base, &screened, 0.0);
+            curves
+                .retain(|it| !found.tried.iter().any(|before| before.term == it.term && is_far_off(before)));
             tried.extend(self.try_all(&found.base, &found.extended, &curves));
         }
         let passing: Vec<&Tried> = tried.iter().filter(|it| passes(it)).collect();
         let common = self.far_better(&found.base, &tried, &passing);
-        let passing: Vec<&Tried> = if common.is_empty() { passing } else { common.iter().collect() };
+        let far_better = !common.is_empty();
+        let passing: Vec<&Tried> = if far_better { common.iter().collect() } else { passing };
         let chosen = self.chosen(&found.base, &passing).cloned();
         let beside = |it: &Tried, chosen: &Tried| {
             let common = Evidence { usual: false, ..it.evidence };
@@ -271,8 +278,8 @@ impl World<'_> {
         let small = accepted.evidence.usual
             && accepted.evidence.phi_gain <= Evidence::REQUIRED_OF_USUAL.phi_gain
             && !found.accepted.is_empty();
-        if small {
-            found.common.push(Accepted { rivals: Vec::new(), ..accepted });
+        if small || far_better {
+            found.common.push(accepted);
         } else {
             found.accepted.push(accepted);
         }
@@ -298,8 +305,8 @@ impl World<'_> {
         named.map(|it| self.simplest(base, it, passing)).or_else(|| passing.first().copied())
     }
 
-    /// What every rig has a little of, where it does far better than anything rare that passes: something has to be named then,
-    /// and that it is common is no objection.
+    /// What every rig has a little of, where it does far better than anything rare that passes: something is there then, and that
+    /// it is common is no objection.
     fn far_better(&self, base: &Fitted, tried: &[Tried], passing: &[&Tried]) -> Vec<Tried> {
         let left = |it: &Tried| it.fitted.as_ref().map_or(f64::INFINITY, |fitted| self.left(base, fitted));
         let rare = passing.iter().map(|it| left(it)).fold(f64::INFINITY, f64::min);
@@ -371,6 +378,11 @@ impl World<'_> {
         };
         passing.par_iter().filter(rival).map(|it| it.term).collect()
     }
+}
+
+/// Whether a curve gained so little that it will not be told beside what is common, either.
+fn is_far_off(curve: &Tried) -> bool {
+    curve.evidence.phi_gain < 0.5 * Evidence::REQUIRED_OF_USUAL.phi_gain
 }
 
 /// Whether a cause is told from the small effects that every real rig has, where another one raises Φ by so much. What has

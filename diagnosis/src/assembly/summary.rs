@@ -30,7 +30,7 @@ pub(super) fn of(findings: &Findings) -> String {
     let told = findings.verdict != Verdict::ModelInadequate;
     let curve = unnamed.as_ref().filter(|_| told).map(|curve| without_name(curve, &findings.nearest));
     let sentences =
-        [parameters(findings), Some(text), curve, gained(&findings.signals), noisy(findings), left(findings)];
+        [parameters(findings), Some(text), curve, gained(findings), noisy(findings), left(findings)];
     sentences.into_iter().flatten().filter(|it| !it.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
@@ -75,11 +75,12 @@ fn without_name(curve: &Curve, nearest: &[Effect]) -> String {
     format!("The model lacks {what} that has no name in the catalogue; {known}.")
 }
 
-fn gained(signals: &[Signal]) -> Option<String> {
+fn gained(findings: &Findings) -> Option<String> {
     let gain = |signal: &Signal| signal.phi_after - signal.phi_fitted;
-    let most = signals.iter().max_by(|a, b| gain(a).total_cmp(&gain(b)))?;
+    let most = findings.signals.iter().max_by(|a, b| gain(a).total_cmp(&gain(b)))?;
     let Signal { name, phi_fitted, phi_after, .. } = most;
-    let text = format!("On held-out data Φ of {name} rises from {phi_fitted:.3} to {phi_after:.3}.");
+    let along = if findings.common.is_empty() { "" } else { ", with what was fitted along" };
+    let text = format!("On held-out data Φ of {name} rises from {phi_fitted:.3} to {phi_after:.3}{along}.");
     (gain(most) > 0.0).then_some(text)
 }
 
