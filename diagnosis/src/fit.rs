@@ -22,6 +22,8 @@ const FORGOTTEN: &[&str] = &[
     "actuator.",
     "frame.",
     "enveloping.",
+    "force_cell.",
+    "spool.follower",
     "current",
     "overload",
     "velocity_loop.command",

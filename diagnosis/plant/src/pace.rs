@@ -18,6 +18,8 @@ const STABLE: f64 = 1.2;
 const WELL_BELOW: f64 = 0.75;
 /// How far what friction and bushes remember is displaced to look for contact, SI: beyond any play.
 const DISPLACED: f64 = 0.1;
+/// The same of what follows behind a backlash, whatever its unit: beyond the band its rate has one slope.
+const BEYOND_BANDS: f64 = 1e9;
 /// Steps between two samples beyond which a model is too stiff for this method.
 const MOST_STEPS: f64 = 60.0;
 
@@ -140,9 +142,14 @@ fn range<M: Model>(
     let resting = jacobian_at(&rest);
     let mut fastest = fastest_of(&resting);
     // What has play is loose at rest: it is looked at where it is in contact, too.
-    for (index, _) in declared.iter().enumerate().filter(|(_, state)| state.name.starts_with("hysteresis.")) {
+    for (index, state) in declared.iter().enumerate() {
+        let by = match &state.name {
+            name if name.starts_with("hysteresis.") => DISPLACED,
+            name if name.ends_with(".follower") => BEYOND_BANDS,
+            _ => continue,
+        };
         let mut displaced = rest.clone();
-        displaced[index] += DISPLACED;
+        displaced[index] += by;
         fastest = fastest.max(fastest_of(&jacobian_at(&displaced)));
     }
     // The rational function of a delay is one only in steps well below it.

@@ -46,6 +46,16 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "drive the valve by a random signal of small amplitude",
     },
     Cause {
+        id: "28h",
+        element: Element::Valve,
+        name: "hysteresis of the valve",
+        equation: "opening = x_v - clamp(x_v - y, -h, h), y dragged along by x_v from h on",
+        contains: &[],
+        setting: None,
+        parts: &[part("actuator.spool.hysteresis", Scale::DEFLECTION, (0.0, 1.0), &[0.1])],
+        experiment: "drive the valve slowly up and down with the pressures balanced, and compare the flows",
+    },
+    Cause {
         id: "41",
         element: Element::ForceCell,
         name: "inertia of the force cell",
@@ -54,5 +64,15 @@ pub(super) const CAUSES: &[Cause] = &[
         setting: None,
         parts: &[part("force_cell.mass", Scale::ONE, (0.0, 60.0), &[1.0])],
         experiment: "lift the wheel off the road and shake it: what the cell shows then is its own",
+    },
+    Cause {
+        id: "41h",
+        element: Element::ForceCell,
+        name: "hysteresis of the force cell",
+        equation: "y = F_tire - clamp(F_tire - y_0, -h, h), y_0 dragged along by F_tire from h on",
+        contains: &[],
+        setting: None,
+        parts: &[part("force_cell.hysteresis", Scale::FORCE, (0.0, 1.0), &[0.1])],
+        experiment: "load the cell by weights up and down, without the wheel's motion",
     },
 ];

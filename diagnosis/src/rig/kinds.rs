@@ -55,6 +55,12 @@ pub(super) const KINDS: &[Kind] = &[
                 velocity: Some("suspension.velocity"),
                 force: ForceOf::Input("actuator.force"),
             },
+            ElementSignals {
+                element: Element::ForceCell,
+                deflection: "tire.deflection",
+                velocity: None,
+                force: ForceOf::Output("wheel.force"),
+            },
         ],
         aliases: &[("road.position", &["road"]), ("actuator.force", &["force"])],
         trivial: &[],

@@ -129,6 +129,8 @@ struct Outside<'a> {
     road: (f64, f64),
     command: f64,
     friction: &'a [f64],
+    /// Where the valve's opening was left at the step's beginning, in m.
+    opening: f64,
 }
 
 impl Car {
@@ -169,7 +171,8 @@ impl Car {
         let (mut pressure_rate, mut spool_rate) = (0.0, 0.0);
         if let Some(servo) = &self.servo {
             active = servo.area * pressure;
-            (pressure_rate, spool_rate) = servo.rates(pressure, spool, outside.command, lever * v);
+            (pressure_rate, spool_rate) =
+                servo.rates(outside.opening, [pressure, spool], outside.command, lever * v);
         }
         let pulling = lever * (passive - active);
         let (ground, smoothed_rate) = if self.enveloping > 0.0 {
@@ -211,7 +214,7 @@ impl Car {
         state[9..11].copy_from_slice(&start[..2]);
         let mut friction = vec![0.0; self.contacts.len()];
         let mut motion = Motion::default();
-        let mut now = road.at(0.0);
+        let (mut now, mut opening) = (road.at(0.0), 0.0);
         for k in 0..count {
             let time = k as f64 * step;
             let outside = |time: f64, road, friction| Outside {
@@ -219,6 +222,7 @@ impl Car {
                 road,
                 command: force.at(time - self.actuator.delay).0,
                 friction,
+                opening,
             };
             let (first, tire) = self.rates(&state, outside(time, now, &friction));
             motion.push(&state, &first, now, force.at(time).0, tire);
@@ -233,6 +237,9 @@ impl Car {
                 state[i] += step / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]);
             }
             now = end;
+            if let Some(servo) = &self.servo {
+                opening = servo.dragged(opening, state[13]);
+            }
             if !self.contacts.is_empty() {
                 let mut velocities = [state[1], state[3]];
                 settle(&self.contacts, &mut friction, [state[0], state[2]], &mut velocities, masses, step);

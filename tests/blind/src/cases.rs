@@ -18,7 +18,7 @@ const PARTS: [&str; 21] = [
 const FURTHER: [&str; 3] = ["18", "22", "26"];
 
 /// Effects of a quarter car with a servo valve.
-const WITH_VALVE: [&str; 4] = ["01", "28", "29", "30"];
+const WITH_VALVE: [&str; 5] = ["01", "28", "28h", "29", "30"];
 
 /// What is the matter with a sensor and has no number.
 const UNNAMED_OF_SENSORS: [(&str, &str); 4] = [
@@ -106,8 +106,10 @@ fn full_of(seed: u64) -> Vec<Case> {
             all.push(standard(format!("sensor-{id}-{signal}-{seed}"), vec![Hidden::at(id, signal)], seed));
         }
     }
-    let cell = vec![Hidden::at("41", "wheel.force")];
-    all.push(standard(format!("sensor-41-wheel.force-{seed}"), cell, seed));
+    for id in ["41", "41h"] {
+        let cell = vec![Hidden::at(id, "wheel.force")];
+        all.push(standard(format!("sensor-{id}-wheel.force-{seed}"), cell, seed));
+    }
     all.push(standard(format!("sensor-42-{seed}"), vec![Hidden::at("42", "road.position")], seed));
     for id in ["U1", "U2", "U3", "U4"] {
         all.push(standard(format!("unnamed-{id}-{seed}"), vec![Hidden::new(id)], seed));

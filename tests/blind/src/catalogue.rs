@@ -124,9 +124,12 @@ pub fn entries() -> impl Iterator<Item = &'static Entry> {
     [strut::ENTRIES, parts::ENTRIES, drive::ENTRIES, sensor::ENTRIES, unnamed::ENTRIES].into_iter().flatten()
 }
 
+/// Laws with a letter in the catalogue of the diagnosis, too: who calls one by its number alone means another one.
+const LETTERED: [&str; 2] = ["28h", "41h"];
+
 /// The number in the catalogue of the diagnosis: what shares one has a letter here.
 pub fn number(id: &str) -> &str {
-    id.trim_end_matches(|c: char| c.is_ascii_lowercase())
+    if LETTERED.contains(&id) { id } else { id.trim_end_matches(|c: char| c.is_ascii_lowercase()) }
 }
 
 impl Entry {
@@ -198,7 +201,8 @@ mod tests {
         for entry in entries() {
             assert_eq!(entries().filter(|other| other.id == entry.id).count(), 1, "{}", entry.id);
         }
-        assert_eq!([number("38d"), number("02g"), number("01"), number("U1")], ["38", "02", "01", "U1"]);
+        let numbers = ["38d", "02g", "01", "U1", "28h"].map(number);
+        assert_eq!(numbers, ["38", "02", "01", "U1", "28h"]);
         assert!(Entry::find("99").is_err());
     }
 }

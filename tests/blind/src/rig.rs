@@ -61,6 +61,7 @@ impl Rig {
                 time_constant: of("actuator.spool.time_constant"),
                 stroke: of("actuator.spool.stroke"),
                 overlap: 0.0,
+                hysteresis: 0.0,
                 perimeter: of("actuator.valve.perimeter"),
                 discharge: of("actuator.valve.discharge_coefficient"),
                 supply: of("actuator.supply.pressure"),

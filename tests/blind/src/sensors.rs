@@ -23,6 +23,9 @@ pub struct Sensor {
     /// Mass between cell and tyre in kg, of a force cell in the wheel: it shows the tyre's force less what that
     /// mass takes.
     pub moved_mass: f64,
+    /// How far to each side the signal can be from what it was left at, in its unit, before what is shown follows: friction
+    /// in a cell.
+    pub hysteresis: f64,
     /// Shown over true.
     pub gain: f64,
     /// In the signal's unit.
@@ -49,6 +52,7 @@ impl Default for Sensor {
             skew: 0.0,
             rate_error: 0.0,
             moved_mass: 0.0,
+            hysteresis: 0.0,
             gain: 1.0,
             offset: 0.0,
             drift: 0.0,
@@ -63,7 +67,7 @@ impl Default for Sensor {
 impl Sensor {
     /// The samples that it shows of `signal`, which has [`RATE`] samples a second, at `rate` a second.
     pub fn measure(&self, signal: &[f64], rate: f64, random: &mut Random) -> Vec<f64> {
-        let ringing = resonating(signal, self.resonance);
+        let ringing = resonating(&dragged(signal, self.hysteresis), self.resonance);
         let passed = high_passed(&ringing, self.high_pass);
         let slow = delayed(&lagged(&lagged(&passed, self.lag), self.bandwidth), self.skew);
         let mut shown = decimated(&stretched(&slow, self.rate_error), rate);
@@ -94,6 +98,15 @@ impl Sensor {
             k += 1;
         }
     }
+}
+
+/// What friction leaves of a signal: it stays until the signal is `width` away, and is then dragged along.
+fn dragged(signal: &[f64], width: f64) -> Vec<f64> {
+    let drag = |left: &mut f64, value: &f64| {
+        *left = left.clamp(value - width, value + width);
+        Some(*left)
+    };
+    signal.iter().scan(signal[0], drag).collect()
 }
 
 /// Exact for a signal that is linear between samples.
@@ -269,6 +282,19 @@ mod tests {
             let truth = phase.sin() / (1.0 + omega_t * omega_t).sqrt();
             assert!((seen - truth).abs() < 1e-3);
         }
+    }
+
+    /// A loop as wide as the band twice, whose middle is the signal: behind by the width until it turns.
+    #[test]
+    fn friction_makes_a_loop() {
+        let (signal, width) = (sine(1.0, 4.0), 0.3);
+        let seen = dragged(&signal, width);
+        let at = |share: f64| seen[(share * RATE) as usize];
+        assert!((at(2.0) - signal[40_000] + width).abs() < 1e-9 && (at(2.5) - width).abs() < 1e-3);
+        assert!(
+            (at(2.25) - 0.7).abs() < 1e-9 && (at(2.3) - 0.7).abs() < 1e-9 && (at(2.75) + 0.7).abs() < 1e-9
+        );
+        assert_eq!(dragged(&signal, 0.0), signal);
     }
 
     #[test]

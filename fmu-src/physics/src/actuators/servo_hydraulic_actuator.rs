@@ -83,6 +83,9 @@ pub struct SpoolState<R> {
     /// Displacement from the middle, positive if it lets body and wheel be driven apart (u_1)
     #[var(unit = M, nominal = 1e-4, output)]
     pub position: R,
+    /// Where the opening has followed it to, a band's edge or anywhere within the band
+    #[var(unit = M, nominal = 1e-4)]
+    pub follower: R,
 }
 
 /// What comes out.
@@ -120,6 +123,11 @@ pub(crate) const EQUATIONS: &[Equation] = &[
     Equation { text: "linear: Q = u_1 l C_d sqrt(P_z/rho)", source: "Konieczny eq. 2.23" },
     Equation { text: "regression: alpha Q = 4.666e13 u_1 - 341.2 P_r", source: "Konieczny eq. 2.24" },
     Equation { text: "tau u_1' + u_1 = k_sv v, |k_sv v| <= u_1max", source: "Konieczny eq. 2.13" },
+    Equation {
+        text: "spool.overlap d, spool.hysteresis h: in Q u_1 becomes dz(u_1 - clamp(u_1 - y, -h, h), d), T y' = dz(u_1 - y, h), T \
+            = 0.5 ms, dz a dead zone",
+        source: "catalogue of diagnosis: 28",
+    },
     Equation {
         text: "supply: Q_z = sign(u_1) Q, of the regression |u_1| 4.666e13/alpha; power P_z Q_z",
         source: "Konieczny 3",
@@ -167,6 +175,7 @@ impl Model for ServoHydraulicActuator {
             EQUATIONS[4],
             EQUATIONS[5],
             EQUATIONS[6],
+            EQUATIONS[7],
             Equation {
                 text: "with load.mass m > 0, at t_k = k T: v in P_r' becomes v + T (F_k/m + a_k)/2; force between t_k and \
                     t_(k+1): A_a P, P = P_r + T/2 alpha (Q - A_a (w + T/2 (A_a P/m + a_k)) - C_tm P), w = v_k + T (F_k/m \
@@ -246,7 +255,8 @@ impl Model for ServoHydraulicActuator {
             now.memory.load
         };
         let (cylinder, State { pressure, spool }) = (now.parameters.cylinder(), *now.state);
-        let flow = cylinder.flow(self.law, now.derived, spool.position, pressure).load;
+        let (opening, _) = cylinder.followed(spool.position, spool.follower);
+        let flow = cylinder.flow(self.law, now.derived, opening, pressure).load;
         let force = load.force(&cylinder, now.derived, Pressed { pressure, flow }, &known, now.tick);
         Memory { load: load.remember(&known, now.tick, velocity, force) }
     }
@@ -255,12 +265,13 @@ impl Model for ServoHydraulicActuator {
     fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
         let (State { pressure, spool }, u, p) = (*now.state, now.input, now.parameters.cylinder());
         let (load, memory) = (&now.parameters.load, &now.memory.load);
-        let flow = p.flow(self.law, now.derived, spool.position, pressure);
+        let (opening, follower) = p.followed(spool.position, spool.follower);
+        let flow = p.flow(self.law, now.derived, opening, pressure);
         let velocity = u.suspension.velocity;
         let velocity = load.choose(|| velocity + load.gain(memory), velocity);
         let rates = State {
             pressure: p.pressure_rate(now.derived, flow.load, velocity, pressure),
-            spool: SpoolState { position: p.spool_rate(u.voltage, spool.position) },
+            spool: SpoolState { position: p.spool_rate(u.voltage, spool.position), follower },
         };
         let supply = SupplyOutput { flow: flow.supply, power: p.supply.pressure * flow.supply };
         let pressed = Pressed { pressure, flow: flow.load };

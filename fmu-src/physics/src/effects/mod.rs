@@ -7,6 +7,7 @@
 //! The catalogue of diagnosis numbers the effects that a difference between measurement and model is looked for in.
 
 mod asymmetry;
+mod backlash;
 mod cogging;
 mod coulomb;
 mod curve;
@@ -32,6 +33,7 @@ mod transport;
 mod yield_force;
 
 pub use asymmetry::Asymmetry;
+pub use backlash::behind_backlash;
 pub use cogging::Cogging;
 pub use coulomb::{Coulomb, RotaryCoulomb};
 pub use curve::{CommandCurve, CompressionCurve, ForceCurve, POINTS, VelocityCurve};

@@ -2,7 +2,7 @@
 
 use strut_model::{Choice, Real, Variables};
 
-use crate::effects::dead_zone;
+use crate::effects::{behind_backlash, dead_zone};
 
 /// How the flow through the valve follows from spool position and load pressure.
 #[derive(Choice, Clone, Copy, Debug, PartialEq)]
@@ -109,6 +109,10 @@ pub struct Spool<R> {
     /// Displacement to either side within which the valve stays closed (catalogue of diagnosis, 28)
     #[var(unit = M, start = 0.0, min = 0.0)]
     pub overlap: R,
+    /// Half the backlash with which the opening follows the spool, half the width of the valve's hysteresis (catalogue of
+    /// diagnosis, 28)
+    #[var(unit = M, start = 0.0, min = 0.0)]
+    pub hysteresis: R,
 }
 
 /// What follows from cylinder and valve.
@@ -179,7 +183,13 @@ impl<R: Real> ServoCylinder<R> {
         hydraulics.coefficient * (flow - cylinder.area * velocity - cylinder.leakage * pressure)
     }
 
-    /// The flows at a spool position and pressure difference.
+    /// Where the spool stands as far as the opening is concerned, and the rate of what follows it.
+    #[inline]
+    pub fn followed(&self, position: R, follower: R) -> (R, R) {
+        behind_backlash(self.spool.hysteresis, follower, position)
+    }
+
+    /// The flows at a spool position, as the opening follows it, and a pressure difference.
     #[inline]
     pub fn flow(&self, law: ValveLaw, hydraulics: &Hydraulics<R>, position: R, pressure: R) -> Flow<R> {
         let overlap = self.spool.overlap;

@@ -10,7 +10,7 @@ use strut_model::{
     About, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
 };
 
-use crate::effects::{Enveloping, EnvelopingState, FrameMode, FrameState, switched_on};
+use crate::effects::{Enveloping, EnvelopingState, FrameMode, FrameState, behind_backlash, switched_on};
 use crate::elements::{
     Actuation, ActuationState, Corner, Guide, Hysteresis, HysteresisState, Load, Mode, Strut, Tire,
     WheelGuide,
@@ -61,12 +61,24 @@ pub struct Parameters<R> {
     pub force_cell: ForceCell<R>,
 }
 
-/// What a force cell in a wheel leaves out: what is outside of it has to be accelerated, too (catalogue of diagnosis, 41).
+/// What a force cell in a wheel does not show: what is outside of it has to be accelerated, too, and friction in it holds its
+/// reading where it was (catalogue of diagnosis, 41).
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct ForceCell<R> {
     /// Part of the unsprung mass between tyre and cell; zero: the cell measures the tyre's force
     #[var(unit = KG, start = 0.0, min = 0.0)]
     pub mass: R,
+    /// Half the backlash with which the reading follows the force, half the width of the cell's hysteresis
+    #[var(unit = N, start = 0.0, min = 0.0)]
+    pub hysteresis: R,
+}
+
+/// What a force cell remembers.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct ForceCellState<R> {
+    /// What the reading has followed to, a band's edge or anywhere within the band
+    #[var(unit = N, nominal = 100.0)]
+    pub follower: R,
 }
 
 /// What comes from outside.
@@ -93,6 +105,8 @@ pub struct State<R> {
     pub frame: FrameState<R>,
     /// What the tyre sees of the road
     pub enveloping: EnvelopingState<R>,
+    /// Cell that measures the wheel's force
+    pub force_cell: ForceCellState<R>,
 }
 
 /// What can be measured.
@@ -179,8 +193,12 @@ impl Model for QuarterCar {
                 source: "catalogue of diagnosis: 18",
             },
             Equation {
-                text: "enveloping: the tyre sees T_e z' = z_r - z instead of z_r; force cell: wheel.force = F_tire - m_c a_u",
-                source: "catalogue of diagnosis: 22, 41",
+                text: "enveloping: the tyre sees T_e z' = z_r - z instead of z_r",
+                source: "catalogue of diagnosis: 22",
+            },
+            Equation {
+                text: "force cell: wheel.force = F - clamp(F - y, -h, h), T y' = dz(F - y, h), T = 0.5 ms, F = F_tire - m_c a_u",
+                source: "catalogue of diagnosis: 41",
             },
             Equation {
                 text: "with lift-off: F_tire >= -F_0, and F_tire = -F_0 for c <= c_l, F_0 = (m_s + m_u) g",
@@ -263,7 +281,7 @@ impl Model for QuarterCar {
                 + p.wheel_guide.further_effects()
                 + p.hysteresis.further_effects()
                 + p.actuator.further_effects()
-                + switched_on([p.frame.mass, p.enveloping.time, p.force_cell.mass]),
+                + switched_on([p.frame.mass, p.enveloping.time, p.force_cell.mass, p.force_cell.hysteresis]),
         }
     }
 
@@ -295,9 +313,12 @@ impl Model for QuarterCar {
         // The reciprocal does not wait for the force as the quotient would.
         let mut acceleration = (actuator - on_body) * (R::from(1.0) / p.sprung_mass);
         let mut frame = FrameMode::rest();
+        let mut follower = R::from(0.0);
         if !further.vanishes() {
             moving.wheel.acceleration -= p.wheel_guide.resistance(wheel.velocity) / p.unsprung_mass;
-            moving.wheel.force -= p.force_cell.mass * moving.wheel.acceleration;
+            let pressing = moving.wheel.force - p.force_cell.mass * moving.wheel.acceleration;
+            (moving.wheel.force, follower) =
+                behind_backlash(p.force_cell.hysteresis, now.state.force_cell.follower, pressing);
             if !p.frame.mass.vanishes() {
                 let pull = p.frame.pull(now.state.frame);
                 acceleration += p.frame.mass * pull / p.sprung_mass;
@@ -312,6 +333,7 @@ impl Model for QuarterCar {
             actuator: on_its_way,
             frame,
             enveloping,
+            force_cell: ForceCellState { follower },
         };
         let output = Output {
             body: Acceleration { acceleration },

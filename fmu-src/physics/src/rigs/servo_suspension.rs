@@ -144,6 +144,7 @@ impl Model for ServoSuspension {
             servo::EQUATIONS[4],
             servo::EQUATIONS[5],
             servo::EQUATIONS[6],
+            servo::EQUATIONS[7],
         ],
         notes: &[
             "The state holds the wheel's velocity without what the tyre's damper has done, q = z_1' + b_1 \
@@ -239,7 +240,8 @@ impl Model for ServoSuspension {
         let undamped = p.tire.without_damping().force(compression, approach, further);
         let tire = undamped + p.tire.damping * approach;
         let force = p.actuator.force(pressure);
-        let flow = p.actuator.flow(self.law, hydraulics, spool.position, pressure);
+        let (opening, follower) = p.actuator.followed(spool.position, spool.follower);
+        let flow = p.actuator.flow(self.law, hydraulics, opening, pressure);
 
         let body_acceleration = (force - on_body) * per_sprung;
         let on_wheel = strut - force;
@@ -250,7 +252,10 @@ impl Model for ServoSuspension {
                 undamped_velocity: (on_wheel + undamped) * per_unsprung,
             },
             pressure: p.actuator.pressure_rate(hydraulics, flow.load, velocity, pressure),
-            spool: SpoolState { position: p.actuator.spool_rate(now.input.voltage, spool.position) },
+            spool: SpoolState {
+                position: p.actuator.spool_rate(now.input.voltage, spool.position),
+                follower,
+            },
         };
         let output = Output {
             body: Acceleration { acceleration: body_acceleration },

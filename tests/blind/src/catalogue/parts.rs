@@ -87,6 +87,12 @@ pub(super) static ENTRIES: &[Entry] = &[
         &[drawn("actuator.spool.overlap", "m", (4e-6, 1e-5), ZERO, (0.0, 2.5e-5))],
     ),
     entry(
+        "28h",
+        "hysteresis of the valve",
+        Place::Actuator,
+        &[drawn("actuator.spool.hysteresis", "m", (4e-6, 1e-5), ZERO, (0.0, 2.5e-5))],
+    ),
+    entry(
         "29",
         "gain of the valve",
         Place::Actuator,

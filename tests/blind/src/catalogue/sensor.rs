@@ -56,6 +56,12 @@ pub(super) static ENTRIES: &[Entry] = &[
         &[drawn("force_cell.mass", "kg", (3.0, 8.0), ZERO, (0.0, 10.0))],
     ),
     entry(
+        "41h",
+        "hysteresis of the wheel's force cell",
+        Place::Sensor,
+        &[of(Scale::Signal, drawn("force_cell.hysteresis", "", (0.06, 0.15), ZERO, (0.0, 0.6)))],
+    ),
+    entry(
         "42",
         "gain and lag of the road's sensor",
         Place::Sensor,

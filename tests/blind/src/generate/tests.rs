@@ -120,12 +120,12 @@ fn only_lift_off_lifts_off() {
 fn effects_outdo_the_clutter_and_every_one_can_be_hidden() {
     for entry in crate::catalogue::entries() {
         let plant = match entry.id {
-            "28" | "29" | "30" => Plant::ServoQuarter,
+            "28" | "28h" | "29" | "30" => Plant::ServoQuarter,
             "02g" | "27" | "33g" => Plant::LinearDrive,
             _ => Plant::LinearQuarter,
         };
         let signal = match (entry.place, entry.id) {
-            (crate::catalogue::Place::Sensor, "41") => "wheel.force",
+            (crate::catalogue::Place::Sensor, "41" | "41h") => "wheel.force",
             (crate::catalogue::Place::Sensor, "42") => "road.position",
             (crate::catalogue::Place::Sensor, _) => "body.acceleration",
             _ => "",
@@ -189,6 +189,25 @@ fn the_cells_inertia_is_missing_in_the_wheels_force() {
         for ((force, plain), acceleration) in forces.zip(wheel) {
             assert!((plain - force - parameter.value * acceleration).abs() < 1e-8, "{plain} N, {force} N");
         }
+    }
+}
+
+/// What the cell shows is off by its friction at most, and off by all of it for most of the time; the wheel does not notice.
+#[test]
+fn the_cells_friction_is_what_the_wheels_force_is_off_by() {
+    let plain = clean(Plant::LinearQuarter, vec![]);
+    let made = clean(Plant::LinearQuarter, vec![Hidden::at("41h", "wheel.force")]);
+    let parameter = &made.truth.effects[0].parameters[0];
+    assert_eq!((parameter.name.as_str(), parameter.unit.as_str()), ("force_cell.hysteresis", "N"));
+    for (table, plain) in made.train.iter().zip(&plain.train) {
+        let of = |table: &Table, name| table.column(name).unwrap().to_vec();
+        assert_eq!(of(table, "wheel.acceleration"), of(plain, "wheel.acceleration"));
+        let forces = of(table, "wheel.force").into_iter().zip(of(plain, "wheel.force"));
+        let off: Vec<f64> = forces.map(|(shown, force)| (shown - force).abs() / parameter.value).collect();
+        // The filter swings over a little where the force turns.
+        assert!(off.iter().all(|it| *it < 1.1), "{}", table.name);
+        let whole = off.iter().filter(|it| (*it - 1.0).abs() < 0.02).count();
+        assert!(whole > off.len() / 4, "{}: {whole} of {}", table.name, off.len());
     }
 }
 

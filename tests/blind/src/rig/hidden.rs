@@ -11,7 +11,7 @@ use crate::strut::Hump;
 /// Whether a plant has the part that the effect sits in, and does not have the effect anyway.
 fn is_possible(plant: Plant, entry: &Entry) -> bool {
     let id = entry.id;
-    let of_servo = ["28", "29", "30"].contains(&id);
+    let of_servo = ["28", "28h", "29", "30"].contains(&id);
     let of_drive = ["02g", "27", "33g"].contains(&id);
     match plant {
         Plant::LinearQuarter => !of_servo && !of_drive,
@@ -81,7 +81,7 @@ impl Rig {
             "25" => self.car.actuator.gain = first,
             "26" => self.car.actuator.limit = first,
             "27" => drive.cogging = Some((first, values[1], values[2])),
-            "28" | "29" | "30" => put_in_valve(self.car.servo.as_mut(), entry.id, first),
+            "28" | "28h" | "29" | "30" => put_in_valve(self.car.servo.as_mut(), entry.id, first),
             "32" | "32h" => strut.yielding = Some((first, values[1], values[2])),
             "33g" => drive.constant_load = first,
             "U1" => strut.hump = Some(hump(values)),
@@ -97,9 +97,10 @@ impl Rig {
     }
 
     fn put_in_sensor(&mut self, entry: &Entry, values: &[f64], signal: &str) -> Result<(), String> {
-        if entry.id == "41" && signal != "wheel.force" {
+        if ["41", "41h"].contains(&entry.id) && signal != "wheel.force" {
             return Err(format!(
-                "effect 41 sits in the sensor of wheel.force, and not in that of `{signal}`"
+                "effect {} sits in the sensor of wheel.force, and not in that of `{signal}`",
+                entry.id
             ));
         }
         let known: Vec<String> = self.sensors.keys().cloned().collect();
@@ -124,6 +125,7 @@ impl Rig {
                 "range" => sensor.range = *value,
                 "rate" => sensor.rate_error = *value,
                 "force_cell.mass" => sensor.moved_mass = *value,
+                "force_cell.hysteresis" => sensor.hysteresis = *value,
                 _ => sensor.dropout = *value,
             }
         }
@@ -135,6 +137,7 @@ fn put_in_valve(servo: Option<&mut Servo>, id: &str, value: f64) {
     let Some(servo) = servo else { return };
     match id {
         "28" => servo.overlap = value,
+        "28h" => servo.hysteresis = value,
         "29" => servo.gain = value,
         _ => servo.leakage = value,
     }

@@ -58,6 +58,14 @@ fn one_effect() {
 }
 
 #[test]
+fn a_law_with_a_letter_of_its_own_is_not_called_by_the_number_alone() {
+    let of = |report: &str| came_out(&[("28h", Place::Actuator, "")], report);
+    assert_eq!(of(&named(&[("28h", "valve", &[])])), Outcome::Correct);
+    assert_eq!(of(&named(&[("28", "valve", &["28h valve"])])), Outcome::OneOfTwo);
+    assert_eq!(of(&named(&[("28", "valve", &[])])), Outcome::WrongName);
+}
+
+#[test]
 fn gain_and_delay_of_one_input_are_one_effect() {
     let input = ("42", Place::Sensor, "road.position");
     let twice = named(&[("42", "road.position", &[]), ("42", "road.position", &[])]);

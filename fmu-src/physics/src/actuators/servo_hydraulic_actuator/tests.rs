@@ -56,6 +56,23 @@ fn a_held_piston_stalls_just_below_the_supply_pressure() {
     assert!((bench.get("force") - 0.765_786e-3 * pressure).abs() < 1e-9);
 }
 
+#[test]
+fn behind_a_hysteresis_the_opening_stays_where_it_was_until_the_spool_is_a_band_away() {
+    // 50 µm and back to 36 µm, with 10 µm to either side of the opening: it stays at 40 µm, the spool of 1.6 V.
+    let held = |hysteresis: f64, voltage: f64| {
+        let mut bench = actuator(ValveLaw::Linear, &[("voltage", 2.0), ("spool.hysteresis", hysteresis)]);
+        (0..50).for_each(|_| bench.step(1e-3));
+        bench.set("voltage", voltage);
+        (0..50).for_each(|_| bench.step(1e-3));
+        bench.get("supply.flow")
+    };
+    let due = |voltage: f64| held(0.0, voltage);
+    for (voltage, opened) in [(2.0, 1.6), (1.44, 1.6), (1.0, 1.4), (2.4, 2.0)] {
+        let flow = held(10e-6, voltage);
+        assert!((flow / due(opened) - 1.0).abs() < 1e-4, "{voltage} V: {flow}, not {}", due(opened));
+    }
+}
+
 proptest! {
     #[test]
     fn what_goes_in_comes_out_is_stored_or_lost(
@@ -69,7 +86,7 @@ proptest! {
         let derived = actuator.derive(&p);
         let (rates, output) = actuator.equations(Now {
             time: 0.0,
-            state: &State { pressure, spool: SpoolState { position } },
+            state: &State { pressure, spool: SpoolState { position, follower: 0.0 } },
             input: &Input { voltage, suspension: TravelRate { velocity } },
             parameters: &p,
             derived: &derived,
@@ -95,7 +112,7 @@ proptest! {
         prop_assert_eq!(ServoHydraulicActuator::period(&p), None);
         let (rates, output) = actuator.equations(Now {
             time: 0.0,
-            state: &State { pressure, spool: SpoolState { position } },
+            state: &State { pressure, spool: SpoolState { position, follower: 0.0 } },
             input: &Input { voltage: 0.0, suspension: TravelRate { velocity } },
             parameters: &p,
             derived: &derived,

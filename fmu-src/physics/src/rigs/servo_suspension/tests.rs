@@ -26,12 +26,12 @@ fn parameters<R: Real>(changes: &[(&str, f64)]) -> Parameters<R> {
     Bundle::from_fn(|i| R::from(declared[i].start))
 }
 
-/// States: z_2, z_2', z_1, q, P_r, u_1; inputs: v, w, w'.
+/// States: z_2, z_2', z_1, q, P_r, u_1, without hysteresis of the valve; inputs: v, w, w'.
 fn evaluate<R: Real>(law: ValveLaw, p: &Parameters<R>, x: [R; 6], u: [R; 3]) -> (State<R>, Output<R>) {
     let suspension = ServoSuspension { law };
     suspension.equations(Now {
         time: R::from(0.0),
-        state: &Bundle::from_fn(|i| x[i]),
+        state: &Bundle::from_fn(|i| x.get(i).copied().unwrap_or(R::from(0.0))),
         input: &Bundle::from_fn(|i| u[i]),
         parameters: p,
         derived: &suspension.derive(p),

@@ -33,7 +33,8 @@ fn every_effect() -> Parameters<f64> {
     (p.actuator.gain, p.actuator.delay, p.actuator.lag) = (0.9, 3e-3, 2e-3);
     (p.actuator.saturation.ratio, p.actuator.saturation.force) = (0.7, 2.0);
     (p.actuator.curve.scale, p.actuator.curve.over_force[6]) = (1.0, 3.0);
-    (p.frame.mass, p.enveloping.time, p.force_cell.mass) = (2.0, 5e-3, 4.0);
+    (p.frame.mass, p.enveloping.time) = (2.0, 5e-3);
+    (p.force_cell.mass, p.force_cell.hysteresis) = (4.0, 3.0);
     p
 }
 
@@ -174,6 +175,26 @@ fn a_force_cell_leaves_out_what_is_outside_of_it() {
 }
 
 #[test]
+fn a_force_cell_with_hysteresis_hangs_behind_by_half_of_it_wherever_the_force_goes_on() {
+    let cells = |hysteresis: f64| {
+        on_a_road(rig(&[("force_cell.hysteresis", hysteresis)]), ["wheel.force", "body.position"])
+    };
+    let behind: Vec<f64> = cells(0.0)
+        .into_iter()
+        .zip(cells(30.0))
+        .map(|([force, body], [shown, moved])| {
+            // Each run has steps of its own.
+            assert!((body - moved).abs() < 1e-6);
+            force - shown
+        })
+        .collect();
+    let reached = |of: &f64| behind.iter().filter(|it| (*it - of).abs() < 0.1).count();
+    assert!(behind.iter().all(|it| it.abs() < 30.1));
+    // For most of the time: it goes over from one side to the other while the force turns.
+    assert!(reached(&30.0) + reached(&-30.0) > behind.len() / 2, "{} {}", reached(&30.0), reached(&-30.0));
+}
+
+#[test]
 fn a_frame_far_below_its_resonance_is_part_of_the_body() {
     let mass = Rig::published("TumQuarterVehicle").get("sprung_mass");
     let positions = |changes: &[(&str, f64)]| on_a_road(rig(changes), ["body.position"]);
@@ -213,13 +234,13 @@ proptest! {
     #[test]
     fn every_effect_says_the_same_in_every_scalar(
         x in prop::array::uniform4(-0.03..0.03_f64),
-        memory in prop::array::uniform9(-1.0..1.0_f64),
+        memory in prop::array::uniform10(-1.0..1.0_f64),
         u in prop::array::uniform3(-0.01..0.01_f64),
         seeds in prop::collection::vec(-1.0..1.0_f64, <Parameters<f64> as Bundle<f64>>::LEN),
     ) {
         let nominal = list(&every_effect());
         let motion = [x[0], 10.0 * x[1], x[2], 10.0 * x[3]];
-        let magnitudes = [60.0, 0.01, 1e-3, 5.0, 5.0, 5.0, 1e-4, 0.01, 0.01];
+        let magnitudes = [60.0, 0.01, 1e-3, 5.0, 5.0, 5.0, 1e-4, 0.01, 0.01, 50.0];
         let x = std::array::from_fn(|i| if i < 4 { motion[i] } else { magnitudes[i - 4] * memory[i - 4] });
         let plain = with_memory(&every_effect(), x, u);
         let lanes: Parameters<Lanes> = Bundle::from_fn(|i| Lanes::from(nominal[i]));
