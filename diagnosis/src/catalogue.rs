@@ -132,6 +132,8 @@ impl Scale {
     pub const CUBIC: Self = Self { force: 1, deflection: -3, velocity: 0 };
     /// A damping rate.
     pub const DAMPING: Self = Self { force: 1, deflection: 0, velocity: -1 };
+    /// The time that a change of a force takes.
+    pub const SLOWNESS: Self = Self { force: -1, deflection: 1, velocity: -1 };
     /// A force over a velocity squared.
     pub const ORIFICE: Self = Self { force: 1, deflection: 0, velocity: -2 };
 

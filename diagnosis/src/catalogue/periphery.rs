@@ -36,6 +36,16 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "repeat the run with half the command",
     },
     Cause {
+        id: "26s",
+        element: Element::Actuator,
+        name: "slew limit of the actuator",
+        equation: "|F'| <= 1/s",
+        contains: &[],
+        setting: None,
+        parts: &[part("actuator.slew.slowness", Scale::SLOWNESS, (0.0, 10.0), &[0.1, 0.3, 1.0])],
+        experiment: "command steps of several sizes: larger ones take longer",
+    },
+    Cause {
         id: "28",
         element: Element::Valve,
         name: "overlap of the valve",

@@ -109,6 +109,8 @@ units! {
     N_PER_M3 = "N/m3" { kg: 1, m: -2, s: -2 };
     /// Metre per newton: a compliance.
     M_PER_N = "m/N" { kg: -1, s: 2 };
+    /// Second per newton: how long a force takes to change.
+    S_PER_N = "s/N" { kg: -1, m: -1, s: 3 };
     /// Newton second squared per square metre: what an orifice makes of a velocity squared.
     N_S2_PER_M2 = "N.s2/m2" { kg: 1, m: -1 };
     /// Newton second per metre.

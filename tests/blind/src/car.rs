@@ -76,6 +76,8 @@ pub struct Actuator {
     pub gain: f64,
     /// Largest force to each side, in N.
     pub limit: f64,
+    /// Largest rate at which the force changes, in N/s.
+    pub slew: f64,
 }
 
 impl Actuator {
@@ -83,11 +85,16 @@ impl Actuator {
     fn made_of(&self, command: f64) -> f64 {
         (self.gain * command).clamp(-self.limit, self.limit)
     }
+
+    /// The force `after` seconds later than it was `before`, on its way to what is made of the command.
+    fn reached(&self, before: f64, made: f64, after: f64) -> f64 {
+        made.clamp(before - self.slew * after, before + self.slew * after)
+    }
 }
 
 impl Default for Actuator {
     fn default() -> Self {
-        Self { delay: 0.0, lag: 0.0, gain: 1.0, limit: f64::INFINITY }
+        Self { delay: 0.0, lag: 0.0, gain: 1.0, limit: f64::INFINITY, slew: f64::INFINITY }
     }
 }
 
@@ -127,7 +134,8 @@ type State = [f64; 14];
 struct Outside<'a> {
     time: f64,
     road: (f64, f64),
-    command: f64,
+    /// What the actuator has made of its command, before its lag; with a valve the voltage.
+    made: f64,
     friction: &'a [f64],
     /// Where the valve's opening was left at the step's beginning, in m.
     opening: f64,
@@ -165,14 +173,13 @@ impl Car {
         let lever = 1.0 + self.strut.linkage * x;
         let length = x * (1.0 + 0.5 * self.strut.linkage * x);
         let (passive, inner_rates) = self.strut.force(outside.time, length, lever * v, &inner);
-        let made = self.actuator.made_of(outside.command);
+        let made = outside.made;
         let (mut active, lag_rate) =
             if self.actuator.lag > 0.0 { (lagged, (made - lagged) / self.actuator.lag) } else { (made, 0.0) };
         let (mut pressure_rate, mut spool_rate) = (0.0, 0.0);
         if let Some(servo) = &self.servo {
             active = servo.area * pressure;
-            (pressure_rate, spool_rate) =
-                servo.rates(outside.opening, [pressure, spool], outside.command, lever * v);
+            (pressure_rate, spool_rate) = servo.rates(outside.opening, [pressure, spool], made, lever * v);
         }
         let pulling = lever * (passive - active);
         let (ground, smoothed_rate) = if self.enveloping > 0.0 {
@@ -215,24 +222,23 @@ impl Car {
         let mut friction = vec![0.0; self.contacts.len()];
         let mut motion = Motion::default();
         let (mut now, mut opening) = (road.at(0.0), 0.0);
+        let made = |time: f64| self.actuator.made_of(force.at(time - self.actuator.delay).0);
+        let mut halfway = made(0.0);
         for k in 0..count {
             let time = k as f64 * step;
-            let outside = |time: f64, road, friction| Outside {
-                time,
-                road,
-                command: force.at(time - self.actuator.delay).0,
-                friction,
-                opening,
-            };
-            let (first, tire) = self.rates(&state, outside(time, now, &friction));
+            let reached = |before: f64, time: f64| self.actuator.reached(before, made(time), 0.5 * step);
+            let beginning = reached(halfway, time);
+            halfway = reached(beginning, time + 0.5 * step);
+            let outside = |time: f64, road, made, friction| Outside { time, road, made, friction, opening };
+            let (first, tire) = self.rates(&state, outside(time, now, beginning, &friction));
             motion.push(&state, &first, now, force.at(time).0, tire);
 
             let (middle, end) = (road.at(time + 0.5 * step), road.at(time + step));
-            let half = outside(time + 0.5 * step, middle, &friction);
+            let half = outside(time + 0.5 * step, middle, halfway, &friction);
             let (second, _) = self.rates(&advanced(&state, &first, 0.5 * step), half);
             let (third, _) = self.rates(&advanced(&state, &second, 0.5 * step), half);
-            let (fourth, _) =
-                self.rates(&advanced(&state, &third, step), outside(time + step, end, &friction));
+            let last = outside(time + step, end, reached(halfway, time + step), &friction);
+            let (fourth, _) = self.rates(&advanced(&state, &third, step), last);
             for i in 0..state.len() {
                 state[i] += step / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]);
             }

@@ -15,7 +15,7 @@ const PARTS: [&str; 21] = [
 ];
 
 /// Further effects of the quarter car's parts: frame, road and force as they act.
-const FURTHER: [&str; 3] = ["18", "22", "26"];
+const FURTHER: [&str; 4] = ["18", "22", "26", "26s"];
 
 /// Effects of a quarter car with a servo valve.
 const WITH_VALVE: [&str; 5] = ["01", "28", "28h", "29", "30"];

@@ -2,10 +2,15 @@
 
 use strut_model::{Real, Variables};
 
-use crate::effects::{CommandCurve, DelayState, LagState, Saturation, delayed, lagged, switched_on};
+use crate::effects::{
+    CommandCurve, DelayState, LagState, Saturation, Slew, SlewState, delayed, lagged, switched_on,
+};
 
-/// An actuator that does not quite do what it is told: `F = sat(k T(D(u))) + s f(k T(D(u)))` with the delay D, the lag T
-/// and an unnamed curve (catalogue of diagnosis, 23–26, G). A force without a command is a strut's preload.
+/// An actuator that does not quite do what it is told: `F = R(sat(k T(D(u))) + s f(k T(D(u))))` with the delay D, the lag T,
+/// an unnamed curve and the slew limit R (catalogue of diagnosis, 23–26, G). A force without a command is a strut's preload.
+///
+/// The slew limit comes last. It is the force that cannot jump, whatever is asked for; and a force at its limit comes back at
+/// once, while one that was limited in its rate first would have to unwind what was asked for beyond.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Actuation<R> {
     /// Force over the commanded one (k)
@@ -19,6 +24,8 @@ pub struct Actuation<R> {
     pub lag: R,
     /// Limit
     pub saturation: Saturation<R>,
+    /// Slew limit
+    pub slew: Slew<R>,
     /// Unnamed force
     pub curve: CommandCurve<R>,
 }
@@ -30,6 +37,8 @@ pub struct ActuationState<R> {
     pub delay: DelayState<R>,
     /// Lag
     pub lag: LagState<R>,
+    /// Slew limit
+    pub slew: SlewState<R>,
 }
 
 impl<R: Real> Actuation<R> {
@@ -42,19 +51,26 @@ impl<R: Real> Actuation<R> {
         let (late, delay) = delayed(self.delay, state.delay, command);
         let (late, lag) = lagged(self.lag, state.lag, late);
         let asked = self.gain * late;
-        (self.saturation.limited(asked) + self.curve.force(asked), ActuationState { delay, lag })
+        let made = self.saturation.limited(asked) + self.curve.force(asked);
+        let (force, slew) = self.slew.limited(state.slew, made);
+        (force, ActuationState { delay, lag, slew })
     }
 
     /// How many effects are on.
     pub fn further_effects(&self) -> R {
-        switched_on([self.gain - 1.0, self.delay, self.lag, self.saturation.ratio, self.curve.scale])
+        let Self { gain, delay, lag, saturation, slew, curve } = *self;
+        switched_on([gain - 1.0, delay, lag, saturation.ratio, slew.slowness, curve.scale])
     }
 
     /// Nothing on its way.
     #[inline]
     pub fn rest() -> ActuationState<R> {
         let zero = R::from(0.0);
-        ActuationState { delay: DelayState { slow: zero, fast: zero }, lag: LagState { arrived: zero } }
+        ActuationState {
+            delay: DelayState { slow: zero, fast: zero },
+            lag: LagState { arrived: zero },
+            slew: SlewState { force: zero },
+        }
     }
 }
 
@@ -67,7 +83,8 @@ mod tests {
     fn neutral() -> Actuation<f64> {
         let curve = CommandCurve { scale: 0.0, force_range: 1.0, over_force: [0.0; POINTS] };
         let saturation = Saturation { ratio: 0.0, force: 100.0 };
-        Actuation { gain: 1.0, delay: 0.0, lag: 0.0, saturation, curve }
+        let slew = Slew { slowness: 0.0 };
+        Actuation { gain: 1.0, delay: 0.0, lag: 0.0, saturation, slew, curve }
     }
 
     #[test]
@@ -76,6 +93,17 @@ mod tests {
         let of = |command| weak.force(Actuation::rest(), command, weak.further_effects()).0;
         assert_eq!((of(100.0), of(180.0), of(300.0), of(-300.0)), (50.0, 90.0, 100.0, -100.0));
         assert_eq!(weak.further_effects(), 2.0);
+    }
+
+    #[test]
+    fn a_force_at_its_limit_comes_back_at_once() {
+        // 10 kN/s, and a limit of 100 N that the command was beyond for long.
+        let saturation = Saturation { ratio: 1.0, force: 100.0 };
+        let slow = Actuation { saturation, slew: Slew { slowness: 1e-4 }, ..neutral() };
+        let held = ActuationState { slew: SlewState { force: 100.0 }, ..Actuation::rest() };
+        assert_eq!(slow.force(held, 300.0, slow.further_effects()), (100.0, Actuation::rest()));
+        let (force, rates) = slow.force(held, -300.0, slow.further_effects());
+        assert!((force - 95.0).abs() < 1e-9 && (rates.slew.force + 1e4).abs() < 1e-6, "{force} {rates:?}");
     }
 
     proptest! {

@@ -184,8 +184,9 @@ impl Model for QuarterCar {
                 source: "TUM eq. 5, 4.3.2, Table 7; curve: catalogue of diagnosis: G",
             },
             Equation {
-                text: "F_act = S(k T(D(u))) + s f(k T(D(u))): delay D (1 - t s/2 + t^2 s^2/12)/(1 + t s/2 + t^2 \
-                    s^2/12), lag T' y' + y = u, limit S(F) = F - r dz(F, F_m)",
+                text: "F_act = R(S(k T(D(u))) + s f(k T(D(u)))): delay D (1 - t s/2 + t^2 s^2/12)/(1 + t s/2 + t^2 \
+                    s^2/12), lag T' y' + y = u, limit S(F) = F - r dz(F, F_m), slew limit R(F) = y + T y', T y' = clamp(F - y, \
+                    -T/c, T/c), T = 0.5 ms, slowness c",
                 source: "catalogue of diagnosis: 23-26, G",
             },
             Equation {

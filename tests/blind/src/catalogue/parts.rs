@@ -81,6 +81,12 @@ pub(super) static ENTRIES: &[Entry] = &[
         )],
     ),
     entry(
+        "26s",
+        "slew limit of the actuator",
+        Place::Actuator,
+        &[drawn("actuator.slew.slowness", "s/N", (5e-5, 1.5e-4), ZERO, (0.0, 1e-3))],
+    ),
+    entry(
         "28",
         "overlap of the valve",
         Place::Actuator,

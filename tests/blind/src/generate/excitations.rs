@@ -73,10 +73,11 @@ pub(super) fn excitations(case: &Case, plain: &Rig) -> (Vec<Excitation>, Vec<Exc
     (train, test)
 }
 
-/// Two levels of force; many where the actuator saturates, as of two levels a saturation is a gain.
+/// Two levels of force; many where the actuator saturates, as of two levels a saturation is a gain, and a slew limit takes as
+/// long for each change as a lag.
 fn forces(case: &Case, random: &mut Random, size: f64) -> Profile {
-    let saturates = case.effects.iter().any(|hidden| hidden.id == "26");
-    if saturates { steps(random, case.reach(), 0.025, size) } else { prbs(random, case.reach(), 0.025, size) }
+    let limited = case.effects.iter().any(|hidden| ["26", "26s"].contains(&hidden.id.as_str()));
+    if limited { steps(random, case.reach(), 0.025, size) } else { prbs(random, case.reach(), 0.025, size) }
 }
 
 /// Scales the road such that the tyre keeps a fifth of its static load, or, if it shall leave the road, such that

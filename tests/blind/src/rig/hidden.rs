@@ -80,6 +80,7 @@ impl Rig {
             "24" => self.car.actuator.lag = first,
             "25" => self.car.actuator.gain = first,
             "26" => self.car.actuator.limit = first,
+            "26s" => self.car.actuator.slew = 1.0 / first,
             "27" => drive.cogging = Some((first, values[1], values[2])),
             "28" | "28h" | "29" | "30" => put_in_valve(self.car.servo.as_mut(), entry.id, first),
             "32" | "32h" => strut.yielding = Some((first, values[1], values[2])),

@@ -6,7 +6,7 @@ use crate::catalogue::Place;
 use crate::rig::signals;
 
 /// Numbers of what an actuator does to its command.
-const OF_ACTUATORS: [&str; 4] = ["23", "24", "25", "26"];
+const OF_ACTUATORS: [&str; 5] = ["23", "24", "25", "26", "26s"];
 
 /// What the names of inputs begin with that act through an actuator.
 const ACTUATORS: [&str; 5] = ["actuator", "voltage", "command", "motor", "brake"];

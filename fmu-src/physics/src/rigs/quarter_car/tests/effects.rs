@@ -32,6 +32,7 @@ fn every_effect() -> Parameters<f64> {
     (p.strut.curve.over_deflection[6], p.strut.curve.damping[4]) = (8.0, 90.0);
     (p.actuator.gain, p.actuator.delay, p.actuator.lag) = (0.9, 3e-3, 2e-3);
     (p.actuator.saturation.ratio, p.actuator.saturation.force) = (0.7, 2.0);
+    p.actuator.slew.slowness = 1e-4;
     (p.actuator.curve.scale, p.actuator.curve.over_force[6]) = (1.0, 3.0);
     (p.frame.mass, p.enveloping.time) = (2.0, 5e-3);
     (p.force_cell.mass, p.force_cell.hysteresis) = (4.0, 3.0);
@@ -234,13 +235,13 @@ proptest! {
     #[test]
     fn every_effect_says_the_same_in_every_scalar(
         x in prop::array::uniform4(-0.03..0.03_f64),
-        memory in prop::array::uniform10(-1.0..1.0_f64),
+        memory in prop::array::uniform11(-1.0..1.0_f64),
         u in prop::array::uniform3(-0.01..0.01_f64),
         seeds in prop::collection::vec(-1.0..1.0_f64, <Parameters<f64> as Bundle<f64>>::LEN),
     ) {
         let nominal = list(&every_effect());
         let motion = [x[0], 10.0 * x[1], x[2], 10.0 * x[3]];
-        let magnitudes = [60.0, 0.01, 1e-3, 5.0, 5.0, 5.0, 1e-4, 0.01, 0.01, 50.0];
+        let magnitudes = [60.0, 0.01, 1e-3, 5.0, 5.0, 5.0, 5.0, 1e-4, 0.01, 0.01, 50.0];
         let x = std::array::from_fn(|i| if i < 4 { motion[i] } else { magnitudes[i - 4] * memory[i - 4] });
         let plain = with_memory(&every_effect(), x, u);
         let lanes: Parameters<Lanes> = Bundle::from_fn(|i| Lanes::from(nominal[i]));
