@@ -57,7 +57,10 @@ named! {
     a_clock_that_is_off: "sensor-36";
     a_sampling_rate_that_is_off: "sensor-40";
     a_saturated_actuator: "single-26";
+    a_force_that_cannot_change_fast: "single-26s";
     an_overlapped_valve: "servo-28";
+    a_valve_with_hysteresis: "servo-28h";
+    a_force_cell_with_hysteresis: "sensor-41h";
     friction_on_a_dyno: "dyno-01";
     breakaway_friction_of_a_drive: "drive-02g";
     plain_friction_of_a_drive: "drive-16";

@@ -167,18 +167,35 @@ mod tests {
         assert!(text.contains("20 times its noise"), "{text}");
     }
 
-    #[test]
-    fn a_fault_of_a_sensor_beside_a_curve_does_not_acquit_the_plant() {
-        let effect = Effect {
-            id: "34".into(),
-            element: "wheel.force".into(),
-            name: "gain of the sensor".into(),
+    fn effect(id: &str, element: &str, name: &str) -> Effect {
+        Effect {
+            id: id.into(),
+            element: element.into(),
+            name: name.into(),
             equation: String::new(),
             parameters: vec![],
             evidence: Evidence::default(),
             ambiguous_with: vec![],
             experiment: None,
+        }
+    }
+
+    #[test]
+    fn a_gain_is_not_told_as_the_causes_where_more_was_fitted() {
+        let of = |common: &[Effect]| {
+            let signals = vec![Signal { phi_fitted: 0.4, ..signal(0.9, 0.1) }];
+            let effects = vec![effect("01", "strut", "Coulomb friction")];
+            of(&Findings { signals, effects, common: common.to_vec(), ..findings(Verdict::Named) })
         };
+        assert!(of(&[]).ends_with("rises from 0.400 to 0.900."), "{}", of(&[]));
+        let text = of(&[effect("08", "strut", "nonlinear spring")]);
+        assert!(text.ends_with("rises from 0.400 to 0.900, with what was fitted along."), "{text}");
+        assert!(!text.contains("nonlinear spring"), "{text}");
+    }
+
+    #[test]
+    fn a_fault_of_a_sensor_beside_a_curve_does_not_acquit_the_plant() {
+        let effect = effect("34", "wheel.force", "gain of the sensor");
         let curve = Curve {
             location: "strut".into(),
             quantity: "force".into(),

@@ -113,6 +113,19 @@ fn the_page_says_what_the_findings_say() {
 }
 
 #[test]
+fn what_was_fitted_along_is_told_apart_from_the_causes() {
+    let mut findings = sample(Verdict::Named);
+    assert!(!report::html(&findings).contains("What was fitted along"));
+    findings.common = findings.effects.split_off(1);
+    let page = report::html(&findings);
+    let (_, along) = page.split_once("What was fitted along").unwrap();
+    assert!(along.contains("<li>Cogging in the actuator (actuator.cogging.amplitude = 11.40 N)</li>"));
+    let terminal = report::terminal(&findings);
+    let told = "Fitted along, as every rig has a little of it: cogging in the actuator";
+    assert!(terminal.contains(told), "{terminal}");
+}
+
+#[test]
 fn the_numbers_beside_the_headline_are_of_all_signals() {
     let mut findings = sample(Verdict::Named);
     for (signal, (before, after)) in

@@ -68,6 +68,10 @@ pub fn compact() -> Vec<Case> {
     all.push(standard("single-26", vec![Hidden::new("26")], 31));
     all.push(Case { plant: Plant::StrutDyno, ..standard("dyno-01", vec![Hidden::new("01")], 29) });
     all.push(Case { plant: Plant::ServoQuarter, ..standard("servo-28", vec![Hidden::new("28")], 32) });
+    // Laws that share a number with another one.
+    all.push(standard("single-26s", vec![Hidden::new("26s")], 39));
+    all.push(Case { plant: Plant::ServoQuarter, ..standard("servo-28h", vec![Hidden::new("28h")], 40) });
+    all.push(standard("sensor-41h", vec![Hidden::at("41h", "wheel.force")], 41));
     all.push(Case { clutter: 0, ..standard("none", vec![], 24) });
     all.push(standard("none-cluttered", vec![], 25));
     all.push(Case { clutter: 0, nominal_off: 0.1, ..standard("mismatch", vec![], 26) });
@@ -241,7 +245,7 @@ mod tests {
     fn the_compact_list_is_what_it_was() {
         let names: Vec<String> =
             compact().into_iter().map(|case| format!("{}/{}", case.name, case.seed)).collect();
-        assert_eq!(names.len(), 32);
+        assert_eq!(names.len(), 35);
         let [first, .., mismatch, breaking, dry, cogging, pair, common, frame, late] = &names[..] else {
             panic!("{names:?}")
         };

@@ -42,7 +42,8 @@ pub fn common(findings: &Findings) -> Markup {
             section {
                 h2 { "What was fitted along" }
                 p.note {
-                    "Every rig has a little of these, and the records show that this one has. They are too small to be the cause,                      but they hid it or blurred which one it is; so they are in the extended model."
+                    "Every rig has a little of these, and the records show that this one has. They are too small to be the cause, \
+                     but they hid it or blurred which one it is; so they are in the extended model."
                 }
                 ul.compact { @for effect in &findings.common { li { (capitalised(&sized(effect))) } } }
             }
