@@ -1,6 +1,7 @@
 //! The search for causes: forward, with gates, on data that was not learnt from.
 
 mod bic;
+mod choice;
 mod common;
 mod nested;
 mod resettled;
@@ -35,14 +36,6 @@ const ALONG: usize = 3;
 /// Share of the largest cause's rise of Φ below which a further one is not told from the small effects that every real
 /// rig has.
 const BESIDE: f64 = 0.35;
-/// Student's t of the difference of two fits' errors beyond which they are told apart.
-const APART: f64 = 2.5;
-/// Errors that are larger by less than this factor tell nothing apart, however steady the difference is.
-const SAME: f64 = 1.005;
-/// Errors of a rough fit that are larger by less than this factor may be as small when it is a close one.
-const NEAR: f64 = 1.1;
-/// Errors that are larger by more than this factor are not made good by being less common, or by signals that are less late.
-const LITTLE_MORE: f64 = 1.5;
 
 /// What decides whether a cause is named.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -297,86 +290,6 @@ impl World<'_> {
         progress("drawing curves in the place of names");
         self.unname(found);
         Ok(())
-    }
-
-    /// The best of those with a name that pass; without any, the best table.
-    fn chosen<'b>(&self, base: &Fitted, passing: &[&'b Tried]) -> Option<&'b Tried> {
-        let named = passing.iter().find(|it| !has_no_name(it.term));
-        named.map(|it| self.simplest(base, it, passing)).or_else(|| passing.first().copied())
-    }
-
-    /// What every rig has a little of, where it does far better than anything rare that passes: something is there then, and that
-    /// it is common is no objection.
-    fn far_better(&self, base: &Fitted, tried: &[Tried], passing: &[&Tried]) -> Vec<Tried> {
-        let left = |it: &Tried| it.fitted.as_ref().map_or(f64::INFINITY, |fitted| self.left(base, fitted));
-        let rare = passing.iter().map(|it| left(it)).fold(f64::INFINITY, f64::min);
-        let waived = tried.iter().filter(|it| it.evidence.usual && !has_no_name(it.term)).cloned();
-        let waived = waived.map(|it| Tried { evidence: Evidence { usual: false, ..it.evidence }, ..it });
-        let better = |it: &Tried| {
-            !passing.is_empty() && LITTLE_MORE * left(it) < rare && it.evidence.refusal().is_none()
-        };
-        waived.filter(better).collect()
-    }
-
-    /// One that is simpler than the best, a part of it with fewer parameters and no more late signals, or one that needs fewer
-    /// of these and leaves little more, unless what the best one adds to it passes the gates on its own.
-    fn simplest<'b>(&self, base: &Fitted, best: &'b Tried, passing: &[&'b Tried]) -> &'b Tried {
-        let mut chosen = best;
-        for other in passing {
-            if let (Ok(fitted), Ok(simpler)) = (&chosen.fitted, &other.fitted)
-                && (contains(chosen.term, other.term, &parts(fitted), &parts(simpler))
-                    && simpler.coordinates.len() < fitted.coordinates.len()
-                    && self.late(simpler) <= self.late(fitted)
-                    || self.late(simpler) < self.late(fitted)
-                        && !has_no_name(other.term)
-                        && self.left(base, simpler) < LITTLE_MORE * self.left(base, fitted))
-            {
-                let added = self.evidence(chosen.term, base, simpler, fitted);
-                // Whether it is common does not matter beside a part of itself.
-                if (Evidence { usual: false, ..added }).refusal().is_some() {
-                    chosen = other;
-                }
-            }
-        }
-        chosen
-    }
-
-    /// Whether a fit explains the data as well as the best one.
-    fn as_good(&self, base: &Fitted, best: &Fitted, other: &Fitted) -> bool {
-        self.apart(best, other) < APART || self.left(base, other) < SAME * self.left(base, best)
-    }
-
-    /// A fit that is nearly as good as the best one, as closely as that one before they are told apart; another as it is.
-    fn closely(
-        &self,
-        base: &Fitted,
-        fitted: Result<Fitted, String>,
-        best: &Fitted,
-    ) -> Result<Fitted, String> {
-        let fitted = fitted?;
-        if self.left(base, &fitted) < NEAR * self.left(base, best) {
-            return self.fitted(&fitted.terms, std::slice::from_ref(&fitted.point), Stop::NOISY);
-        }
-        Ok(fitted)
-    }
-
-    /// Those that explain the data as well as the chosen one, or better and are only too common to be named, and are not the
-    /// same with something more, nor need more late signals. What is nearly as good is fitted as closely as the chosen one
-    /// before it is told apart.
-    fn rivals(&self, base: &Fitted, chosen: &Tried, close: &Fitted, passing: &[&Tried]) -> Vec<Term> {
-        let Ok(best) = &chosen.fitted else { return Vec::new() };
-        let own = parts(best);
-        let rival = |other: &&&Tried| {
-            let Ok(fitted) = &other.fitted else { return false };
-            let more = contains(other.term, chosen.term, &parts(fitted), &own);
-            let later = self.late(fitted) > self.late(best);
-            if other.term == chosen.term || has_no_name(other.term) || more || later {
-                return false;
-            }
-            let closer = || self.closely(base, Ok(fitted.clone()), best);
-            self.as_good(base, best, fitted) || closer().is_ok_and(|it| self.as_good(base, close, &it))
-        };
-        passing.par_iter().filter(rival).map(|it| it.term).collect()
     }
 }
 
