@@ -6,6 +6,7 @@ use std::slice::from_ref;
 use crate::hypothesis::World;
 use crate::lsq::Stop;
 
+use super::weighing::is_in_time;
 use super::{ALONG, Accepted, Found, Tried, has_no_name};
 
 /// Share of what is left that one of them takes away at least: what takes less hides nothing.
@@ -64,8 +65,9 @@ fn common(found: &Found) -> Option<&Tried> {
     let there = |it: &&Tried| {
         let Ok(fitted) = &it.fitted else { return false };
         let on_top = fitted.terms.split_last().is_some_and(|(_, below)| below == found.extended.terms);
+        let small = is_in_time(it.term, fitted) != Some(false);
         let hides = it.evidence.doubt().is_none() && it.evidence.taken > HIDES;
-        it.evidence.usual && !has_no_name(it.term) && hides && on_top
+        it.evidence.usual && small && !has_no_name(it.term) && hides && on_top
     };
     found.tried.iter().filter(there).max_by(|a, b| a.score.total_cmp(&b.score))
 }

@@ -106,7 +106,7 @@ impl World<'_> {
     /// a name: what the curve's points lie too far apart for looks like one law or another.
     pub(super) fn retest(&self, found: &mut Found) -> Result<(), String> {
         let mut index = 0;
-        while index < found.accepted.len() && found.accepted.len() + found.common.len() > 1 {
+        while index < found.accepted.len() && found.extended.terms.len() > 1 {
             let without = self.without(found, index)?;
             let here = &found.accepted[index];
             let evidence = self.evidence(here.term, &found.base, &without, &found.extended);

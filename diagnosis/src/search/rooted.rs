@@ -57,6 +57,10 @@ impl World<'_> {
     pub fn rooted(&self, found: &mut Found) -> Result<Vec<Accepted>, String> {
         let mut rooted = Vec::new();
         for suspect in self.suspects(found) {
+            let there = |it: &Term| *it == suspect.term || contains_by_name(*it, suspect.term);
+            if found.extended.terms.iter().any(there) {
+                continue;
+            }
             let mut start = found.extended.point.clone();
             suspect.before.iter().for_each(|(handle, value)| start.set(*handle, *value));
             let held = suspect.before.iter().map(|(handle, _)| *handle).collect();
@@ -87,6 +91,8 @@ impl World<'_> {
                     // It was fitted well enough to be compared; now it is to be told.
                     let start = std::slice::from_ref(&fitted.point);
                     found.extended = self.fitted(&fitted.terms, start, Stop::NOISY)?;
+                    // What was found before may have done its work.
+                    self.retest(found)?;
                     found.accepted.push(told);
                 }
                 None => rooted.push(told),
@@ -126,7 +132,7 @@ impl World<'_> {
             let before = handles.iter().map(|it| (*it, 0.0)).collect();
             (late > LATE).then_some(Suspect { term: Term::Fault(*most), before, grave: late > TOO_LATE })
         });
-        resized.chain(late).filter(|it| !found.extended.terms.contains(&it.term)).collect()
+        resized.chain(late).collect()
     }
 
     /// The timing of each measured output, as far as it was not found to be a fault.

@@ -63,12 +63,8 @@ impl World<'_> {
     /// Whether every rig has a little of it. Of a command that is late, by no more than signals are.
     fn is_usual(&self, term: Term, fitted: &Fitted) -> bool {
         let Name { id, sensor, .. } = name(term, &self.rig.plant);
-        let timing = match term {
-            Term::Fault(handle @ Handle::Input(_, Fault::Lag | Fault::Delay)) => {
-                sensor || fitted.point.get(handle).abs() < LATE * TIMING
-            }
-            _ => false,
-        };
+        let driving = matches!(term, Term::Fault(Handle::Input(..)));
+        let timing = is_in_time(term, fitted).is_some_and(|it| driving && (sensor || it));
         has_no_name(term) || USUAL.contains(&id.as_str()) || timing
     }
 
@@ -138,6 +134,17 @@ impl World<'_> {
     fn share(&self, unit: &Residuals, residuals: &Residuals) -> f64 {
         let (unit, squares) = (self.errors(unit).mean_squares(), self.errors(residuals).mean_squares());
         unit.iter().zip(&squares).map(|(unit, square)| square / unit).sum::<f64>() / unit.len().max(1) as f64
+    }
+}
+
+/// Whether a signal is late by no more than measurements make any; none of what is not about its timing.
+pub(super) fn is_in_time(term: Term, fitted: &Fitted) -> Option<bool> {
+    match term {
+        Term::Fault(
+            handle @ (Handle::Input(_, Fault::Lag | Fault::Delay)
+            | Handle::Output(_, Fault::Lag | Fault::Delay)),
+        ) => Some(fitted.point.get(handle).abs() < LATE * TIMING),
+        _ => None,
     }
 }
 
