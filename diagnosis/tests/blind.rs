@@ -68,6 +68,9 @@ named! {
     friction_of_a_drive_and_a_constant_force: "drive-16-33g";
     a_frame_s_mode_behind_a_late_command: "behind-18";
     a_late_deflection_behind_a_curved_spring: "behind-36";
+    a_lag_whose_work_another_cause_had_done: "behind-35";
+    breakaway_friction_that_is_no_plain_friction_besides: "resized-02g";
+    friction_of_a_strut_whose_position_is_noisy: "noisy-01";
 }
 
 /// Nothing is there, or nothing that matters: no cause is claimed.

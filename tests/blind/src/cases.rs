@@ -86,6 +86,12 @@ pub fn compact() -> Vec<Case> {
     // Behind a late command, and that and a curved spring, which are only clutter.
     all.push(standard("behind-18", vec![Hidden::new("18")], 1012));
     all.push(standard("behind-36", vec![Hidden::at("36", "suspension.deflection")], 1012));
+    // A force cell's mass does its work until it is found.
+    all.push(standard("behind-35", vec![Hidden::at("35", "wheel.force")], 1014));
+    // A law that contains friction, which every drive's model has.
+    all.push(driven(standard("resized-02g", vec![Hidden::new("02g")], 1014)));
+    // Where the measured position is noisy, a late one fits better.
+    all.push(Case { plant: Plant::StrutDyno, ..standard("noisy-01", vec![Hidden::new("01")], 1014) });
     all
 }
 
@@ -245,8 +251,9 @@ mod tests {
     fn the_compact_list_is_what_it_was() {
         let names: Vec<String> =
             compact().into_iter().map(|case| format!("{}/{}", case.name, case.seed)).collect();
-        assert_eq!(names.len(), 35);
-        let [first, .., mismatch, breaking, dry, cogging, pair, common, frame, late] = &names[..] else {
+        assert_eq!(names.len(), 38);
+        let [first, .., mismatch, breaking, dry, cogging, pair, common, frame, late, _, _, _] = &names[..]
+        else {
             panic!("{names:?}")
         };
         assert_eq!([first, mismatch, common], ["single-01/1", "mismatch/26", "common-07/1007"]);
