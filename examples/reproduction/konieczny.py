@@ -59,10 +59,12 @@ def regression(fmus):
         states = [entry.variable.derivative.name for entry in description.derivatives]
 
         def rate(pressure, spool):
-            values = {"pressure": pressure, "spool.position": spool}
-            fmu.setContinuousStates((c_double * 2)(*(values[name] for name in states)), 2)
-            rates = (c_double * 2)()
-            fmu.getDerivatives(rates, 2)
+            # What follows a valve with hysteresis does nothing without.
+            values = {"pressure": pressure, "spool.position": spool, "spool.follower": 0.0}
+            vector = c_double * len(states)
+            fmu.setContinuousStates(vector(*(values[name] for name in states)), len(states))
+            rates = vector()
+            fmu.getDerivatives(rates, len(states))
             return rates[states.index("pressure")]
 
         # What leaks does not depend on the spool.
