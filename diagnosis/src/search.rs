@@ -347,7 +347,7 @@ pub(crate) fn worth(base: &Fitted) -> f64 {
 }
 
 /// Numbers of the causes that begin to act beyond a threshold, or only near a standstill.
-const THRESHOLDS: &[&str] = &["02", "09", "12", "20", "26", "26s"];
+const THRESHOLDS: &[&str] = &["02", "05", "09", "12", "20", "26", "26s"];
 
 /// Whether nothing shows of a term while it is absent, and of what it does only now and then.
 fn has_threshold(term: Term) -> bool {

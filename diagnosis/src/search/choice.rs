@@ -62,7 +62,7 @@ impl World<'_> {
 
     /// Whether a fit explains the data as well as the best one.
     pub(super) fn as_good(&self, base: &Fitted, best: &Fitted, other: &Fitted) -> bool {
-        self.apart(best, other) < APART || self.left(base, other) < SAME * self.left(base, best)
+        self.apart_by_events(best, other) < APART || self.left(base, other) < SAME * self.left(base, best)
     }
 
     /// A fit that is nearly as good as the best one, as closely as that one before they are told apart; another as it is.

@@ -99,12 +99,29 @@ impl World<'_> {
 
     /// Student's t of how much smaller one fit's errors are than another's, over all data.
     pub(crate) fn apart(&self, better: &Fitted, other: &Fitted) -> f64 {
+        self.over_blocks(better, other, Errors::gains)
+    }
+
+    /// The same where a threshold makes the differences as uneven as the events beyond it: or of how much smaller each event's
+    /// errors are, if that is larger.
+    pub(super) fn apart_by_events(&self, better: &Fitted, other: &Fitted) -> f64 {
+        let apart = self.apart(better, other);
+        let uneven = better.terms.iter().chain(&other.terms).any(|it| has_threshold(*it));
+        if uneven { apart.max(self.over_blocks(better, other, Errors::ratios)) } else { apart }
+    }
+
+    fn over_blocks<'b>(
+        &'b self,
+        better: &'b Fitted,
+        other: &'b Fitted,
+        compared: fn(&Errors<'b>, &Errors<'b>, usize, &[f64]) -> Vec<f64>,
+    ) -> f64 {
         let unit = self.errors(&better.train).mean_squares();
-        let gains = |other: &Residuals, better: &Residuals| {
-            self.errors(other).gains(&self.errors(better), self.block(), &unit)
+        let of = |other: &'b Residuals, better: &'b Residuals| {
+            compared(&self.errors(other), &self.errors(better), self.block(), &unit)
         };
-        let mut all = gains(&other.train, &better.train);
-        all.extend(gains(&other.test, &better.test));
+        let mut all = of(&other.train, &better.train);
+        all.extend(of(&other.test, &better.test));
         student(&all)
     }
 
