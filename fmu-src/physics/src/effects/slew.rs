@@ -7,7 +7,7 @@ use strut_model::{Real, Variables};
 ///
 /// Its parameter is 1/R, so that there is no limit where it is zero. With `T y' = clamp(u − y, −R T, R T)` what acts is
 /// `y + T y'`: the force u that is asked for, as long as that changes no faster than R, and otherwise a force that changes by
-/// just R. After a jump of u it is T ahead.
+/// just R. After a jump of u it is T ahead: within a duration d it changes by R (d + 2 T) at most.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Slew<R> {
     /// Time that a change of the force by one newton takes at least (1/R); zero switches it off
@@ -82,15 +82,25 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_is_slower_passes_as_it_is_and_nothing_is_faster(size in 10.0..500.0_f64, frequency in 1.0..20.0_f64) {
-            let omega = std::f64::consts::TAU * frequency;
+        fn what_is_slower_passes_as_it_is(size in 10.0..500.0_f64, share in 0.01..0.99_f64) {
+            let omega = share * 1e4 / size;
+            let asked = |time: f64| size * (omega * time).sin();
+            for (k, found) in acting(asked, 0.2).iter().enumerate() {
+                prop_assert!((found - asked(k as f64 * 1e-5)).abs() < 1e-9);
+            }
+        }
+
+        #[test]
+        fn what_is_faster_changes_by_the_limit(size in 10.0..500.0_f64, times in 1.1..6.0_f64) {
+            let omega = times * 1e4 / size;
             let asked = |time: f64| size * (omega * time).sin();
             let found = acting(asked, 0.2);
-            prop_assert!(found.windows(2).all(|pair| (pair[1] - pair[0]).abs() <= 1e4 * 1e-5 * (1.0 + 1e-6)));
-            if size * omega < 0.99e4 {
-                for (k, found) in found.iter().enumerate() {
-                    prop_assert!((found - asked(k as f64 * 1e-5)).abs() < 1e-9);
-                }
+            let behind = |k: usize| (found[k] - asked(k as f64 * 1e-5)).abs() > 1e-9;
+            for k in (1..found.len()).filter(|k| behind(k - 1) && behind(*k)) {
+                prop_assert!(((found[k] - found[k - 1]).abs() / 0.1 - 1.0).abs() < 1e-6);
+            }
+            for pair in found.windows(101) {
+                prop_assert!((pair[100] - pair[0]).abs() <= 1e4 * (1e-3 + 2.0 * BEHIND) * (1.0 + 1e-6));
             }
         }
 
