@@ -227,13 +227,17 @@ fn the_magnetorheological_damper_is_explained() {
     }
 }
 
-/// By hand 80 % and 79 % were reached on the two held-out records, with presliding friction.
+/// By hand 80 % and 79 % were reached on the two held-out records, with presliding friction. The damper has a backlash, as its
+/// makers say, and pulls harder in one direction.
 #[test]
 fn the_friction_damper_is_explained() {
     let Some(records) = real("friction-damper") else { return };
     let test = ["1Hz30lbtension0.5amplitude.csv", "0.25Hz30lbtension1.5amplitude.csv"];
     let (report, phi) = diagnose_element("friction", &records, "0.5Hz30lbtension1amplitude.csv", &test);
-    assert!(phi >= 0.79, "Φ = {phi}");
+    assert!(phi >= 0.80, "Φ = {phi}");
     let named = named(&report);
-    assert!(named.iter().any(|id| ["03", "12", "32f"].contains(id)), "{named:?} has no hysteresis");
+    assert!(
+        ["03b", "33"].iter().all(|id| named.contains(id)),
+        "{named:?} lacks the backlash or the constant force"
+    );
 }

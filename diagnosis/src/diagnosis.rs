@@ -72,6 +72,7 @@ pub fn diagnose<'a>(
         typical: Vec::new(),
         known: options.known,
         held: Vec::new(),
+        punctual: false,
         only: options.only,
         criterion: options.criterion,
         sigma: vec![1.0; rig.plant.outputs.len()],
@@ -112,6 +113,29 @@ pub fn diagnose<'a>(
         let all = outputs(&world, &base.terms, &base.point, train);
         typical(rig, train, &all)
     };
+    let mut told = searched(&world, base, progress)?;
+    if world.criterion == Criterion::Gates && world.anything_late(&told.0, &told.1) {
+        progress("looking for what makes signals seem late");
+        let punctual = World { punctual: true, ..world.clone() };
+        let start = Point { starts: before.starts.clone(), ..start };
+        let base = punctual.fitted(&[], &[start, punctual.in_time(&told.0.base.point)], Stop::NOISY)?;
+        let other = searched(&punctual, base, progress)?;
+        if world.does_without_lateness(&told.0, &other.0) {
+            (world, told) = (punctual, other);
+        }
+    }
+    let (found, rooted) = told;
+    progress("comparing what each excitation says");
+    let intervals = world.intervals(&found.extended)?;
+    Ok(Diagnosis { world, measured, before, found, rooted, intervals, reversed })
+}
+
+/// What is found beyond a fit of the starting model, and what hides among its parameters.
+fn searched(
+    world: &World<'_>,
+    base: Fitted,
+    progress: &(dyn Fn(&str) + Sync),
+) -> Result<(Found, Vec<Accepted>), String> {
     let mut found = world.search(base, progress)?;
     let mut rooted = world.rooted(&mut found)?;
     if world.dwarfed(&mut found, &rooted)? {
@@ -120,9 +144,7 @@ pub fn diagnose<'a>(
     if world.criterion == Criterion::Gates {
         world.beside_the_common(&mut found, &mut rooted, progress)?;
     }
-    progress("comparing what each excitation says");
-    let intervals = world.intervals(&found.extended)?;
-    Ok(Diagnosis { world, measured, before, found, rooted, intervals, reversed })
+    Ok((found, rooted))
 }
 
 /// The base fit from where many short stretches lead, each with states of its own at the start: over a long stretch, a

@@ -18,6 +18,9 @@ pub const POINTS: usize = 11;
 /// accelerometers have such time constants. They are no fault.
 pub const TIMING: f64 = 4e-4;
 
+/// Standard deviations of a channel's timing within which a signal is in time.
+const IN_TIME: f64 = 2.5;
+
 /// Time over which the velocity at a section's start is guessed from a measured position, in seconds.
 const RATE: f64 = 0.02;
 
@@ -52,6 +55,19 @@ impl PartialEq for Term {
     }
 }
 
+impl Term {
+    /// Whether it makes a signal late.
+    pub fn delays(self) -> bool {
+        match self {
+            Self::Fault(Handle::Input(_, fault) | Handle::Output(_, fault)) => {
+                matches!(fault, Fault::Lag | Fault::Delay)
+            }
+            Self::Response(_) => true,
+            Self::Fault(Handle::Parameter(_)) | Self::Cause(_) | Self::Table(_) => false,
+        }
+    }
+}
+
 /// The world that hypotheses are about.
 #[derive(Clone)]
 pub struct World<'a> {
@@ -67,6 +83,8 @@ pub struct World<'a> {
     pub known: Vec<(usize, f64, f64)>,
     /// What of the base fit is not fitted, to see what it is worth.
     pub held: Vec<Handle>,
+    /// Whether no signal may be later than measurements make any.
+    pub punctual: bool,
     /// Numbers of the causes that are looked at; none: all.
     pub only: Vec<String>,
     /// What decides whether a cause is named.
@@ -209,8 +227,10 @@ impl World<'_> {
         for measured in self.train.first().map_or(&[][..], |record| &record.measured) {
             for handle in [Fault::Delay, Fault::Lag].map(|fault| Handle::Output(measured.output, fault)) {
                 let bounds = self.fault_bounds(handle);
-                let usual = self.usual(handle).map(|deviation| (0.0, deviation));
-                coordinates.extend(usual.map(|prior| Coordinate { handle, bounds, prior: Some(prior) }));
+                let Some(deviation) = self.usual(handle) else { continue };
+                let most = if self.punctual { IN_TIME * deviation } else { f64::INFINITY };
+                let bounds = (bounds.0.max(-most), bounds.1.min(most));
+                coordinates.push(Coordinate { handle, bounds, prior: Some((0.0, deviation)) });
             }
         }
         coordinates.retain(|coordinate| !self.held.contains(&coordinate.handle));

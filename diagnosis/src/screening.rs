@@ -93,6 +93,7 @@ impl World<'_> {
             }
         }
         terms.retain(|term| self.only.is_empty() || self.only.contains(&name(*term, plant).id));
+        terms.retain(|term| !self.punctual || !term.delays());
         terms
     }
 

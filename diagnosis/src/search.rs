@@ -4,6 +4,7 @@ mod bic;
 mod choice;
 mod common;
 mod nested;
+mod punctual;
 mod resettled;
 mod revise;
 mod rooted;

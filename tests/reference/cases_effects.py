@@ -68,4 +68,11 @@ CASES = [
         "hysteresis.mount.gap": 3e-4,
         "hysteresis.mount.compliance": 2e-6,
     }, "Presliding friction, a Maxwell branch and a damper in a bush with play."),
+    with_effects("quarter-car-play", {
+        "strut.coulomb.force": 0.0,
+        "hysteresis.presliding.force": 90.0,
+        "hysteresis.presliding.stiffness": 1.5e5,
+        "hysteresis.presliding.exponent": 0.7,
+        "hysteresis.presliding.gap": 4e-4,
+    }, "Presliding friction behind play."),
 ]

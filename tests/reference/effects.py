@@ -9,7 +9,7 @@ x = z_s - z_u and v = x'; i = 1 + i1 x, x_s = x + i1 x^2/2, v_s = i v; dz is a d
     F_damper = d(t) h(n(v_s)),  d(t) = d (1 - a (1 - exp(-t/T))),  n(v) = v + rho dz(v, v_k),
                h(v) = v + alpha (sqrt(v^2 + eps^2) - eps)
     guide    = F_g tanh(z_s'/v0) + d_g z_s' + curve,  wheel guide = F_w tanh(z_u'/v0) + d_w z_u'
-    f'  = sigma v_s G(1 - sgn(v_s) f/F),  G(u) = u ((u^2 + 1e-4)/(1 + 1e-4))^((n-1)/2)
+    f   = dz(y, sigma b),  y' = sigma v_s G(1 - sgn(v_s) f/F),  G(u) = u ((u^2 + 1e-4)/(1 + 1e-4))^((n-1)/2)
     xi' = v_s - xi/tau
     with a mount F_damper = dz(e, g)/c,  e' = v_s - u,  d(t) h(n(u)) = F_damper
 
@@ -78,6 +78,10 @@ class QuarterCarWithEffects(Switched):
         ratio = 1.0 + slope * x
         return ratio, x + 0.5 * slope * x * x, ratio * (vs - vu), u[0] - zu, u[1] - vu
 
+    def play(self):
+        """What the play takes of the presliding friction, in N."""
+        return self.of("hysteresis.presliding.stiffness", 1e5) * self.of("hysteresis.presliding.gap")
+
     def damper_knee(self):
         return self.of("strut.knee.velocity", math.inf) if self.of("strut.knee.ratio") else math.inf
 
@@ -90,6 +94,8 @@ class QuarterCarWithEffects(Switched):
         kinks += [x - self.of("strut.stop.rebound_clearance"), -x - self.of("strut.stop.compression_clearance")] \
             if stop else []
         kinks += [e - gap, -e - gap] if gap > 0.0 else []
+        play = self.play()
+        kinks += [state[4] - play, -state[4] - play] if play > 0.0 else []
         for curve, at in zip(self.curves, (x, v, state[1], c)):
             # The middle point of the curve over the strut's velocity is at rest, which has a guard already.
             kinks += [kink for i, kink in enumerate(curve.guards(at)) if curve is not self.curves[1] or i != MIDDLE]
@@ -128,6 +134,10 @@ class QuarterCarWithEffects(Switched):
             damper = beyond / of("hysteresis.mount.compliance", 1e-6)
             assert self.damper_knee() == math.inf, "behind a mount the damper has no knee here"
             bush_rate = v - velocity_of(damper / damping, alpha, eps)
+
+        if self.play() > 0.0:
+            above, below = next(side), next(side)
+            f = f - self.play() if above else f + self.play() if below else 0.0
 
         remembered = [0.0, 0.0, bush_rate]
         if of("hysteresis.presliding.force") > 0.0:

@@ -47,6 +47,21 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "drive a multisine of less than 0.2 mm stroke",
     },
     Cause {
+        id: "03b",
+        element: Element::Strut,
+        name: "friction with presliding behind play",
+        equation: "F = dz(y, sigma b), y' = sigma v |1 - sgn(v) F/F_c|^n sgn(1 - sgn(v) F/F_c)",
+        contains: &["01", "03"],
+        setting: None,
+        parts: &[
+            part("hysteresis.presliding.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
+            part("hysteresis.presliding.stiffness", Scale::STIFFNESS, (1e-2, 1e3), &[3.0]),
+            part("hysteresis.presliding.gap", Scale::DEFLECTION, (0.0, 1.0), &[0.05, 0.2]),
+            part("hysteresis.presliding.exponent", Scale::ONE, (0.2, 4.0), &[1.0]),
+        ],
+        experiment: "reverse slowly at several places: the force rests at zero over the play",
+    },
+    Cause {
         id: "04",
         element: Element::Strut,
         name: "asymmetric damper",

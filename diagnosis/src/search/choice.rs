@@ -15,7 +15,7 @@ const SAME: f64 = 1.005;
 /// Errors of a rough fit that are larger by less than this factor may be as small when it is a close one.
 const NEAR: f64 = 1.1;
 /// Errors that are larger by more than this factor are not made good by being less common, or by signals that are less late.
-const LITTLE_MORE: f64 = 1.5;
+pub(super) const LITTLE_MORE: f64 = 1.5;
 
 impl World<'_> {
     /// The best of those with a name that pass; without any, the best table.

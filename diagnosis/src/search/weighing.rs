@@ -2,7 +2,6 @@
 
 use crate::catalogue::Element;
 use crate::comparison::{Errors, student};
-use crate::correction::Fault;
 use crate::findings::Evidence;
 use crate::fit::{Handle, Residuals, strain};
 use crate::hypothesis::{Fitted, TIMING, Term, World};
@@ -46,7 +45,8 @@ impl World<'_> {
         let gain: f64 =
             counts.iter().zip(before.iter().zip(&after)).map(|(n, (b, a))| n * (b / a).ln()).sum();
         let total: f64 = counts.iter().sum();
-        let (before, after) = (self.shares(base, null), self.shares(base, fitted));
+        let shares = |unit: &Fitted, fitted: &Fitted| self.shares_of(term, unit, fitted);
+        let (before, after) = (shares(base, null), shares(base, fitted));
         let [learnt, held_out] = [before[0] - after[0], before[1] - after[1]];
         Evidence {
             delta_bic: gain - more as f64 * total.max(1.0).ln(),
@@ -54,7 +54,7 @@ impl World<'_> {
             held_out_t: self.steadiness(term, &null.test, &fitted.test),
             explained: if is_resonance(term) { learnt.max(held_out) } else { held_out },
             phi_gain: everywhere(term, self.phi_gains(null, fitted)),
-            taken: everywhere(term, self.shares(null, fitted).map(|share| 1.0 - share)),
+            taken: everywhere(term, shares(null, fitted).map(|share| 1.0 - share)),
             usual: self.is_usual(term, fitted),
             grave: false,
         }
@@ -133,34 +133,38 @@ impl World<'_> {
 
     /// The same of one output alone.
     pub(super) fn left_of(&self, output: usize, unit: &Fitted, fitted: &Fitted) -> f64 {
+        self.shares_of(Term::Response(output), unit, fitted).iter().sum()
+    }
+
+    /// Share of another fit's error that is left, on the training and on the held-out data: mean over the signals.
+    fn shares(&self, unit: &Fitted, fitted: &Fitted) -> [f64; 2] {
+        [(&unit.train, &fitted.train), (&unit.test, &fitted.test)].map(|(unit, fitted)| {
+            let each = self.each(unit, fitted);
+            each.iter().sum::<f64>() / each.len().max(1) as f64
+        })
+    }
+
+    /// The same as a term tells it: a sensor's response of its own signal. How much it makes of that is no matter of how the
+    /// small effects around it show in the others.
+    fn shares_of(&self, term: Term, unit: &Fitted, fitted: &Fitted) -> [f64; 2] {
+        let Term::Response(output) = term else { return self.shares(unit, fitted) };
         let of = |record: &Recorded| record.measured.iter().position(|it| it.output == output);
         let row = self.train.first().and_then(of);
-        let each = [(&unit.train, &fitted.train), (&unit.test, &fitted.test)].map(|(unit, fitted)| {
-            let squares = |it: &Residuals| self.errors(it).mean_squares();
-            row.map_or(1.0, |row| squares(fitted)[row] / squares(unit)[row])
-        });
-        each.iter().sum()
+        [(&unit.train, &fitted.train), (&unit.test, &fitted.test)]
+            .map(|(unit, fitted)| row.map_or(1.0, |row| self.each(unit, fitted)[row]))
     }
 
-    /// Share of another fit's error that is left, on the training and on the held-out data.
-    fn shares(&self, unit: &Fitted, fitted: &Fitted) -> [f64; 2] {
-        [self.share(&unit.train, &fitted.train), self.share(&unit.test, &fitted.test)]
-    }
-
-    /// Mean over the signals of a share of the error's power.
-    fn share(&self, unit: &Residuals, residuals: &Residuals) -> f64 {
+    /// Share of each signal's error's power.
+    fn each(&self, unit: &Residuals, residuals: &Residuals) -> Vec<f64> {
         let (unit, squares) = (self.errors(unit).mean_squares(), self.errors(residuals).mean_squares());
-        unit.iter().zip(&squares).map(|(unit, square)| square / unit).sum::<f64>() / unit.len().max(1) as f64
+        unit.iter().zip(&squares).map(|(unit, square)| square / unit).collect()
     }
 }
 
 /// Whether a signal is late by no more than measurements make any; none of what is not about its timing.
 pub(super) fn is_in_time(term: Term, fitted: &Fitted) -> Option<bool> {
     match term {
-        Term::Fault(
-            handle @ (Handle::Input(_, Fault::Lag | Fault::Delay)
-            | Handle::Output(_, Fault::Lag | Fault::Delay)),
-        ) => Some(fitted.point.get(handle).abs() < LATE * TIMING),
+        Term::Fault(handle) if term.delays() => Some(fitted.point.get(handle).abs() < LATE * TIMING),
         _ => None,
     }
 }

@@ -14,8 +14,8 @@ const PARTS: [&str; 21] = [
     "21", "23", "24", "25",
 ];
 
-/// Further effects of the quarter car's parts: frame, road and force as they act.
-const FURTHER: [&str; 4] = ["18", "22", "26", "26s"];
+/// Further effects of the quarter car's parts: frame, road and force as they act, friction behind play.
+const FURTHER: [&str; 5] = ["18", "22", "26", "26s", "03b"];
 
 /// Effects of a quarter car with a servo valve.
 const WITH_VALVE: [&str; 5] = ["01", "28", "28h", "29", "30"];
@@ -32,7 +32,7 @@ const UNNAMED_OF_SENSORS: [(&str, &str); 4] = [
 const OF_DRIVE: [&str; 4] = ["02g", "16", "27", "33g"];
 
 /// Effects of a strut on a dyno.
-const ON_DYNO: [&str; 9] = ["01", "03", "04", "05", "06", "07", "08", "09", "32"];
+const ON_DYNO: [&str; 10] = ["01", "03", "03b", "04", "05", "06", "07", "08", "09", "32"];
 
 /// Pairs that can be told apart, and pairs that are easily confused.
 const PAIRS: [[&str; 2]; 8] = [

@@ -125,7 +125,7 @@ pub fn entries() -> impl Iterator<Item = &'static Entry> {
 }
 
 /// Laws with a letter in the catalogue of the diagnosis, too: who calls one by its number alone means another one.
-const LETTERED: [&str; 3] = ["26s", "28h", "41h"];
+const LETTERED: [&str; 4] = ["03b", "26s", "28h", "41h"];
 
 /// The number in the catalogue of the diagnosis: what shares one has a letter here.
 pub fn number(id: &str) -> &str {

@@ -46,6 +46,8 @@ pub struct Strut {
     pub bush: Option<(f64, f64)>,
     /// Bristles: friction in N, stiffness in N/m, damping in N s/m.
     pub bristles: Option<(f64, f64, f64)>,
+    /// A slider behind a spring with play: its friction in N, the spring's stiffness in N/m, the play to each side in m.
+    pub loose_slider: Option<(f64, f64, f64)>,
     /// Yield force in N, velocity over which it changes its sign in m/s, and how much the change lags behind, in
     /// 1/m: `F tanh(v/v_y + β x)`, as magnetorheological dampers have it.
     pub yielding: Option<(f64, f64, f64)>,
@@ -59,7 +61,7 @@ pub struct Strut {
     pub cogging: Option<(f64, f64, f64)>,
 }
 
-/// Hidden states: two Maxwell branches, the inner end of the bush, the bristles.
+/// Hidden states: two Maxwell branches, the inner end of the bush, the bristles or the place of the slider.
 pub type Inner = [f64; 4];
 
 impl Strut {
@@ -86,6 +88,13 @@ impl Strut {
         if let Some((sliding, stiffness, damping)) = self.bristles {
             rates[3] = v - stiffness * v.abs() / sliding * inner[3];
             force += stiffness * inner[3] + damping * rates[3];
+        }
+        if let Some((sliding, stiffness, gap)) = self.loose_slider {
+            let stretched = x - inner[3];
+            let carried = stiffness * (stretched - stretched.clamp(-gap, gap));
+            force += carried.clamp(-sliding, sliding);
+            // It stays where it is until the spring carries its friction, and then goes along.
+            rates[3] = if carried.abs() >= sliding && carried * v > 0.0 { v } else { 0.0 };
         }
         if let Some((most, velocity, slope)) = self.yielding {
             force += most * (v / velocity + slope * x).tanh();
@@ -153,6 +162,25 @@ mod tests {
         let (force, rates) = strut.force(0.0, 1.1e-3, 0.3, &[0.0; 4]);
         assert!((force - 8400.0 * 1.1e-3 - 100.0).abs() < 1e-9);
         assert!((rates[2] - 100.0 / 707.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_slider_rests_over_its_play_after_a_reversal() {
+        let strut = Strut { loose_slider: Some((60.0, 1e5, 1e-3)), ..Strut::default() };
+        let (mut x, mut inner, step) = (0.0, [0.0; 4], 1e-6);
+        let mut go = |way: f64| {
+            for _ in 0..(way.abs() / step).round() as usize {
+                x += step * way.signum();
+                inner[3] += step * strut.force(0.0, x, way.signum(), &inner).1[3];
+            }
+            strut.force(0.0, x, way.signum(), &inner).0
+        };
+        // 1 mm of play and 0.6 mm of spring to the one side; back over the spring, 2 mm of play, the spring on the other.
+        for (way, force) in [(1.3e-3, 30.0), (9e-3, 60.0), (-0.3e-3, 30.0), (-1.3e-3, 0.0), (-1.3e-3, -30.0)]
+        {
+            let found = go(way);
+            assert!((found - force).abs() < 0.5, "{found} N, not {force} N");
+        }
     }
 
     #[test]

@@ -2,6 +2,8 @@
 
 use strut_model::{Real, Variables};
 
+use super::knee::dead_zone;
+
 /// Dahl's friction: a force that follows its limit as a spring would at first (Dahl 1968; catalogue of diagnosis, 03).
 ///
 /// `f' = σ v g(1 − sgn(v) f/F)` with `stiffness` σ, the limit `force` F and `g(u) = |u|ⁿ sgn(u)`. With the exponent
@@ -11,6 +13,10 @@ use strut_model::{Real, Variables};
 /// For n ≠ 1 g is rounded within about 1 % of the limit, `g(u) = u ((u² + δ²)/(1 + δ²))^((n−1)/2)` with δ = 0.01, so
 /// that its slope is finite for n < 1. It grows and goes through g(0) = 0 and g(1) = 1, which makes the friction passive
 /// for every n: `f v − (f²/2σ)' = f v (1 − g(1 − sgn(v) f/F)) ≥ 0`.
+///
+/// Behind a play of b to each side (03b) the spring transmits nothing until its play is gone: the state y is what the
+/// spring would have without play, `y' = σ v g(1 − sgn(v) f/F)`, and the friction is `f = dz(y, σ b)`. After a reversal it
+/// falls to zero, rests there over the way 2 b, and builds up on the other side.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Presliding<R> {
     /// Limit of the friction (F); zero switches it off
@@ -22,12 +28,15 @@ pub struct Presliding<R> {
     /// Exponent of the approach to the limit (n)
     #[var(unit = ONE, start = 1.0, min = 0.1, max = 5.0)]
     pub exponent: R,
+    /// Half the play behind which it acts (b)
+    #[var(unit = M, start = 0.0, min = 0.0)]
+    pub gap: R,
 }
 
 /// What presliding friction remembers.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct PreslidingState<R> {
-    /// Friction force
+    /// Friction force, as it would be without play (y)
     #[var(unit = N, nominal = 10.0)]
     pub friction: R,
 }
@@ -43,12 +52,17 @@ impl<R: Real> Presliding<R> {
         if self.force.vanishes() {
             return (zero, PreslidingState { friction: zero });
         }
+        let friction = if self.gap.vanishes() {
+            state.friction
+        } else {
+            dead_zone(state.friction, self.stiffness * self.gap)
+        };
         // While it is switched off but being varied there is nothing to divide by.
-        let share = state.friction / self.force.select(self.force, R::from(1.0));
+        let share = friction / self.force.select(self.force, R::from(1.0));
         let one = R::from(1.0);
         let approach = velocity.select(self.approach(one - share), self.approach(one + share));
         (
-            self.force.select(state.friction, zero),
+            self.force.select(friction, zero),
             PreslidingState { friction: self.force.select(self.stiffness * velocity * approach, zero) },
         )
     }
@@ -71,7 +85,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn dahl(exponent: f64) -> Presliding<f64> {
-        Presliding { force: 80.0, stiffness: 1e5, exponent }
+        Presliding { force: 80.0, stiffness: 1e5, exponent, gap: 0.0 }
     }
 
     /// The friction after a way in one direction, in small steps of Euler's.
@@ -99,6 +113,38 @@ mod tests {
         assert!((reached[0] / 80.0 - 0.9375).abs() < 1e-3, "{reached:?}");
     }
 
+    /// From one limit to nothing, over the play without force, and on the other side as from rest.
+    #[test]
+    fn behind_play_it_rests_at_zero_between_its_sides() {
+        let loose = Presliding { gap: 0.5e-3, ..dahl(1.0) };
+        let force = |friction: f64| loose.force(PreslidingState { friction }, -1.0).0;
+        // Reversed, f/F = 2 exp(−s) − 1 over the way s in F/σ: gone at s = ln 2.
+        let gone = 0.8e-3 * 2.0_f64.ln();
+        let limit = 80.0 + 1e5 * 0.5e-3;
+        assert_eq!(force(limit), 80.0);
+        for inside in [0.01e-3, 0.5e-3, 0.99e-3] {
+            assert_eq!(force(after(&loose, limit, -gone - inside)), 0.0);
+        }
+        let beyond = force(after(&loose, limit, -gone - 1e-3 - 0.8e-3));
+        assert!((beyond + 80.0 * (1.0 - (-1.0_f64).exp())).abs() < 0.05, "{beyond}");
+    }
+
+    /// So that a search that begins without play sees it.
+    #[test]
+    fn a_play_that_is_varied_from_zero_takes_from_the_force() {
+        let law = Presliding {
+            force: Dual64::from(80.0),
+            stiffness: Dual64::from(1e5),
+            exponent: Dual64::from(1.0),
+            gap: Dual64::new(0.0, 1.0),
+        };
+        for (friction, slope) in [(30.0, -1e5), (-30.0, 1e5)] {
+            let (force, _) =
+                law.force(PreslidingState { friction: Dual64::from(friction) }, Dual64::from(0.3));
+            assert_eq!((force.re, force.eps), (friction, slope));
+        }
+    }
+
     #[test]
     fn at_the_limit_every_exponent_has_finite_derivatives() {
         for exponent in [0.1, 0.5, 1.0, 2.5, 5.0] {
@@ -106,6 +152,7 @@ mod tests {
                 force: Dual64::from(80.0),
                 stiffness: Dual64::from(1e5),
                 exponent: Dual64::new(exponent, 1.0),
+                gap: Dual64::from(0.0),
             };
             for friction in [-80.0, 0.0, 80.0, 80.001] {
                 let (_, rate) =
@@ -124,6 +171,7 @@ mod tests {
             force: Dual64::new(0.0, 1.0),
             stiffness: Dual64::from(1e5),
             exponent: Dual64::from(0.5),
+            gap: Dual64::from(0.0),
         };
         let (force, rate) = law.force(PreslidingState { friction: Dual64::from(0.0) }, Dual64::from(0.3));
         assert_eq!((force.re, rate.friction.re), (0.0, 0.0));
@@ -138,10 +186,13 @@ mod tests {
         }
 
         #[test]
-        fn what_it_does_not_store_it_takes(friction in -80.0..80.0_f64, v in -1.0..1.0_f64, n in 0.1..5.0_f64) {
-            let law = dahl(n);
+        fn what_it_does_not_store_it_takes(
+            friction in -80.0..80.0_f64, v in -1.0..1.0_f64, n in 0.1..5.0_f64, gap in 0.0..1e-3_f64,
+        ) {
+            let law = Presliding { gap, ..dahl(n) };
             let (force, rate) = law.force(PreslidingState { friction }, v);
-            let stored = friction * rate.friction / law.stiffness;
+            // Within the play nothing is stored.
+            let stored = force * rate.friction / law.stiffness;
             prop_assert!(force * v - stored >= -1e-9, "{force} {v} {stored}");
         }
 

@@ -162,7 +162,7 @@ impl Model for QuarterCar {
                 source: "catalogue of diagnosis: 14; power is kept",
             },
             Equation {
-                text: "presliding friction: + f, f' = sigma v g(1 - sgn(v) f/F), g(u) = |u|^n sgn(u)",
+                text: "presliding friction: + f, f = dz(y, sigma b), y' = sigma v g(1 - sgn(v) f/F), g(u) = |u|^n sgn(u)",
                 source: "Dahl 1968; catalogue of diagnosis: 03",
             },
             Equation {

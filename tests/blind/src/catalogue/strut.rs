@@ -29,6 +29,16 @@ pub(super) static ENTRIES: &[Entry] = &[
         ],
     ),
     entry(
+        "03b",
+        "friction of the strut behind play",
+        Place::Strut,
+        &[
+            drawn("hysteresis.presliding.force", "N", (40.0, 80.0), ZERO, (0.0, 400.0)),
+            drawn("hysteresis.presliding.stiffness", "N/m", (5e4, 2e5), SHAPE, ANY),
+            of(Scale::Deflection, drawn("hysteresis.presliding.gap", "m", (0.06, 0.15), SHAPE, ANY)),
+        ],
+    ),
+    entry(
         "04",
         "asymmetry of the damper",
         Place::Strut,

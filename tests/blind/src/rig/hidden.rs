@@ -52,6 +52,7 @@ impl Rig {
             "02" => self.car.contacts.push(contact(STRUT, stribeck(values))),
             "02g" => drive.contacts.push(contact(GUIDE, stribeck(values))),
             "03" => strut.bristles = Some((first, values[1], 0.0)),
+            "03b" => strut.loose_slider = Some((first, values[1], values[2])),
             "04" => strut.asymmetry = first,
             "05" => strut.knee = Some((values[1], first)),
             "06" => strut.orifice = first,

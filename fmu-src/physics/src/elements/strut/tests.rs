@@ -132,7 +132,7 @@ fn every_effect() -> Strut<f64> {
 /// Every effect with a state at once.
 fn remembering() -> Hysteresis<f64> {
     Hysteresis {
-        presliding: Presliding { force: 60.0, stiffness: 2e5, exponent: 1.5 },
+        presliding: Presliding { force: 60.0, stiffness: 2e5, exponent: 1.5, gap: 0.0 },
         maxwell: Maxwell { stiffness: 2e4, time: 0.02 },
         mount: Mount { gap: 0.5e-3, compliance: 2e-6 },
     }
