@@ -44,6 +44,26 @@ pub struct Car {
     pub actuator: Actuator,
     /// A servo valve and its cylinder instead: the command is a voltage.
     pub servo: Option<Servo>,
+    /// What commands a force besides, of what the car does.
+    pub regulator: Option<Regulator>,
+}
+
+/// A state feedback: it runs at 1 kHz and holds its force meanwhile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Regulator {
+    /// Force against the strut's deflection in N/m, the body's velocity in N s/m, the tyre's deflection in N/m and the wheel's
+    /// velocity in N s/m.
+    pub gains: [f64; 4],
+}
+
+impl Regulator {
+    /// Steps of the integration in one of its own.
+    const HELD: usize = 20;
+
+    fn force(&self, [body, body_velocity, wheel, wheel_velocity]: [f64; 4], road: f64) -> f64 {
+        let state = [body - wheel, body_velocity, wheel - road, wheel_velocity];
+        -self.gains.iter().zip(state).map(|(gain, x)| gain * x).sum::<f64>()
+    }
 }
 
 /// A mode of the frame: a mass on a spring and a damper on the body, beside the sprung mass.
@@ -222,16 +242,29 @@ impl Car {
         let mut friction = vec![0.0; self.contacts.len()];
         let mut motion = Motion::default();
         let (mut now, mut opening) = (road.at(0.0), 0.0);
-        let made = |time: f64| self.actuator.made_of(force.at(time - self.actuator.delay).0);
-        let mut halfway = made(0.0);
+        // What the regulator commands in each step so far.
+        let mut regulated = Vec::with_capacity(count);
+        let command = |regulated: &[f64], time: f64| {
+            // A hair later, so that the beginning of a step is not taken for the end of the one before.
+            let own = if time < 0.0 { None } else { regulated.get((time * RATE + 1e-6) as usize) };
+            force.at(time).0 + own.or(regulated.last().filter(|_| time >= 0.0)).copied().unwrap_or_default()
+        };
+        let mut halfway = self.actuator.made_of(force.at(-self.actuator.delay).0);
         for k in 0..count {
             let time = k as f64 * step;
+            regulated.push(match (self.regulator, regulated.last()) {
+                (Some(regulator), _) if k.is_multiple_of(Regulator::HELD) => {
+                    regulator.force([state[0], state[1], state[2], state[3]], now.0)
+                }
+                (_, last) => last.copied().unwrap_or_default(),
+            });
+            let made = |time: f64| self.actuator.made_of(command(&regulated, time - self.actuator.delay));
             let reached = |before: f64, time: f64| self.actuator.reached(before, made(time), 0.5 * step);
             let beginning = reached(halfway, time);
             halfway = reached(beginning, time + 0.5 * step);
             let outside = |time: f64, road, made, friction| Outside { time, road, made, friction, opening };
             let (first, tire) = self.rates(&state, outside(time, now, beginning, &friction));
-            motion.push(&state, &first, now, force.at(time).0, tire);
+            motion.push(&state, &first, now, command(&regulated, time), tire);
 
             let (middle, end) = (road.at(time + 0.5 * step), road.at(time + step));
             let half = outside(time + 0.5 * step, middle, halfway, &friction);

@@ -12,7 +12,9 @@ use crate::catalogue::{Place, RATE_ERROR};
 pub enum Plant {
     /// The TUM quarter-vehicle rig with a linear strut, no friction and a linear tyre.
     LinearQuarter,
-    /// The same with what TUM's Table 10 knows already: asymmetric damper, friction of strut and guide,
+    /// The same under a state feedback, whose force is what is commanded.
+    RegulatedQuarter,
+    /// The linear one with what TUM's Table 10 knows already: asymmetric damper, friction of strut and guide,
     /// quadratic tyre.
     PublishedQuarter,
     /// Its strut alone: moved at one end, the force measured.
@@ -28,13 +30,17 @@ pub enum Plant {
 impl Plant {
     /// Whether it is a body and a wheel on a road.
     pub fn is_car(self) -> bool {
-        matches!(self, Self::LinearQuarter | Self::PublishedQuarter | Self::ServoQuarter)
+        matches!(
+            self,
+            Self::LinearQuarter | Self::RegulatedQuarter | Self::PublishedQuarter | Self::ServoQuarter
+        )
     }
 
     /// As the page of results calls it.
     pub fn title(self) -> &'static str {
         match self {
             Self::LinearQuarter => "quarter car, linear",
+            Self::RegulatedQuarter => "quarter car under state feedback",
             Self::PublishedQuarter => "quarter car, published",
             Self::StrutDyno => "strut on a dyno",
             Self::ServoQuarter => "quarter car with a servo valve",

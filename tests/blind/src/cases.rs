@@ -28,6 +28,9 @@ const UNNAMED_OF_SENSORS: [(&str, &str); 4] = [
     ("U6", "suspension.deflection"),
 ];
 
+/// Effects of a quarter car under a regulator.
+const REGULATED: [&str; 6] = ["01", "07", "12", "16", "23", "25"];
+
 /// Effects of a linear drive.
 const OF_DRIVE: [&str; 4] = ["02g", "16", "27", "33g"];
 
@@ -158,6 +161,13 @@ fn other_rigs(seed: u64, all: &mut Vec<Case>) {
         let case = standard(format!("servo-{id}-{seed}"), hidden(id), seed);
         all.push(Case { plant: Plant::ServoQuarter, ..case });
     }
+    for id in [&["none"][..], &REGULATED].concat() {
+        let case = standard(format!("regulated-{id}-{seed}"), hidden(id), seed);
+        all.push(Case { plant: Plant::RegulatedQuarter, ..case });
+    }
+    let late = vec![Hidden::at("36", "suspension.deflection")];
+    let case = standard(format!("regulated-36-{seed}"), late, seed);
+    all.push(Case { plant: Plant::RegulatedQuarter, ..case });
     for id in [&["none"][..], &OF_DRIVE].concat() {
         all.push(driven(standard(format!("drive-{id}-{seed}"), hidden(id), seed)));
     }

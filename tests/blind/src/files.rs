@@ -35,7 +35,7 @@ fn start(made: &Generated) -> String {
     let element = "element = { value = \"Strut\", source = \"start\" }\n";
     let (fmu, model, source, choice) = match made.truth.case.plant {
         // That the tyre cannot pull is for the diagnosis to find out.
-        Plant::LinearQuarter | Plant::PublishedQuarter => (
+        Plant::LinearQuarter | Plant::RegulatedQuarter | Plant::PublishedQuarter => (
             "BlindQuarterVehicle",
             "QuarterCar",
             "TUM",

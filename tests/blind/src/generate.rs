@@ -3,6 +3,7 @@
 mod excitations;
 mod sizing;
 
+use crate::car::RATE;
 use crate::case::{Case, Generated, Oracle, Plant, Present, Table, Truth, Value};
 use crate::catalogue::Entry;
 use crate::excitation::Profile;
@@ -50,6 +51,9 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
         *sensor = Sensor { noise: sensor.noise, ..sound };
     }
     let recorded: Vec<Excitation> = exact.iter().map(|it| recorded(case, &known, it)).collect();
+    let exact: Vec<Excitation> = exact.into_iter().map(|it| commanded(case, &rig, it)).collect();
+    // It is told what was commanded, and commands nothing itself.
+    oracle.car.regulator = None;
     let foreseen = |by: &[Excitation]| by.iter().map(|it| foreseen(case, &oracle, it)).collect::<Vec<_>>();
     // A loop has the motor say what the position does: who would foresee both has no error to compare with.
     let oracle = if case.plant == Plant::LinearDrive {
@@ -72,6 +76,15 @@ fn changed(mut base: Vec<Value>, effects: &[Present]) -> Vec<Value> {
         }
     }
     base
+}
+
+/// An excitation with all that was commanded, of what the rig did, too.
+fn commanded(case: &Case, rig: &Rig, excitation: Excitation) -> Excitation {
+    if rig.car.regulator.is_none() {
+        return excitation;
+    }
+    let motion = rig.run(&excitation.road, &excitation.command, case.reach());
+    Excitation { command: Profile::through(&motion.command, RATE), ..excitation }
 }
 
 /// An excitation as its sensors recorded it.
@@ -114,7 +127,7 @@ fn left(records: &[Table], foreseen: &[Columns]) -> Vec<Value> {
 }
 
 fn check(case: &Case) -> Result<(), String> {
-    let divides = case.rate > 0.0 && (crate::car::RATE / case.rate).fract() == 0.0;
+    let divides = case.rate > 0.0 && (RATE / case.rate).fract() == 0.0;
     if !divides || !(40.0..=2000.0).contains(&case.rate) {
         return Err(format!("rate = {} Hz: take one from 40 to 2000 that divides 20000", case.rate));
     }
@@ -140,7 +153,7 @@ fn table(case: &Case, rig: &Rig, excitation: &Excitation, purpose: &str) -> Tabl
     columns.extend(measured);
     if case.road_velocity && case.plant != Plant::LinearDrive {
         let of = if case.plant.is_car() { "road" } else { "motion" };
-        let every = (crate::car::RATE / case.rate).round() as usize;
+        let every = (RATE / case.rate).round() as usize;
         let velocity = motion.road_velocity.iter().step_by(every).take(count).copied().collect();
         columns.push((format!("{of}.velocity"), "m/s".to_owned(), velocity));
     }

@@ -56,6 +56,8 @@ pub struct Score {
     pub first: String,
     /// How it came out.
     pub outcome: Outcome,
+    /// How it came out but for small effects of the clutter that are named and are there.
+    pub beside_clutter: Outcome,
     /// How many effects are there.
     pub effects: usize,
     /// Whether what is there has no number.
@@ -103,7 +105,10 @@ pub fn score(truth: &Truth, report: &str) -> Result<Score, String> {
     let effects = &truth.effects;
     let out_of_catalogue = effects.iter().any(|effect| effect.id.starts_with('U'));
     let first = Spot::of(&report, truth);
-    let outcome = outcome(&report, effects);
+    let told: Vec<&Named> = report.effects.iter().collect();
+    let own: Vec<&Named> = told.iter().copied().filter(|named| !is_clutter(named, truth)).collect();
+    let beside_clutter = outcome(&report, &own, effects);
+    let outcome = outcome(&report, &told, effects);
     let found = first.as_ref().filter(|_| !effects.is_empty());
     let sensors: Vec<bool> = effects.iter().map(|effect| effect.place == Place::Sensor).collect();
     let said_sensor = report.verdict == "sensor_fault" || first.as_ref().is_some_and(Spot::is_sensor);
@@ -115,6 +120,7 @@ pub fn score(truth: &Truth, report: &str) -> Result<Score, String> {
         truth: if effects.is_empty() { "-".into() } else { joined(effects) },
         first: first.as_ref().map_or_else(|| without_cause(&report), Spot::label),
         outcome,
+        beside_clutter,
         effects: effects.len(),
         out_of_catalogue,
         clutter: truth.case.clutter > 0,
@@ -187,14 +193,15 @@ fn is_meant(effect: &Present, text: &str) -> bool {
     words.first() == Some(&number(&effect.id)) && at_place
 }
 
-fn outcome(report: &Report, effects: &[Present]) -> Outcome {
-    let nothing = report.effects.is_empty() && report.unnamed.is_none();
+/// How a report came out of which these effects count.
+fn outcome(report: &Report, told: &[&Named], effects: &[Present]) -> Outcome {
+    let nothing = told.is_empty() && report.unnamed.is_none();
     if effects.is_empty() {
         let calm = nothing && ["no_effect", "parameter_mismatch"].contains(&report.verdict.as_str());
         return if calm { Outcome::Correct } else { Outcome::FalseAlarm };
     }
     if effects.iter().any(|effect| effect.id.starts_with('U')) {
-        return match (report.effects.is_empty(), nothing) {
+        return match (told.is_empty(), nothing) {
             (_, true) => Outcome::Missed,
             (true, _) => Outcome::Unnamed,
             (false, _) => Outcome::WrongName,
@@ -202,9 +209,9 @@ fn outcome(report: &Report, effects: &[Present]) -> Outcome {
     }
     // The largest set from which one of the present effects had to be chosen; none if it is not there at all.
     let choice = |effect: &Present| {
-        let sure = report.effects.iter().find(|named| is_named(effect, named));
-        let among = |named: &&Named| named.ambiguous_with.iter().any(|text| is_meant(effect, text));
-        let found = sure.or_else(|| report.effects.iter().find(among));
+        let sure = told.iter().find(|named| is_named(effect, named));
+        let among = |named: &&&Named| named.ambiguous_with.iter().any(|text| is_meant(effect, text));
+        let found = sure.or_else(|| told.iter().find(among));
         let size = found.map(|named| 1 + named.ambiguous_with.len());
         size.or(is_known_otherwise(effect, report).then_some(1))
     };
@@ -215,19 +222,30 @@ fn outcome(report: &Report, effects: &[Present]) -> Outcome {
             .any(|e| is_named(e, named) || named.ambiguous_with.iter().any(|text| is_meant(e, text)))
     };
     // What is wrong with one measured input, its gain and its delay, say, is one effect.
-    let told = report.effects.iter().map(|named| (&named.id, &named.element)).collect::<BTreeSet<_>>().len();
-    let strangers = report.unnamed.is_some() || !report.effects.iter().all(belongs);
+    let number = told.iter().map(|named| (&named.id, &named.element)).collect::<BTreeSet<_>>().len();
+    let strangers = report.unnamed.is_some() || !told.iter().all(|named| belongs(named));
     match choices.iter().max() {
-        None if report.unnamed.is_some() && report.effects.is_empty() => Outcome::Unnamed,
-        None if report.effects.is_empty() => Outcome::Missed,
+        None if report.unnamed.is_some() && told.is_empty() => Outcome::Unnamed,
+        None if told.is_empty() => Outcome::Missed,
         None => Outcome::WrongName,
         Some(_) if strangers && choices.len() < effects.len() => Outcome::WrongName,
-        Some(_) if strangers || told > effects.len() => Outcome::TooMany,
+        Some(_) if strangers || number > effects.len() => Outcome::TooMany,
         Some(_) if choices.len() < effects.len() => Outcome::TooFew,
         Some(1) => Outcome::Correct,
         Some(2) => Outcome::OneOfTwo,
         Some(_) => Outcome::OneOfMany,
     }
+}
+
+/// Whether a name is that of an effect that the clutter brings: a weak Maxwell branch, a slightly cubic spring, and the filters of
+/// accelerometers, which are late by them.
+fn is_clutter(named: &Named, truth: &Truth) -> bool {
+    let there = match named.id.as_str() {
+        "07" | "08" => named.element == "strut",
+        "35" | "36" => named.element.ends_with("acceleration"),
+        _ => false,
+    };
+    there && truth.case.clutter > 0 && !truth.effects.iter().any(|effect| is_named(effect, named))
 }
 
 fn coverage(report: &Report, effects: &[Present]) -> (usize, usize) {

@@ -224,3 +224,23 @@ fn body_and_wheel_ring_on_the_oil() {
     let omega = TAU / (crossings[1] - crossings[0]);
     assert!((omega / 1581.0 - 1.0).abs() < 0.01, "{omega} rad/s");
 }
+
+/// A virtual damper between body and sky, whose force is held for a millisecond: the body hardly overshoots.
+#[test]
+fn a_regulator_does_what_its_gains_say() {
+    let mut regulated = linear();
+    regulated.regulator = Some(Regulator { gains: [0.0, 900.0, 0.0, 0.0] });
+    let start = [0.01, 0.0, 0.0, 0.0];
+    let motion = free(&regulated, 1.0, start);
+    for (k, command) in motion.command.iter().enumerate() {
+        let tick = k - k % Regulator::HELD;
+        assert!((command + 900.0 * motion.body_velocity[tick]).abs() < 1e-9, "{k}: {command} N");
+    }
+    let overshoot = |motion: &Motion| motion.body.iter().fold(0.0_f64, |most, x| most.max(-x));
+    assert!(overshoot(&motion) < 0.3 * overshoot(&free(&linear(), 1.0, start)));
+    // Driven by that command, the rig without a regulator does the same.
+    let command = Profile::through(&motion.command, RATE);
+    let again = linear().run(&Profile::still(), &command, 1.0, start);
+    let apart = motion.body.iter().zip(&again.body).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+    assert!(apart < 1e-5, "{apart} m");
+}

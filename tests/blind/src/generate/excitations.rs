@@ -38,7 +38,7 @@ pub(super) fn excitations(case: &Case, plain: &Rig) -> (Vec<Excitation>, Vec<Exc
             ("road", road(random, time, 0.025), multisine(random, time, 0.6, 150.0)),
             ("sweep", still(), sweep(time, 0.0, 250.0)),
         ],
-        Plant::LinearQuarter => [
+        Plant::LinearQuarter | Plant::RegulatedQuarter => [
             ("multisine", multisine(random, time, 0.5, 0.010), still()),
             ("prbs", multisine(random, time, 0.5, 0.005), forces(case, random, 150.0)),
             ("bumps", bumps(random, time, 0.010), multisine(random, time, 0.3, 120.0)),

@@ -14,7 +14,7 @@ fn is_possible(plant: Plant, entry: &Entry) -> bool {
     let of_servo = ["28", "28h", "29", "30"].contains(&id);
     let of_drive = ["02g", "27", "33g"].contains(&id);
     match plant {
-        Plant::LinearQuarter => !of_servo && !of_drive,
+        Plant::LinearQuarter | Plant::RegulatedQuarter => !of_servo && !of_drive,
         Plant::PublishedQuarter => !of_servo && !of_drive && !["01", "02", "04", "16", "19"].contains(&id),
         Plant::ServoQuarter => of_servo || !of_drive && entry.place != Place::Actuator,
         Plant::StrutDyno | Plant::MrDyno => match entry.place {

@@ -68,7 +68,7 @@ const BEYOND_LINEAR: [&str; 4] =
 /// Parameters that the model of a plant starts with.
 pub fn start(plant: Plant) -> Vec<Value> {
     let published: &[Published] = match plant {
-        Plant::LinearQuarter | Plant::PublishedQuarter | Plant::StrutDyno => &TUM,
+        Plant::LinearQuarter | Plant::RegulatedQuarter | Plant::PublishedQuarter | Plant::StrutDyno => &TUM,
         Plant::ServoQuarter => &KONIECZNY,
         Plant::MrDyno => &MAGNETORHEOLOGICAL,
         Plant::LinearDrive => &DRIVE,

@@ -8,7 +8,7 @@ pub fn signals(plant: Plant, sensors: Sensors) -> Vec<(&'static str, &'static st
     let command = match plant {
         Plant::StrutDyno | Plant::MrDyno => return vec![("motion.position", "m"), ("force", "N")],
         Plant::LinearDrive => return vec![("force", "N"), ("position", "m")],
-        Plant::LinearQuarter | Plant::PublishedQuarter => ("actuator.force", "N"),
+        Plant::LinearQuarter | Plant::RegulatedQuarter | Plant::PublishedQuarter => ("actuator.force", "N"),
         Plant::ServoQuarter => ("voltage", "V"),
     };
     let mut all = vec![("road.position", "m"), command, ("body.acceleration", "m/s2")];

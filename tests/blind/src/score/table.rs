@@ -42,6 +42,8 @@ pub fn markdown(scores: &[Score]) -> String {
     row("correct, or one of two", "≥ 95 %", &mut single().map(good));
     let full = || single().filter(|score| score.full_size);
     row("the same where effects are as large as the targets ask", "≥ 95 %", &mut full().map(good));
+    let beside = |score: &Score| matches!(score.beside_clutter, Outcome::Correct | Outcome::OneOfTwo);
+    row("the same but for what of the clutter is there and named", "–", &mut single().map(beside));
     row("first name right", "≥ 95 %", &mut single().filter_map(|score| score.first_right));
     row("false alarms without clutter", "≤ 1 %", &mut without(false).map(alarm));
     row("false alarms with clutter", "≤ 5 %", &mut without(true).map(alarm));

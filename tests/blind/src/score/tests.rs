@@ -65,6 +65,22 @@ fn a_law_with_a_letter_of_its_own_is_not_called_by_the_number_alone() {
     assert_eq!(of(&named(&[("28", "valve", &[])])), Outcome::WrongName);
 }
 
+/// The clutter's weak Maxwell branch is there, too; its own name counts for itself where it was hidden.
+#[test]
+fn what_of_the_clutter_is_named_besides_is_told_apart() {
+    let of = |effects: &[(&str, &str, &[&str])]| {
+        let score = score(&truth(&[FRICTION]), &named(effects)).unwrap();
+        (score.outcome, score.beside_clutter)
+    };
+    let friction: (&str, &str, &[&str]) = ("01", "strut", &[]);
+    assert_eq!(of(&[friction, ("07", "strut", &[])]), (Outcome::TooMany, Outcome::Correct));
+    assert_eq!(of(&[friction, ("36", "body.acceleration", &[])]), (Outcome::TooMany, Outcome::Correct));
+    assert_eq!(of(&[friction, ("36", "wheel.force", &[])]), (Outcome::TooMany, Outcome::TooMany));
+    assert_eq!(of(&[("07", "strut", &[])]), (Outcome::WrongName, Outcome::Missed));
+    let score = score(&truth(&[SPRING]), &named(&[("08", "strut", &[])])).unwrap();
+    assert_eq!(score.beside_clutter, Outcome::Correct);
+}
+
 #[test]
 fn gain_and_delay_of_one_input_are_one_effect() {
     let input = ("42", Place::Sensor, "road.position");
