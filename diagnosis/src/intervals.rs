@@ -5,8 +5,8 @@
 //! say is compared, held-out ones included, and the variance between them, after DerSimonian and Laird (Meta-analysis in
 //! clinical trials, Controlled Clinical Trials 7, 1986), widens the interval. And what pulls alike in all excitations: small
 //! effects that are not in the model. Each cause of the catalogue that is not is taken to be there by as much as the
-//! errors contain of it, and how far the coordinate would move with it is added, in squares. Causes resemble one another,
-//! so this errs on the wide side.
+//! errors contain of it, and how far the coordinate would move with it is added, in squares, and as much again, since it hardly
+//! has the shape in which it is tried, and several act at once.
 
 use std::ops::Range;
 
@@ -81,7 +81,7 @@ impl World<'_> {
             let (between, quantile) = between(&all);
             let pulled: f64 = pulls.iter().map(|pull| pull[index].powi(2)).sum();
             let variance =
-                NORMAL.powi(2) * own[(index, index)].max(0.0) + quantile.powi(2) * between + pulled;
+                NORMAL.powi(2) * own[(index, index)].max(0.0) + quantile.powi(2) * between + 2.0 * pulled;
             let value = fitted.point.get(coordinate.handle);
             let (handle, bounds) = (coordinate.handle, coordinate.bounds);
             Interval { handle, value, half: variance.sqrt(), bounds }

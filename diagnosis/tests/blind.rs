@@ -71,6 +71,8 @@ named! {
     a_lag_whose_work_another_cause_had_done: "behind-35";
     breakaway_friction_that_is_no_plain_friction_besides: "resized-02g";
     friction_of_a_strut_whose_position_is_noisy: "noisy-01";
+    friction_behind_play: "single-03b";
+    friction_of_a_guide_under_state_feedback: "regulated-16";
 }
 
 /// Nothing is there, or nothing that matters: no cause is claimed.

@@ -95,6 +95,12 @@ pub fn compact() -> Vec<Case> {
     all.push(driven(standard("resized-02g", vec![Hidden::new("02g")], 1014)));
     // Where the measured position is noisy, a late one fits better.
     all.push(Case { plant: Plant::StrutDyno, ..standard("noisy-01", vec![Hidden::new("01")], 1014) });
+    // A law that contains presliding; and a loop that answers what the effect does.
+    all.push(standard("single-03b", vec![Hidden::new("03b")], 42));
+    all.push(Case {
+        plant: Plant::RegulatedQuarter,
+        ..standard("regulated-16", vec![Hidden::new("16")], 43)
+    });
     all
 }
 
@@ -261,8 +267,9 @@ mod tests {
     fn the_compact_list_is_what_it_was() {
         let names: Vec<String> =
             compact().into_iter().map(|case| format!("{}/{}", case.name, case.seed)).collect();
-        assert_eq!(names.len(), 38);
-        let [first, .., mismatch, breaking, dry, cogging, pair, common, frame, late, _, _, _] = &names[..]
+        assert_eq!(names.len(), 40);
+        let [first, .., mismatch, breaking, dry, cogging, pair, common, frame, late, _, _, _, _, _] =
+            &names[..]
         else {
             panic!("{names:?}")
         };

@@ -39,6 +39,12 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
         }
         effects.push(present);
     }
+    for value in effects.iter_mut().flat_map(|it| &mut it.parameters) {
+        // The clutter's is in the same spring.
+        if value.name == "strut.spring.cubic" {
+            value.value = rig.car.strut.cubic;
+        }
+    }
     let noise = set_noise(case, &mut rig, &train);
     let tables = |all: &[Excitation], purpose: &str| {
         all.iter().map(|excitation| table(case, &rig, excitation, purpose)).collect()

@@ -4,7 +4,7 @@
 use super::Columns;
 use super::excitations::Excitation;
 use crate::case::{Case, Present, Value};
-use crate::catalogue::{Drawn, Entry, Scale};
+use crate::catalogue::{Drawn, Entry, Role, Scale};
 use crate::random::Random;
 use crate::rig::{Rig, is_uncertain, true_signal};
 use crate::sensors::rms;
@@ -158,7 +158,9 @@ impl<'a> Sizing<'a> {
             };
             let scaled = parameter.scale == Scale::Signal;
             let unit = if scaled { format!("{unit}{}", parameter.unit) } else { parameter.unit.into() };
-            Value { name, unit, value: *value }
+            // Of a sensor's gain the change is told.
+            let value = if of_sensor && parameter.role == Role::AroundOne { value - 1.0 } else { *value };
+            Value { name, unit, value }
         });
         let present = Present {
             id: entry.id.into(),
