@@ -113,18 +113,17 @@ pub fn diagnose<'a>(
         let all = outputs(&world, &base.terms, &base.point, train);
         typical(rig, train, &all)
     };
-    let mut told = searched(&world, base, progress)?;
-    if world.criterion == Criterion::Gates && world.anything_late(&told.0, &told.1) {
+    let (mut found, mut rooted) = searched(&world, base, progress)?;
+    if world.criterion == Criterion::Gates && world.anything_late(&found, &rooted) {
         progress("looking for what makes signals seem late");
         let punctual = World { punctual: true, ..world.clone() };
         let start = Point { starts: before.starts.clone(), ..start };
-        let base = punctual.fitted(&[], &[start, punctual.in_time(&told.0.base.point)], Stop::NOISY)?;
-        let other = searched(&punctual, base, progress)?;
-        if world.does_without_lateness(&told.0, &other.0) {
-            (world, told) = (punctual, other);
+        let base = punctual.fitted(&[], &[start, punctual.in_time(&found.base.point)], Stop::NOISY)?;
+        let (other, hidden) = searched(&punctual, base, progress)?;
+        if world.does_without_lateness(&found, &other) {
+            (world, found, rooted) = (punctual, other, hidden);
         }
     }
-    let (found, rooted) = told;
     progress("comparing what each excitation says");
     let intervals = world.intervals(&found.extended)?;
     Ok(Diagnosis { world, measured, before, found, rooted, intervals, reversed })

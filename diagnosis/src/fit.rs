@@ -92,6 +92,9 @@ impl Point {
 /// Measured less predicted, for each record and each of its measured outputs.
 pub type Residuals = Vec<Signals>;
 
+/// Changes of the signals predicted of a section, by its number over all records.
+pub type Changes<'a> = dyn Fn(usize, &Recorded, &Range<usize>) -> Vec<Signals> + 'a;
+
 /// The fit of a plant to records as a least-squares problem.
 pub struct Fit<'a> {
     /// The model.
@@ -142,7 +145,13 @@ impl<'a> Fit<'a> {
     }
 
     /// The measured outputs as predicted in a section.
-    fn predicted(&self, point: &Point, start: &[f64], record: &Recorded, section: &Range<usize>) -> Signals {
+    pub fn predicted(
+        &self,
+        point: &Point,
+        start: &[f64],
+        record: &Recorded,
+        section: &Range<usize>,
+    ) -> Signals {
         let drive = record.drive(section, &point.inputs);
         let mut outputs = self.dynamics.outputs(&point.parameters, start, &drive);
         let measured = record.measured.iter();
@@ -207,20 +216,19 @@ impl<'a> Fit<'a> {
     }
 
     /// The normal equations `H d = −g` of the coordinates and of the amounts of changes of the predicted signals, without
-    /// the states at the start. Each change has its signals for each record; entries of changes in different groups are
-    /// not computed.
+    /// the states at the start. The changes are asked for section by section, since they are many, and entries of changes in
+    /// different groups are not computed.
     pub fn beside(
         &self,
         point: &Point,
-        changes: &[Residuals],
+        changes: &Changes<'_>,
         groups: &[Range<usize>],
     ) -> (DMatrix<f64>, DVector<f64>) {
-        let (own, extra) = (self.coordinates.len(), changes.len());
-        let (mut h, mut g) = (DMatrix::zeros(own + extra, own + extra), DVector::zeros(own + extra));
-        let numbered = self.records.iter().enumerate();
-        let records: Vec<usize> = numbered.flat_map(|(number, it)| vec![number; it.sections.len()]).collect();
-        for ((index, record, section), number) in self.sections().into_iter().zip(records) {
-            let signals: Vec<&Signals> = changes.iter().map(|change| &change[number]).collect();
+        let own = self.coordinates.len();
+        let all = own + groups.last().map_or(0, |last| last.end);
+        let (mut h, mut g) = (DMatrix::zeros(all, all), DVector::zeros(all));
+        for (index, record, section) in self.sections() {
+            let signals = changes(index, record, section);
             let part = self.section(point, &point.starts[index], record, section, (&signals, groups));
             h += part.h;
             g += part.g;
@@ -232,29 +240,23 @@ impl<'a> Fit<'a> {
         }
         (h, g)
     }
+}
 
-    /// How much of each change of the predicted signals the residuals contain, beyond what the coordinates and the
-    /// states at the start can do: the normal equations `H a = g` of the amounts, within each of the groups.
-    pub fn contained(
-        &self,
-        point: &Point,
-        changes: &[Residuals],
-        groups: &[Range<usize>],
-    ) -> (DMatrix<f64>, DVector<f64>) {
-        let (own, extra) = (self.coordinates.len(), changes.len());
-        let (h, g) = self.beside(point, changes, groups);
-        // At the minimum the coordinates' own gradient is zero, up to what bounds hold.
-        let mut block = h.view((0, 0), (own, own)).into_owned();
-        for index in 0..own {
-            block[(index, index)] =
-                block[(index, index)] * (1.0 + 1e-9) + f64::from(block[(index, index)] == 0.0);
-        }
-        let cross = h.view((0, own), (own, extra)).into_owned();
-        let solved = block.cholesky().map_or_else(|| DMatrix::zeros(own, extra), |it| it.solve(&cross));
-        let h = h.view((own, own), (extra, extra)) - cross.transpose() * &solved;
-        // The changes' columns in the Jacobian of the residuals are negative.
-        (h, -g.rows(own, extra) + solved.transpose() * g.rows(0, own))
+/// How much of each change of the predicted signals the residuals contain, beyond what the first `own` coordinates and the
+/// states at the start can do: the normal equations `H a = g` of the amounts, from those of both (see [`Fit::beside`]).
+pub fn contained(h: &DMatrix<f64>, g: &DVector<f64>, own: usize) -> (DMatrix<f64>, DVector<f64>) {
+    let extra = g.len() - own;
+    // At the minimum the coordinates' own gradient is zero, up to what bounds hold.
+    let mut block = h.view((0, 0), (own, own)).into_owned();
+    for index in 0..own {
+        block[(index, index)] =
+            block[(index, index)] * (1.0 + 1e-9) + f64::from(block[(index, index)] == 0.0);
     }
+    let cross = h.view((0, own), (own, extra)).into_owned();
+    let solved = block.cholesky().map_or_else(|| DMatrix::zeros(own, extra), |it| it.solve(&cross));
+    let h = h.view((own, own), (extra, extra)) - cross.transpose() * &solved;
+    // The changes' columns in the Jacobian of the residuals are negative.
+    (h, -g.rows(own, extra) + solved.transpose() * g.rows(0, own))
 }
 
 /// Half the squared distance of a point from what was known of the coordinates before, in its standard deviations.

@@ -17,7 +17,7 @@ use crate::fit::{Coordinate, Handle, Point};
 use crate::hypothesis::{Fitted, POINTS, Term, World};
 use crate::lsq::Problem;
 use crate::recorded::Recorded;
-use crate::screening::{Changes, groups};
+use crate::screening::TriedOut;
 use crate::search::worth;
 
 /// Excitations that are compared at least: fewer records are cut in pieces.
@@ -92,10 +92,7 @@ impl World<'_> {
     /// How far each coordinate would move beside each cause that is not in the model, the cause being in the shape in which the
     /// errors contain most of it; only of causes that are worth a fit.
     fn pulls(&self, fitted: &Fitted) -> Result<Vec<DVector<f64>>, String> {
-        let Changes { terms, probes, columns } = self.changes(fitted)?;
-        let dynamics = self.dynamics(&fitted.terms)?;
-        let fit = self.fit(&*dynamics, self.train, fitted.coordinates.clone());
-        let (h, g) = fit.beside(&fitted.point, &columns, &groups(&probes));
+        let TriedOut { terms, probes, normal: (h, g) } = self.tried_out(fitted)?;
         let mut most: Vec<Option<(f64, DVector<f64>)>> = vec![None; terms.len()];
         for (probe, range) in &probes {
             // It can do all that a gain, a lag and a delay can, which count on their own.

@@ -4,15 +4,17 @@ mod probes;
 mod typical;
 
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::catalogue;
 use crate::correction::{AFTER, Correction, Fault};
-use crate::fit::{Handle, Point, Residuals};
+use crate::fit::{Handle, Point, contained};
 use crate::hypothesis::{Fitted, Term, World};
 use crate::naming::name;
+use crate::plant::{Dynamics, Signals};
 use crate::recorded::{Recorded, Source};
 use crate::search::has_no_name;
 
@@ -36,13 +38,14 @@ pub struct Screened {
 }
 
 /// What every term would change beside a fit, in the signals predicted of the training data.
-pub struct Changes {
+pub struct TriedOut {
     /// The terms.
     pub terms: Vec<Term>,
-    /// Each term tried out, some in several shapes, with the range of its columns: one for each of its points.
+    /// Each term tried out, some in several shapes, with the range of its columns: one for each of its points. None that
+    /// diverges.
     pub probes: Vec<(Probe, Range<usize>)>,
-    /// The changes of the signals.
-    pub columns: Vec<Residuals>,
+    /// The normal equations `H d = −g` of the fit's coordinates and, behind them, of these columns.
+    pub normal: (DMatrix<f64>, DVector<f64>),
 }
 
 impl World<'_> {
@@ -118,75 +121,57 @@ impl World<'_> {
     ///
     /// # Errors
     /// If the model refuses its settings.
-    pub fn changes(&self, fitted: &Fitted) -> Result<Changes, String> {
+    pub fn tried_out(&self, fitted: &Fitted) -> Result<TriedOut, String> {
         let terms: Vec<Term> = self.terms().into_iter().filter(|term| !fitted.terms.contains(term)).collect();
-        let dynamics = self.dynamics(&fitted.terms)?;
-        let fit = self.fit(&*dynamics, self.train, Vec::new());
-        let predicted = fit.predictions(&fitted.point);
-        let outputs = vec![Correction::default(); self.rig.plant.outputs.len()];
-        let unseen = fit.predictions(&Point { outputs, ..fitted.point.clone() });
-        let probes: Vec<Probe> = terms
-            .iter()
-            .enumerate()
-            .flat_map(|(index, term)| self.probes(index, *term, &fitted.point))
+        let at = &fitted.point;
+        let tried = terms.iter().enumerate().flat_map(|(index, term)| self.probes(index, *term, at));
+        let mut columns = 0;
+        let mut probes: Vec<(Probe, Range<usize>)> = tried
+            .map(|probe| {
+                let first = columns;
+                columns += probe.points.len();
+                (probe, first..columns)
+            })
             .collect();
-        let changed = |term: Term, point: &Point| -> Option<Residuals> {
-            if let Term::Fault(Handle::Output(output, _)) | Term::Response(output) = term {
-                return Some(self.seen(output, &point.outputs[output], &unseen, &predicted));
-            }
-            let mut all = fitted.terms.clone();
-            all.push(term);
-            let dynamics = self.dynamics(&all).ok()?;
-            let mut signals = self.fit(&*dynamics, self.train, Vec::new()).predictions(point);
-            for (record, before) in signals.iter_mut().zip(&predicted) {
-                for (signal, before) in record.iter_mut().zip(before) {
-                    for (value, before) in signal.iter_mut().zip(before) {
-                        *value -= before;
-                        if !value.is_finite() {
-                            return None;
-                        }
+        let with = |term: &Term| self.dynamics(&[fitted.terms.as_slice(), &[*term]].concat()).ok();
+        let dynamics: Vec<Option<Box<dyn Dynamics>>> = terms.iter().map(with).collect();
+        let own = self.dynamics(&fitted.terms)?;
+        let fit = self.fit(&*own, self.train, fitted.coordinates.clone());
+        let unseen = Point { outputs: vec![Correction::default(); at.outputs.len()], ..at.clone() };
+        let diverging: Vec<AtomicBool> = probes.iter().map(|_| AtomicBool::new(false)).collect();
+        let changes = |index: usize, record: &Recorded, section: &Range<usize>| -> Vec<Signals> {
+            let start = &at.starts[index];
+            let [before, unseen] = [at, &unseen].map(|it| fit.predicted(it, start, record, section));
+            let changed = |term: usize, point: &Point| -> Option<Signals> {
+                let signals = match terms[term] {
+                    Term::Fault(Handle::Output(output, _)) | Term::Response(output) => {
+                        seen(&point.outputs[output], &unseen, &before, (record, section, output))
                     }
-                }
-            }
-            Some(signals)
+                    _ => {
+                        let dynamics = dynamics[term].as_deref()?;
+                        let fit = self.fit(dynamics, self.train, Vec::new());
+                        let mut signals = fit.predicted(point, start, record, section);
+                        for (after, before) in signals.iter_mut().flatten().zip(before.iter().flatten()) {
+                            *after -= before;
+                        }
+                        signals
+                    }
+                };
+                signals.iter().flatten().all(|it| it.is_finite()).then_some(signals)
+            };
+            let nothing = || vec![vec![0.0; section.len()]; record.measured.len()];
+            let tried = probes.par_iter().zip(&diverging).flat_map_iter(|((probe, _), diverging)| {
+                let changes: Option<Vec<Signals>> =
+                    probe.points.iter().map(|point| changed(probe.term, point)).collect();
+                diverging.fetch_or(changes.is_none(), Ordering::Relaxed);
+                changes.unwrap_or_else(|| probe.points.iter().map(|_| nothing()).collect())
+            });
+            tried.collect()
         };
-        let changes: Vec<Option<Vec<Residuals>>> = probes
-            .par_iter()
-            .map(|probe| probe.points.iter().map(|point| changed(terms[probe.term], point)).collect())
-            .collect();
-        let mut columns = Vec::new();
-        let mut kept = Vec::new();
-        for (probe, changes) in probes.into_iter().zip(changes) {
-            let Some(changes) = changes else { continue };
-            let first = columns.len();
-            columns.extend(changes);
-            kept.push((probe, first..columns.len()));
-        }
-        Ok(Changes { terms, probes: kept, columns })
-    }
-
-    /// What another correction of an output changes of the signals, which are the plant's and need not be simulated again.
-    fn seen(
-        &self,
-        output: usize,
-        correction: &Correction,
-        unseen: &Residuals,
-        before: &Residuals,
-    ) -> Residuals {
-        let mut changes = Residuals::new();
-        for ((record, unseen), before) in self.train.iter().zip(unseen).zip(before) {
-            let mut signals: Vec<Vec<f64>> = vec![vec![0.0; record.len()]; record.measured.len()];
-            for (row, _) in record.measured.iter().enumerate().filter(|(_, it)| it.output == output) {
-                for section in &record.sections {
-                    let after = correction.applied(&unseen[row][section.clone()], record.samples(section));
-                    let pairs = after.iter().zip(&before[row][section.clone()]);
-                    let change = pairs.map(|(after, before)| after - before);
-                    signals[row][section.clone()].iter_mut().zip(change).for_each(|(to, from)| *to = from);
-                }
-            }
-            changes.push(signals);
-        }
-        changes
+        let normal = fit.beside(at, &changes, &groups(&probes));
+        let mut kept = diverging.into_iter().map(|it| !it.into_inner());
+        probes.retain(|_| kept.next().unwrap_or_default());
+        Ok(TriedOut { terms, probes, normal })
     }
 
     /// Compares every term to what a fit misses.
@@ -194,10 +179,8 @@ impl World<'_> {
     /// # Errors
     /// If the model refuses its settings.
     pub fn screened(&self, fitted: &Fitted) -> Result<Vec<Screened>, String> {
-        let Changes { terms, probes, columns } = self.changes(fitted)?;
-        let dynamics = self.dynamics(&fitted.terms)?;
-        let fit = self.fit(&*dynamics, self.train, fitted.coordinates.clone());
-        let (h, g) = fit.contained(&fitted.point, &columns, &groups(&probes));
+        let TriedOut { terms, probes, normal: (h, g) } = self.tried_out(fitted)?;
+        let (h, g) = contained(&h, &g, fitted.coordinates.len());
 
         let mut screened: Vec<Screened> = terms
             .iter()
@@ -279,8 +262,25 @@ impl World<'_> {
     }
 }
 
+/// What another correction of an output changes of a section's signals, which are the plant's and need not be simulated again.
+fn seen(
+    correction: &Correction,
+    unseen: &Signals,
+    before: &Signals,
+    (record, section, output): (&Recorded, &Range<usize>, usize),
+) -> Signals {
+    let of = |(row, (unseen, before)): (usize, (&Vec<f64>, &Vec<f64>))| {
+        if record.measured[row].output != output {
+            return vec![0.0; section.len()];
+        }
+        let after = correction.applied(unseen, record.samples(section));
+        after.iter().zip(before).map(|(after, before)| after - before).collect()
+    };
+    unseen.iter().zip(before).enumerate().map(of).collect()
+}
+
 /// The columns of each probe.
-pub fn groups(probes: &[(Probe, Range<usize>)]) -> Vec<Range<usize>> {
+fn groups(probes: &[(Probe, Range<usize>)]) -> Vec<Range<usize>> {
     probes.iter().map(|(_, range)| range.clone()).collect()
 }
 

@@ -336,10 +336,15 @@ fn parts(fitted: &Fitted) -> BTreeSet<Handle> {
     fitted.coordinates.iter().map(|it| it.handle).collect()
 }
 
-/// Keeps the last word on each term.
+/// Keeps the last word on each term, without its errors: of an hour they are large, and they have been compared.
 fn merge(all: &mut Vec<Tried>, new: Vec<Tried>) {
     all.retain(|old| !new.iter().any(|it| it.term == old.term));
-    all.extend(new);
+    all.extend(new.into_iter().map(|mut it| {
+        if let Ok(fitted) = &mut it.fitted {
+            (fitted.train, fitted.test) = (Vec::new(), Vec::new());
+        }
+        it
+    }));
 }
 
 /// The least fall of the sum of squares that may matter.

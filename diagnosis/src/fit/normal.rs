@@ -62,7 +62,7 @@ impl Fit<'_> {
         start: &[f64],
         record: &Recorded,
         section: &Range<usize>,
-        (extra, groups): (&[&Signals], &[Range<usize>]),
+        (extra, groups): (&[Signals], &[Range<usize>]),
     ) -> Section {
         let drive = record.drive(section, &point.inputs);
         let (columns, seeds): (Vec<usize>, Vec<Seed>) =
@@ -95,7 +95,7 @@ impl Fit<'_> {
         record: &Recorded,
         section: &Range<usize>,
         (row, columns, linearised): (usize, &[usize], &Linearised),
-        extra: &[&Signals],
+        extra: &[Signals],
     ) -> (DMatrix<f64>, DVector<f64>) {
         let (measured, predicted) = (&record.measured[row], &linearised.outputs[row]);
         let output = measured.output;
@@ -125,7 +125,7 @@ impl Fit<'_> {
             }
         }
         for (column, change) in (fixed..).zip(extra) {
-            put(column, &change[row][section.clone()]);
+            put(column, &change[row]);
         }
         let signal = correction.applied(predicted, samples);
         let mut residual = DVector::zeros(section.len());
