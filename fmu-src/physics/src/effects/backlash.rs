@@ -18,9 +18,15 @@ pub fn behind_backlash<R: Real>(half_width: R, follower: R, quantity: R) -> (R, 
         return (quantity, R::from(0.0));
     }
     let apart = quantity - follower;
-    // By the side, so that a width that is varied from zero has a derivative of the right sign.
-    let held = apart.select(apart.min(half_width), apart.max(-half_width));
+    let held = within(apart, half_width);
     (quantity - held, (apart - held) / CATCHES_UP)
+}
+
+/// What of x is within ±`half_width` of zero: by the side, so that a width that is varied from zero has a derivative of the
+/// right sign.
+#[inline]
+pub(super) fn within<R: Real>(x: R, half_width: R) -> R {
+    x.select(x.min(half_width), x.max(-half_width))
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use strut_model::{Real, Variables};
 
-use super::knee::dead_zone;
+use super::backlash::within;
 
 /// Dahl's friction: a force that follows its limit as a spring would at first (Dahl 1968; catalogue of diagnosis, 03).
 ///
@@ -52,11 +52,10 @@ impl<R: Real> Presliding<R> {
         if self.force.vanishes() {
             return (zero, PreslidingState { friction: zero });
         }
-        let friction = if self.gap.vanishes() {
-            state.friction
-        } else {
-            dead_zone(state.friction, self.stiffness * self.gap)
-        };
+        let mut friction = state.friction;
+        if !self.gap.vanishes() {
+            friction = friction - within(friction, self.stiffness * self.gap);
+        }
         // While it is switched off but being varied there is nothing to divide by.
         let share = friction / self.force.select(self.force, R::from(1.0));
         let one = R::from(1.0);
