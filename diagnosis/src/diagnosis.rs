@@ -118,9 +118,11 @@ pub fn diagnose<'a>(
         progress("looking for what makes signals seem late");
         let punctual = World { punctual: true, ..world.clone() };
         let start = Point { starts: before.starts.clone(), ..start };
-        let base = punctual.fitted(&[], &[start, punctual.in_time(&found.base.point)], Stop::NOISY)?;
-        let (other, hidden) = searched(&punctual, base, progress)?;
-        if world.does_without_lateness(&found, &other) {
+        let base = punctual.fitted(&[], &[start, punctual.in_time(&found.base.point)], Stop::NOISY);
+        // If that diverges, what was found without it stands.
+        if let Ok((other, hidden)) = base.and_then(|base| searched(&punctual, base, progress))
+            && world.does_without_lateness(&found, &other)
+        {
             (world, found, rooted) = (punctual, other, hidden);
         }
     }
