@@ -189,8 +189,10 @@ impl Correction {
         } else {
             signal.iter().map(|y| y * (1.0 + y * (quadratic + y * cubic))).collect()
         };
-        if delay != 0.0 || rate != 0.0 {
+        if rate != 0.0 {
             result = resampled(&result, |index| (rate * samples.time(index) - delay) / samples.step);
+        } else if delay != 0.0 {
+            result = shifted(&result, -delay / samples.step);
         }
         if lag > 0.0 {
             lagged(&mut result, lag / samples.step);
@@ -212,17 +214,42 @@ impl Correction {
 
 /// A signal at so many samples after each of its own, by cubic interpolation between them; the ends are held.
 fn resampled(signal: &[f64], later: impl Fn(usize) -> f64) -> Vec<f64> {
-    let last = signal.len() as isize - 1;
-    let at = |index: isize| signal[index.clamp(0, last) as usize];
-    (0..=last)
-        .map(|index| {
-            let position = index as f64 + later(index as usize);
-            let before = position.floor();
-            let (k, s) = (before as isize, position - before);
-            let (a, b, c, d) = (at(k - 1), at(k), at(k + 1), at(k + 2));
-            b + 0.5 * s * (c - a + s * (2.0 * a - 5.0 * b + 4.0 * c - d + s * (3.0 * (b - c) + d - a)))
-        })
-        .collect()
+    let at = |index: usize| {
+        let position = index as f64 + later(index);
+        let before = position.floor();
+        let around = std::array::from_fn(|k| held(signal, before as isize + k as isize - 1));
+        interpolated(around, cubic(position - before))
+    };
+    (0..signal.len()).map(at).collect()
+}
+
+/// The same where it is equally many samples after each: most signals are late, and few have a clock of their own.
+fn shifted(signal: &[f64], later: f64) -> Vec<f64> {
+    let before = later.floor();
+    let weights = cubic(later - before);
+    let first = before as isize - 1;
+    let longer: Vec<f64> = (first..first + signal.len() as isize + 3).map(|it| held(signal, it)).collect();
+    longer.windows(4).map(|it| interpolated([it[0], it[1], it[2], it[3]], weights)).collect()
+}
+
+/// A sample of a signal, whose ends are held.
+fn held(signal: &[f64], index: isize) -> f64 {
+    signal.get(index.max(0) as usize).or(signal.last()).copied().unwrap_or_default()
+}
+
+/// Weights of four samples at a share of the way from the second to the third, along a cubic (Catmull and Rom).
+fn cubic(share: f64) -> [f64; 4] {
+    let (s, half) = (share, 0.5 * share);
+    [
+        half * (s * (2.0 - s) - 1.0),
+        1.0 + half * s * (3.0 * s - 5.0),
+        half * (1.0 + s * (4.0 - 3.0 * s)),
+        half * s * (s - 1.0),
+    ]
+}
+
+fn interpolated(around: [f64; 4], weights: [f64; 4]) -> f64 {
+    around.into_iter().zip(weights).map(|(y, weight)| weight * y).sum()
 }
 
 /// A first-order lag with a time constant in samples, exact for a signal that is straight between them.
@@ -281,6 +308,17 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn a_shift_by_the_same_is_one_by_whatever_each_sample_says(
+            signal in prop::collection::vec(-1.0..1.0_f64, 0..20), later in -30.0..30.0_f64,
+        ) {
+            let (all, each) = (shifted(&signal, later), resampled(&signal, |_| later));
+            prop_assert_eq!(all.len(), signal.len());
+            for (a, b) in all.iter().zip(&each) {
+                prop_assert!((a - b).abs() < 1e-12, "{} {}", a, b);
+            }
+        }
+
         #[test]
         fn a_delay_is_one(delay in -0.02..0.02_f64) {
             let mut correction = Correction::default();

@@ -121,6 +121,11 @@ impl Linear {
         -(inverse * self.r.tr_mul(&self.q))
     }
 
+    /// By how much a step makes half the sum of squares smaller.
+    fn fall(&self, step: &DVector<f64>) -> f64 {
+        0.5 * (self.q.norm_squared() - (&self.r * step + &self.q).norm_squared())
+    }
+
     /// The step that is least in `‖R d + q‖² + λ‖D d‖²` over the free coordinates; others stay.
     fn step(&self, lambda: f64, scale: &DVector<f64>, free: &[bool]) -> DVector<f64> {
         let n = self.r.ncols();
@@ -166,6 +171,11 @@ pub trait Problem {
     fn bounds(&self) -> &[(f64, f64)];
 }
 
+/// Linearisations from which on a minimum that is not in sight is given up.
+const SOON: usize = 4;
+/// Damping with which it is looked for: next to none, but for coordinates that the residuals do not depend on.
+const FREELY: f64 = 1e-9;
+
 /// How to start and when to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
@@ -177,15 +187,21 @@ pub struct Stop {
     pub cost: f64,
     /// Relative change of the coordinates, in units of their scale, below which it ends.
     pub step: f64,
+    /// Cost that has to come in sight: it ends where neither the linearisation has its minimum below, nor as many steps as
+    /// are left lead there if each gains as much as the last one.
+    pub below: f64,
 }
 
 impl Stop {
     /// To the last digit.
-    pub const EXACT: Self = Self { damping: 100.0, iterations: 2000, cost: 0.0, step: 1e-14 };
+    pub const EXACT: Self =
+        Self { damping: 100.0, iterations: 2000, cost: 0.0, step: 1e-14, below: f64::INFINITY };
     /// As closely as noise deserves.
-    pub const NOISY: Self = Self { damping: 1e-3, iterations: 30, cost: 1e-5, step: 1e-6 };
+    pub const NOISY: Self =
+        Self { damping: 1e-3, iterations: 30, cost: 1e-5, step: 1e-6, below: f64::INFINITY };
     /// Well enough to compare causes.
-    pub const ROUGH: Self = Self { damping: 1e-3, iterations: 10, cost: 2e-3, step: 1e-4 };
+    pub const ROUGH: Self =
+        Self { damping: 1e-3, iterations: 10, cost: 2e-3, step: 1e-4, below: f64::INFINITY };
 }
 
 /// A minimum.
@@ -210,16 +226,23 @@ pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum
     let (mut linear, mut trace) = problem.linearise(&point);
     let mut scale = unit_where_zero(&linear.column_norms());
     let mut lambda = stop.damping;
-    let mut iterations = 1;
+    let (mut iterations, mut last) = (1, f64::INFINITY);
     while iterations < stop.iterations {
         let at = problem.coordinates(&point);
+        if iterations >= SOON && stop.below.is_finite() {
+            let freely = linear.fall(&clamped_step(&linear, FREELY, &scale, &at, problem.bounds()));
+            let as_before = (stop.iterations - iterations) as f64 * last;
+            if cost - freely.max(as_before) > stop.below {
+                break;
+            }
+        }
         let candidate = clamped_step(&linear, lambda, &scale, &at, problem.bounds());
         let length = candidate.component_mul(&scale).norm();
         let reach = at.component_mul(&scale).norm();
         if length <= stop.step * (reach + stop.step) {
             break;
         }
-        let expected = 0.5 * (linear.q.norm_squared() - (&linear.r * &candidate + &linear.q).norm_squared());
+        let expected = linear.fall(&candidate);
         let trial = problem.moved(&point, &trace, &(&at + &candidate));
         let trial_cost = problem.cost(&trial);
         let fall = cost - trial_cost;
@@ -230,6 +253,7 @@ pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum
             lambda = lambda.max(1e-16);
             point = trial;
             let small = fall <= stop.cost * cost;
+            last = fall;
             cost = trial_cost;
             (linear, trace) = problem.linearise(&point);
             iterations += 1;

@@ -26,6 +26,8 @@ const FITTED: usize = 7;
 const FITTED_BESIDE: usize = 4;
 /// Share of the best cause's screened gain below which none is fitted.
 const BEHIND: f64 = 0.15;
+/// Share of what may matter that a cause which screens badly has to gain, and any fit that is compared has to promise.
+const HINT: f64 = 0.2;
 /// Tables that are fitted where names do not suffice.
 const TABLES: usize = 2;
 /// Sensors' responses that are fitted beside them.
@@ -103,7 +105,7 @@ impl World<'_> {
         terms.push(screened.term);
         let mut starts = screened.starts.clone();
         starts.extend(self.with_the_sheet(null, screened));
-        self.weighed(base, null, screened.term, self.fitted(&terms, &starts, Stop::ROUGH))
+        self.weighed(base, null, screened.term, self.fitted(&terms, &starts, comparing(base, null)))
     }
 
     /// A fit of a term on top of the null's, with what it shows.
@@ -148,7 +150,8 @@ impl World<'_> {
         let mut chosen: Vec<&Screened> =
             named.iter().copied().filter(|it| it.gain > least).take(FITTED).collect();
         // What has no derivative where it is absent may screen badly: it is tried all the same.
-        let hidden = named.iter().copied().filter(|it| has_threshold(it.term) && it.gain > 0.2 * worth(base));
+        let hidden =
+            named.iter().copied().filter(|it| has_threshold(it.term) && it.gain > HINT * worth(base));
         // And the limit cases of the others, which are preferred where they explain nearly as much.
         let limits = named
             .iter()
@@ -350,6 +353,11 @@ fn merge(all: &mut Vec<Tried>, new: Vec<Tried>) {
 /// The least fall of the sum of squares that may matter.
 pub(crate) fn worth(base: &Fitted) -> f64 {
     12.0_f64.max(0.005 * 2.0 * base.cost)
+}
+
+/// Well enough to compare a cause to a fit without it, as long as the cause promises anything.
+fn comparing(base: &Fitted, null: &Fitted) -> Stop {
+    Stop { below: null.cost - 0.5 * HINT * worth(base), ..Stop::ROUGH }
 }
 
 /// Numbers of the causes that begin to act beyond a threshold, or only near a standstill.

@@ -92,3 +92,21 @@ fn six_digits_of_values_and_standard_errors_from_both_starts() {
     }
     assert!(short.is_empty(), "{short:#?}");
 }
+
+/// From the near start of each set: a minimum that is below what is asked for is found as without asking, and one that is not
+/// is given up earlier, if it takes long.
+#[test]
+fn what_is_out_of_sight_is_given_up() {
+    let mut earlier = 0;
+    for set in &nist::all() {
+        let start = DVector::from_column_slice(&set.starts[1]);
+        let problem = Regression { set, bounds: vec![(f64::NEG_INFINITY, f64::INFINITY); start.len()] };
+        let to = |below: f64| minimise(&problem, start.clone(), Stop { below, ..Stop::NOISY });
+        let free = to(f64::INFINITY);
+        let [reached, missed] = [1.01, 0.5].map(|share| to(share * free.cost));
+        assert_eq!((&reached.point, reached.iterations), (&free.point, free.iterations), "{}", set.name);
+        assert!(missed.iterations <= free.iterations, "{}", set.name);
+        earlier += usize::from(missed.iterations < free.iterations);
+    }
+    assert!(earlier > 5, "{earlier}");
+}

@@ -84,7 +84,9 @@ impl Pace {
         // The second slope's change by half a step is answered by the third's: half of the step times the fastest rate.
         let stiffness =
             if answer.sqrt() > NEGLIGIBLE { 2.0 * (answer / change).sqrt() / STABLE } else { 0.0 };
-        stiffness.max((error / TOLERATED).cbrt())
+        // The larger of the stiffness and the root of the error, which costs much and is seldom the larger one.
+        let error = error / TOLERATED;
+        if error > stiffness.powi(3) { error.cbrt() } else { stiffness }
     }
 
     /// Takes note of the largest need of the steps made since a sample; whether they have to be made again, more finely.

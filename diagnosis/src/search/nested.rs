@@ -5,10 +5,9 @@ use rayon::prelude::*;
 
 use crate::fit::Point;
 use crate::hypothesis::{Fitted, World};
-use crate::lsq::Stop;
 use crate::screening::Screened;
 
-use super::{Tried, contains_by_name, parts};
+use super::{Tried, comparing, contains_by_name, parts};
 
 /// Share of a screened amount from which a law that is made again starts: near the law that it contains.
 const SLIGHTLY: f64 = 0.1;
@@ -28,7 +27,7 @@ impl World<'_> {
         let again = tried.par_iter().zip(screened).map(|(it, screened)| {
             let start = self.beside(limit(null, it, tried)?, screened)?;
             let terms = [null.terms.as_slice(), &[it.term]].concat();
-            let fitted = self.fitted(&terms, &[start], Stop::ROUGH).ok()?;
+            let fitted = self.fitted(&terms, &[start], comparing(base, null)).ok()?;
             (fitted.cost < cost(it)).then(|| self.weighed(base, null, it.term, Ok(fitted)))
         });
         let again: Vec<Option<Tried>> = again.collect();
