@@ -30,6 +30,9 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
         rig.clutter_plant(level, &mut Random::new(case.seed, "clutter"));
         rig.clutter_sensors(level, &mut Random::new(case.seed, "clutter of sensors"));
     }
+    // Part of the stiffness that anyone measures about rest.
+    let magnets = rig.car.strut.magnets_stiffness();
+    oracle.car.strut.stiffness += magnets;
     let sound = rig.sensors.clone();
     let mut effects = vec![];
     for number in 0..case.effects.len() {
@@ -67,7 +70,8 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
     } else {
         Oracle { recorded: left(&test, &foreseen(&recorded)), exact: left(&test, &foreseen(&exact)) }
     };
-    let base = changed(base, &effects);
+    let mut base = changed(base, &effects);
+    base.iter_mut().filter(|it| it.name == "strut.stiffness").for_each(|it| it.value += magnets);
     Ok(Generated { train, test, start, truth: Truth { case: case.clone(), effects, base, noise, oracle } })
 }
 

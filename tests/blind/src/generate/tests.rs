@@ -272,3 +272,11 @@ fn the_drives_record_holds_the_resistance() {
         }
     }
 }
+
+#[test]
+fn the_clutters_magnets_are_in_the_true_stiffness() {
+    let of = |clutter: u32| generate(&Case { clutter, ..short(vec![]) }).unwrap().truth.base;
+    for (without, with) in of(0).into_iter().zip(of(1)) {
+        assert_eq!(without.value != with.value, without.name == "strut.stiffness", "{}", without.name);
+    }
+}
