@@ -82,6 +82,9 @@ impl Diagnosis<'_> {
             Verdict::Named
         } else if base_parameters.iter().any(|it| it.mismatch) {
             Verdict::ParameterMismatch
+        } else if unnamed::misses_much(&left) {
+            // Something is there, and nothing that was looked for is it.
+            Verdict::ModelInadequate
         } else {
             Verdict::NoEffect
         };

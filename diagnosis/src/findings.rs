@@ -100,7 +100,7 @@ pub enum Verdict {
     Unnamed,
     /// A sensor is at fault, not the plant.
     SensorFault,
-    /// The model explains too little for a cause to be looked for.
+    /// The model explains too little, and no cause explains the rest.
     ModelInadequate,
     /// The data cannot be used.
     BadData,

@@ -21,8 +21,9 @@ pub(super) fn of(findings: &Findings) -> String {
         Verdict::Unnamed if effects.is_empty() => String::new(),
         Verdict::Unnamed => format!("The measurement is wrong: {}.", list(effects)),
         Verdict::ModelInadequate => {
-            "The model explains too little of the held-out data for a cause to be looked for: check the rig, the \
-             signals' names, units and signs."
+            "The model explains too little of the held-out data, and nothing that was looked for explains the rest: \
+             check the rig, the signals' names, units and signs. If they are right, something acts that is not in the \
+             catalogue."
                 .to_owned()
         }
         Verdict::BadData => "The data cannot be used.".to_owned(),

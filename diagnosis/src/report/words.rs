@@ -270,7 +270,7 @@ pub fn headline(findings: &Findings) -> String {
         },
         Verdict::SensorFault if effects.is_empty() => "A sensor is at fault, not the plant.".into(),
         Verdict::SensorFault => format!("A sensor is at fault, not the plant: {}.", list(&effects, "and")),
-        Verdict::ModelInadequate => "The model explains too little of the data to look for a cause.".into(),
+        Verdict::ModelInadequate => "The model explains too little of the data to tell a cause.".into(),
         Verdict::BadData => "The data cannot be used as they are.".into(),
     }
 }
