@@ -226,16 +226,9 @@ pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum
     let (mut linear, mut trace) = problem.linearise(&point);
     let mut scale = unit_where_zero(&linear.column_norms());
     let mut lambda = stop.damping;
-    let (mut iterations, mut last) = (1, f64::INFINITY);
+    let mut iterations = 1;
     while iterations < stop.iterations {
         let at = problem.coordinates(&point);
-        if iterations >= SOON && stop.below.is_finite() {
-            let freely = linear.fall(&clamped_step(&linear, FREELY, &scale, &at, problem.bounds()));
-            let as_before = (stop.iterations - iterations) as f64 * last;
-            if cost - freely.max(as_before) > stop.below {
-                break;
-            }
-        }
         let candidate = clamped_step(&linear, lambda, &scale, &at, problem.bounds());
         let length = candidate.component_mul(&scale).norm();
         let reach = at.component_mul(&scale).norm();
@@ -253,12 +246,17 @@ pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum
             lambda = lambda.max(1e-16);
             point = trial;
             let small = fall <= stop.cost * cost;
-            last = fall;
             cost = trial_cost;
             (linear, trace) = problem.linearise(&point);
             iterations += 1;
             scale = scale.zip_map(&linear.column_norms(), f64::max);
-            if small {
+            let in_sight = || {
+                let at = problem.coordinates(&point);
+                let freely = clamped_step(&linear, FREELY, &scale, &at, problem.bounds());
+                let as_now = (stop.iterations - iterations) as f64 * fall;
+                cost - linear.fall(&freely).max(as_now) <= stop.below
+            };
+            if small || iterations >= SOON && !in_sight() {
                 break;
             }
         } else {
