@@ -200,7 +200,7 @@ pub(super) fn linearised<M: Model>(
         })
         .collect();
     let input = |i: usize, sample: usize, share: f64| {
-        let between = |signal: &[f64]| drive.between.value(signal, sample, share);
+        let between = |signal: &[f64]| drive.value(signal, sample, share);
         let value = between(&drive.inputs[i]);
         if changes[i].is_empty() {
             return Dual::from(value);

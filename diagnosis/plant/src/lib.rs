@@ -115,6 +115,10 @@ impl Between {
     /// A signal at a share of the way from a sample to the next.
     #[inline]
     pub fn value(self, signal: &[f64], sample: usize, share: f64) -> f64 {
+        // Most steps begin, have their middle and end at one.
+        if share == 0.0 {
+            return signal[sample];
+        }
         let (from, to) = (signal[sample], signal[(sample + 1).min(signal.len() - 1)]);
         let line = from + share * (to - from);
         let outer = sample.checked_sub(1).and_then(|before| Some((signal[before], *signal.get(sample + 2)?)));
@@ -134,16 +138,26 @@ impl Between {
 pub struct Drive {
     /// Time between two samples in seconds.
     pub step: f64,
-    /// Values of each input at the samples.
+    /// Values of each input, so many for each step and a last one.
     pub inputs: Vec<Vec<f64>>,
-    /// How they go on between the samples.
+    /// How many of an input's values there are in a step.
+    pub finer: usize,
+    /// How inputs go on between their values.
     pub between: Between,
 }
 
 impl Drive {
     /// Number of samples.
     pub fn len(&self) -> usize {
-        self.inputs.first().map_or(0, Vec::len)
+        self.inputs.first().map_or(0, |values| values.len().div_ceil(self.finer))
+    }
+
+    /// An input's signal, or a change of it, at a share of the way from a sample to the next.
+    #[inline]
+    pub fn value(&self, signal: &[f64], sample: usize, share: f64) -> f64 {
+        let place = share * self.finer as f64;
+        let whole = place as usize;
+        self.between.value(signal, sample * self.finer + whole, place - whole as f64)
     }
 
     /// Whether there are no samples.
@@ -207,8 +221,7 @@ impl<M: Model + Sync> Dynamics for Equations<M> {
             Bundle::from_fn(|i| start[i]),
             drive,
         );
-        let input =
-            |i: usize, sample: usize, share: f64| drive.between.value(&drive.inputs[i], sample, share);
+        let input = |i: usize, sample: usize, share: f64| drive.value(&drive.inputs[i], sample, share);
         run.through(drive.len(), input, |output, value| signals[output].push(value));
         signals
     }
@@ -242,7 +255,21 @@ fn outputs_of<M: Model>() -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::Between;
+    use super::{Between, Drive};
+
+    #[test]
+    fn between_samples_there_may_be_values() {
+        let drive = Drive {
+            step: 1.0,
+            inputs: vec![vec![0.0, 1.0, 5.0, 6.0, 7.0]],
+            finer: 2,
+            between: Between::Lines,
+        };
+        assert_eq!(drive.len(), 3);
+        let at = |sample: usize, share: f64| drive.value(&drive.inputs[0], sample, share);
+        assert_eq!([at(0, 0.0), at(0, 0.25), at(0, 0.5), at(0, 0.75), at(0, 1.0)], [0.0, 0.5, 1.0, 3.0, 5.0]);
+        assert_eq!([at(1, 0.5), at(1, 1.0), at(2, 0.0)], [6.0, 7.0, 7.0]);
+    }
 
     #[test]
     fn curves_go_through_cubics_and_nearly_through_sines() {

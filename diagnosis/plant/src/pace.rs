@@ -192,7 +192,7 @@ mod tests {
         let wave = |k: usize, frequency: f64| (std::f64::consts::TAU * frequency * k as f64 * STEP).sin();
         inputs[plant.input("road.position").unwrap()] =
             (0..SAMPLES).map(|k| 0.02 * wave(k, 1.7) + 0.003 * wave(k, 7.1)).collect();
-        let drive = Drive { step: STEP, inputs, between: Between::Lines };
+        let drive = Drive { step: STEP, inputs, finer: 1, between: Between::Lines };
         let rest = |_| 0.0;
         let mut run =
             Run::new(&model, &parameters, Bundle::from_fn(|i| parameters[i]), Bundle::from_fn(rest), &drive);
@@ -204,7 +204,7 @@ mod tests {
         let asked = std::cell::Cell::new(0);
         let input = |i: usize, sample: usize, share: f64| {
             asked.set(asked.get() + usize::from(i == 0));
-            drive.between.value(&drive.inputs[i], sample, share)
+            drive.value(&drive.inputs[i], sample, share)
         };
         run.through(SAMPLES, input, |output, value| found[output].push(value));
         (found, (asked.get() - SAMPLES) / 2)

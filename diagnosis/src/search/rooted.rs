@@ -3,7 +3,7 @@
 
 use crate::catalogue;
 use crate::findings::Evidence;
-use crate::fit::Handle;
+use crate::fit::{Handle, Point};
 use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
 
@@ -72,7 +72,8 @@ impl World<'_> {
             if evidence.refusal().is_some() {
                 continue;
             }
-            let fits = without.instead(&suspect, &held)?;
+            let mut fits = without.instead(&suspect, &held)?;
+            fits.retain(|rival| !self.shows_beside(&suspect, &held, rival, &found.extended.point));
             let behind = |it: &Fitted| self.apart(&found.extended, it);
             let (curves, names): (Vec<&Rival>, Vec<&Rival>) =
                 fits.iter().partition(|it| has_no_name(it.term));
@@ -115,6 +116,18 @@ impl World<'_> {
             passes.then_some(Rival { term: it.term, evidence, fitted: it.fitted.ok()? })
         };
         Ok(self.try_all(held, held, &promising).into_iter().filter_map(rival).collect())
+    }
+
+    /// Whether a suspect is still seen beside what may stand in its place: then that does something else, as a command that is a
+    /// little late does where a sensor is very late.
+    fn shows_beside(&self, suspect: &Suspect, held: &Fitted, rival: &Rival, found: &Point) -> bool {
+        let mut start = rival.fitted.point.clone();
+        suspect.before.iter().for_each(|(handle, _)| start.set(*handle, found.get(*handle)));
+        let both = self.fitted(&rival.fitted.terms, &[start], Stop::NOISY);
+        both.is_ok_and(|both| {
+            let evidence = self.evidence(suspect.term, held, &rival.fitted, &both);
+            suspect.weighed(suspect.term, evidence).refusal().is_none()
+        })
     }
 
     fn suspects(&self, found: &Found) -> Vec<Suspect> {

@@ -145,7 +145,8 @@ mod tests {
         let road_velocity = derivative(&road, step);
         let force = wave(11.0, 50.0);
         let between = Between::Lines;
-        let drive = Drive { step, inputs: vec![road.clone(), road_velocity, force.clone()], between };
+        let drive =
+            Drive { step, inputs: vec![road.clone(), road_velocity, force.clone()], finer: 1, between };
         let names: Vec<&str> = rig.plant.inputs.iter().map(|it| it.name.as_str()).collect();
         assert_eq!(names, ["road.position", "road.velocity", "actuator.force"]);
         let dynamics = rig.plant.prepare(&rig.choices).unwrap();
@@ -153,8 +154,12 @@ mod tests {
         let signal = |name: &str| &outputs[rig.plant.output(name).unwrap()];
         let laws = Laws::of(&rig, &rig.choices, &rig.parameters).unwrap();
         let negative = |values: &[f64]| values.iter().map(|it| -it).collect::<Vec<_>>();
-        let moved =
-            |name: &str, rate: Vec<f64>| Drive { step, inputs: vec![negative(signal(name)), rate], between };
+        let moved = |name: &str, rate: Vec<f64>| Drive {
+            step,
+            inputs: vec![negative(signal(name)), rate],
+            finer: 1,
+            between,
+        };
         let strut = laws.strut(&moved("suspension.deflection", negative(signal("suspension.velocity"))));
         let tire =
             laws.tire(&moved("tire.deflection", derivative(&negative(signal("tire.deflection")), step)));

@@ -204,7 +204,12 @@ impl Stretch {
         let motion = |order| -> Vec<f64> {
             in_band(values, self.step, self.band, order).into_iter().map(|it| sign * it).collect()
         };
-        Some(Drive { step: self.step, inputs: vec![motion(0), motion(1)], between: Between::Curves })
+        Some(Drive {
+            step: self.step,
+            inputs: vec![motion(0), motion(1)],
+            finer: 1,
+            between: Between::Curves,
+        })
     }
 
     /// A weighted sum of signals.
