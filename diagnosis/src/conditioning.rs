@@ -3,8 +3,8 @@
 //! A road that is measured with noise would shake the simulated tyre with it: noise of 50 µm is 8 N at 150 N/mm. Each
 //! measured input is therefore passed through Wiener's filter without phase, made from the signal's own spectrum and
 //! the level of its noise. Above some 400 samples a second the records of suspensions hold noise only; they are thinned
-//! to that, behind a filter without phase, the same for every signal. The inputs then have no frequencies near half the
-//! sampling rate, and a curve through the samples is what they were between them.
+//! to that, behind a filter without phase, the same for every signal. The inputs then have nothing above four fifths of half
+//! the sampling rate, and what they were between the samples follows from these.
 
 use std::ops::Range;
 

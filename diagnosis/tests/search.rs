@@ -183,6 +183,30 @@ fn one_late_actuator_is_simpler_than_every_sensor_being_late() {
     assert!((diagnosis.found.extended.point.get(delay) - 2.0 * STEP).abs() < 0.2 * STEP);
 }
 
+/// A command that is a little late is in every signal, and a deflection that is very late in one: of the two, the latter is told,
+/// however much more of the errors the former explains.
+#[test]
+fn a_very_late_sensor_is_not_a_slightly_late_command() {
+    let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
+    let [force, deflection] = [rig.plant.input("actuator.force"), rig.plant.output("suspension.deflection")];
+    let record = |seed: u64| {
+        let mut record = record(&rig, seed, &[]);
+        if let Source::Measured(values) = &mut record.inputs[force.unwrap()] {
+            // It acts a fifth of a sample after it was commanded.
+            let next: Vec<f64> = values.iter().skip(1).chain(values.last()).copied().collect();
+            values.iter_mut().zip(next).for_each(|(value, next)| *value += 0.2 * (next - *value));
+        }
+        let late = record.measured.iter_mut().find(|it| Some(it.output) == deflection).unwrap();
+        late.values.rotate_right(2);
+        record
+    };
+    let (train, test) = ([record(1)], [record(20)]);
+    let diagnosis = diagnose(&rig, &train, &test, &test, Options::default(), &|_| {}).unwrap();
+    let told = diagnosis.found.accepted.iter().chain(&diagnosis.rooted);
+    let told: Vec<String> = told.map(|it| name(it.term, &rig.plant).short()).collect();
+    assert_eq!(told, ["36 suspension.deflection"]);
+}
+
 /// Where the road does most, the model fits roughly with the force the wrong way round; friction, too, would be taken for it.
 #[test]
 fn a_small_input_is_turned_over_before_anything_is_claimed() {

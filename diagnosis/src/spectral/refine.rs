@@ -5,13 +5,12 @@ use std::sync::LazyLock;
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::conditioning::KEPT;
+
 /// Samples of a refined signal for each of the original's.
 pub(crate) const FINER: usize = 4;
 /// Samples to each side that say what is between two.
 const REACH: usize = 10;
-/// Share of the band below half the sampling rate in which the signal has what it has.
-const BAND: f64 = 0.8;
-
 /// The weights of the samples around, for each place between two.
 static WEIGHTS: LazyLock<[[f64; 2 * REACH]; FINER - 1]> =
     LazyLock::new(|| std::array::from_fn(|place| weights((place + 1) as f64 / FINER as f64)));
@@ -45,14 +44,14 @@ pub(crate) fn refined(signal: &[f64]) -> Vec<f64> {
     fine
 }
 
-/// The weights with the least mean square error of a signal that is white within the band, among those that are exact for
-/// straight lines; at a share of the way between the two samples in the middle.
+/// The weights with the least mean square error of a signal that is white within the band that is kept, among those that are
+/// exact for straight lines; at a share of the way between the two samples in the middle.
 fn weights(share: f64) -> [f64; 2 * REACH] {
     let count = 2 * REACH;
     let at = |index: usize| index as f64 - (REACH - 1) as f64;
     // What samples so far apart have in common.
     let common =
-        |apart: f64| if apart == 0.0 { 1.0 } else { (BAND * PI * apart).sin() / (BAND * PI * apart) };
+        |apart: f64| if apart == 0.0 { 1.0 } else { (KEPT * PI * apart).sin() / (KEPT * PI * apart) };
     let conditions = |index: usize| [1.0, at(index)];
     let matrix = DMatrix::from_fn(count + 2, count + 2, |i, j| match (i < count, j < count) {
         (true, true) => common(at(i) - at(j)),
