@@ -87,6 +87,9 @@ pub fn diagnose<'a>(
         bare.settled(world.origin())
     };
     let before = start.clone();
+    for (parameter, value, _) in &world.known {
+        start.parameters[*parameter] = *value;
+    }
     progress("fitting the starting model's parameters");
     let mut reversed = Vec::new();
     let mut base = world.fitted(&[], &[start.clone()], Stop::NOISY)?;

@@ -18,6 +18,8 @@ pub const POINTS: usize = 11;
 /// accelerometers have such time constants. They are no fault.
 pub const TIMING: f64 = 4e-4;
 
+/// Standard deviations within which a value is that was measured otherwise.
+const SURE: f64 = 3.0;
 /// Standard deviations of a channel's timing within which a signal is in time.
 const IN_TIME: f64 = 2.5;
 
@@ -218,7 +220,11 @@ impl World<'_> {
             let least = if declared.unit == unit::N_PER_M { low } else { low.max(value / around) };
             let bounds = if low > 0.0 { (least, high.min(value * around)) } else { (low, high) };
             let bounds = self.sought(index).map_or(bounds, |(from, to)| (from.min(value), to.max(value)));
+            // However many samples a model that is not quite right has to say otherwise with.
             let known = self.known.iter().find(|(of, _, _)| *of == index);
+            let bounds = known.map_or(bounds, |(_, mean, deviation)| {
+                (bounds.0.max(mean - SURE * deviation), bounds.1.min(mean + SURE * deviation))
+            });
             // It is right within a factor where the data do not know better; of what nobody knows it says zero.
             let sheet = (value != 0.0).then_some((value, deviation * value.abs()));
             let prior = known.map(|(_, mean, deviation)| (*mean, *deviation)).or(sheet);
