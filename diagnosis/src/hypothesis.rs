@@ -223,7 +223,8 @@ impl World<'_> {
             // However many samples a model that is not quite right has to say otherwise with.
             let known = self.known.iter().find(|(of, _, _)| *of == index);
             let bounds = known.map_or(bounds, |(_, mean, deviation)| {
-                (bounds.0.max(mean - SURE * deviation), bounds.1.min(mean + SURE * deviation))
+                let (low, high) = (bounds.0.min(*mean), bounds.1.max(*mean));
+                (low.max(mean - SURE * deviation), high.min(mean + SURE * deviation))
             });
             // It is right within a factor where the data do not know better; of what nobody knows it says zero.
             let sheet = (value != 0.0).then_some((value, deviation * value.abs()));

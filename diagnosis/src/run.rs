@@ -186,6 +186,13 @@ fn known(rig: &Rig, text: &str) -> Result<(usize, f64, f64), String> {
     if !value.is_finite() || !deviation.is_finite() || deviation <= 0.0 {
         return Err(format!("--known {text}: the value has to be finite, its deviation finite and positive"));
     }
+    let declared = &rig.plant.parameters[index];
+    let below = declared.min.filter(|least| value < *least).map(|least| format!("at least {least}"));
+    let above = declared.max.filter(|most| value > *most).map(|most| format!("at most {most}"));
+    if let Some(bound) = below.or(above) {
+        let unit = declared.unit.symbol;
+        return Err(format!("--known {text}: {} has to be {bound} {unit}", declared.name));
+    }
     Ok((index, value, deviation))
 }
 

@@ -78,6 +78,20 @@ const REFUSED: &[Refused] = &[
         says: &["--known sprung_mass=94.4", "NAME=VALUE±DEVIATION"],
     },
     Refused {
+        name: "a known parameter that cannot be",
+        arguments: &[
+            "--rig",
+            RIG,
+            "--known",
+            "sprung_mass=-94.4±0.5",
+            "--train",
+            "@good.csv",
+            "--test",
+            "@good.csv",
+        ],
+        says: &["--known sprung_mass=-94.4±0.5", "has to be at least 0.001 kg"],
+    },
+    Refused {
         name: "an effect that is not in the catalogue",
         arguments: &["--rig", RIG, "--effects", "01,99", "--train", "@good.csv", "--test", "@good.csv"],
         says: &["--effects 99", "01, "],
