@@ -1,7 +1,7 @@
 //! The search on records that the plant itself has made: what is hidden is found, what is not there is not claimed.
 
 use strut_diagnosis::correction::Fault;
-use strut_diagnosis::diagnosis::{Options, diagnose};
+use strut_diagnosis::diagnosis::{Diagnosis, Options, diagnose};
 use strut_diagnosis::fit::Handle;
 use strut_diagnosis::naming::name;
 use strut_diagnosis::plant::{Between, Drive};
@@ -112,6 +112,12 @@ fn seen(rig: &Rig, seed: u64, changes: &[(&str, f64)], push: f64, sensors: &[&st
     }
 }
 
+/// Numbers and places of all that is told.
+fn told(diagnosis: &Diagnosis<'_>) -> Vec<String> {
+    let all = diagnosis.found.accepted.iter().chain(&diagnosis.rooted);
+    all.map(|it| name(it.term, &diagnosis.world.rig.plant).short()).collect()
+}
+
 /// Numbers and places of what is found on held-out data, and the values of the extended model's parameters.
 fn found(changes: &[(&str, f64)]) -> (Vec<String>, Vec<(String, f64)>) {
     let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
@@ -176,9 +182,7 @@ fn one_late_actuator_is_simpler_than_every_sensor_being_late() {
     };
     let (train, test) = ([late(1)], [late(20)]);
     let diagnosis = diagnose(&rig, &train, &test, &test, Options::default(), &|_| {}).unwrap();
-    let told = diagnosis.found.accepted.iter().chain(&diagnosis.rooted);
-    let told: Vec<String> = told.map(|it| name(it.term, &rig.plant).short()).collect();
-    assert_eq!(told, ["23 actuator.force"]);
+    assert_eq!(told(&diagnosis), ["23 actuator.force"]);
     let delay = Handle::Input(rig.plant.input("actuator.force").unwrap(), Fault::Delay);
     assert!((diagnosis.found.extended.point.get(delay) - 2.0 * STEP).abs() < 0.2 * STEP);
 }
@@ -202,9 +206,7 @@ fn a_very_late_sensor_is_not_a_slightly_late_command() {
     };
     let (train, test) = ([record(1)], [record(20)]);
     let diagnosis = diagnose(&rig, &train, &test, &test, Options::default(), &|_| {}).unwrap();
-    let told = diagnosis.found.accepted.iter().chain(&diagnosis.rooted);
-    let told: Vec<String> = told.map(|it| name(it.term, &rig.plant).short()).collect();
-    assert_eq!(told, ["36 suspension.deflection"]);
+    assert_eq!(told(&diagnosis), ["36 suspension.deflection"]);
 }
 
 /// A weighed mass is believed, whatever the errors of thousands of samples would make of it: where the records contradict it,
@@ -215,12 +217,11 @@ fn what_was_weighed_is_believed() {
     let mass = rig.plant.parameter("sprung_mass").unwrap();
     let record = |seed: u64| record(&rig, seed, &[("sprung_mass", 100.0)]);
     let (train, test) = ([record(1)], [record(20)]);
-    for (sheet, value, told) in [(94.38, 100.0, false), (94.38, 94.0, true), (2.0, 100.0, false)] {
+    for (sheet, value, blamed) in [(94.38, 100.0, false), (94.38, 94.0, true), (2.0, 100.0, false)] {
         rig.parameters[mass] = sheet;
         let options = Options { known: vec![(mass, value, 0.1)], ..Options::default() };
         let diagnosis = diagnose(&rig, &train, &test, &test, options, &|_| {}).unwrap();
-        let found = diagnosis.found.accepted.iter().chain(&diagnosis.rooted).count();
-        assert_eq!(found > 0, told, "{value} kg, {sheet} kg in the sheet");
+        assert_eq!(!told(&diagnosis).is_empty(), blamed, "{value} kg, {sheet} kg in the sheet");
         let interval = diagnosis.intervals.iter().find(|it| it.handle == Handle::Parameter(mass)).unwrap();
         assert!(
             interval.low() >= value - 0.3 - 1e-9 && interval.high() <= value + 0.3 + 1e-9,
@@ -245,9 +246,7 @@ fn a_small_input_is_turned_over_before_anything_is_claimed() {
         let (train, test) = ([record(1)], [record(20)]);
         let diagnosis = diagnose(&rig, &train, &test, &test, Options::default(), &|_| {}).unwrap();
         assert_eq!(diagnosis.reversed, reversed);
-        let told = diagnosis.found.accepted.iter().chain(&diagnosis.rooted);
-        let told: Vec<String> = told.map(|it| name(it.term, &rig.plant).short()).collect();
-        assert_eq!(told, ["01 strut"]);
+        assert_eq!(told(&diagnosis), ["01 strut"]);
     }
 }
 
@@ -261,7 +260,6 @@ fn sensors_are_not_late_where_a_law_does_as_well() {
     let (train, test) = ([record(1)], [record(20)]);
     let options = Options { only: vec!["15".into()], ..Options::default() };
     let diagnosis = diagnose(&rig, &train, &test, &test, options, &|_| {}).unwrap();
-    let told = diagnosis.found.accepted.iter().chain(&diagnosis.rooted);
-    let told: Vec<String> = told.map(|it| name(it.term, &rig.plant).short()).collect();
+    let told = told(&diagnosis);
     assert!(!told.is_empty() && told.iter().all(|it| it.starts_with("15 ")), "{told:?}");
 }
