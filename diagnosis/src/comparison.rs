@@ -4,6 +4,8 @@
 //! those of independent samples, N/(1 + 2Σρ), and tests are over blocks that are longer than the correlation, as Vuong's
 //! (Q. H. Vuong, Likelihood ratio tests for model selection and non-nested hypotheses, Econometrica 57, 1989).
 
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
 use crate::fit::Residuals;
 
 /// Share of the largest change of a block below which two models do not differ in a block.
@@ -122,15 +124,35 @@ fn about_a_line(values: &[f64]) -> Vec<f64> {
     known.iter().map(|(x, y)| y - y_mean - slope * (x - x_mean)).collect()
 }
 
+/// How surely a mean is not zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Student {
+    /// Student's t.
+    pub t: f64,
+    /// Its degrees of freedom.
+    freedom: f64,
+}
+
+impl Student {
+    /// Chance that what was fitted gains as steadily where there is nothing to be fitted. An amount `a` that follows from what
+    /// blocks say of it, `s`, gains `a s − a² h/2` in each, whose mean is half that of `a s`; so the t of what they say is twice
+    /// that of what is gained.
+    pub fn chance_of_gain(self) -> f64 {
+        let law = StudentsT::new(0.0, 1.0, self.freedom);
+        law.map_or(1.0, |law| 2.0 * law.sf(2.0 * self.t.max(0.0)))
+    }
+}
+
 /// Student's t of the mean of values.
-pub fn student(values: &[f64]) -> f64 {
+pub fn student(values: &[f64]) -> Student {
     let n = values.len() as f64;
     if n < 2.0 {
-        return 0.0;
+        return Student::default();
     }
     let mean = values.iter().sum::<f64>() / n;
     let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (n - 1.0);
-    if variance == 0.0 { 0.0 } else { mean / (variance / n).sqrt() }
+    let t = if variance == 0.0 { 0.0 } else { mean / (variance / n).sqrt() };
+    Student { t, freedom: n - 1.0 }
 }
 
 #[cfg(test)]
@@ -162,10 +184,31 @@ mod tests {
         };
         let (bad, good, floor) = (of(1.0), of(0.9), [0.0]);
         let [bad, good] = [&bad, &good].map(|residuals| Errors { residuals, floor: &floor });
-        assert!(student(&bad.gains(&good, 50, &[1.0])) < 2.0);
+        assert!(student(&bad.gains(&good, 50, &[1.0])).t < 2.0);
         let ratios = bad.ratios(&good, 50, &[1.0]);
         assert_eq!(ratios.len(), sizes.len());
         assert!(ratios.iter().all(|it| (it - 2.0 * (1.0_f64 / 0.9).ln()).abs() < 1e-9), "{ratios:?}");
+    }
+
+    /// Of amounts that are fitted to noise, one in ten gains as steadily as one in ten does by chance.
+    #[test]
+    fn what_is_fitted_to_noise_gains_by_chance_as_often_as_is_said() {
+        let (block, blocks, repeated) = (40, 30, 200_u64);
+        let column: Vec<f64> = (0..block * blocks).map(|k| (0.3 * f64::from(k)).sin()).collect();
+        let chance = |seed: u64| {
+            let white = crate::data::check::tests::noise(seed, column.len());
+            let both = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            let amount = both(&white, &column) / both(&column, &column);
+            let left = white.iter().zip(&column).map(|(y, x)| y - amount * x).collect();
+            let [before, after] = [vec![vec![white.clone()]], vec![vec![left]]];
+            let [before, after] = [&before, &after].map(|residuals| Errors { residuals, floor: &[0.0] });
+            student(&before.gains(&after, block as usize, &[1.0])).chance_of_gain()
+        };
+        let chances: Vec<f64> = (1..=repeated).map(chance).collect();
+        for level in [0.1, 0.5] {
+            let share = chances.iter().filter(|it| **it < level).count() as f64 / repeated as f64;
+            assert!((share - level).abs() < 0.08, "{share} below {level}");
+        }
     }
 
     #[test]
@@ -174,8 +217,8 @@ mod tests {
         let (bad, good) = (residual(2.0), residual(1.0));
         let floor = [0.1];
         let of = |residuals| Errors { residuals, floor: &floor };
-        assert!(student(&of(&bad).gains(&of(&good), 50, &[1.0])) > 20.0);
-        assert!(student(&of(&good).gains(&of(&bad), 50, &[1.0])) < -20.0);
+        assert!(student(&of(&bad).gains(&of(&good), 50, &[1.0])).t > 20.0);
+        assert!(student(&of(&good).gains(&of(&bad), 50, &[1.0])).t < -20.0);
         assert!(of(&bad).gains(&of(&bad), 50, &[1.0]).is_empty());
     }
 }

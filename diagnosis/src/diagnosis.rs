@@ -10,7 +10,7 @@ use crate::lsq::Stop;
 use crate::plant::Drive;
 use crate::recorded::{Recorded, Source};
 use crate::rig::Rig;
-use crate::screening::{rms, typical};
+use crate::screening::{Screened, rms, typical};
 use crate::search::{Accepted, Criterion, Found};
 
 /// Length of a short stretch of data in seconds, over which no model goes far astray.
@@ -75,6 +75,7 @@ pub fn diagnose<'a>(
         punctual: false,
         only: options.only,
         criterion: options.criterion,
+        looks: 1.0,
         sigma: vec![1.0; rig.plant.outputs.len()],
         floor: Vec::new(),
     };
@@ -116,14 +117,21 @@ pub fn diagnose<'a>(
         let all = outputs(&world, &base.terms, &base.point, train);
         typical(rig, train, &all)
     };
-    let (mut found, mut rooted) = searched(&world, base, progress)?;
+    let tried = world.tried_out(&base)?;
+    world.looks = tried.looks(&base);
+    let screened = world.ranked(&tried, &base);
+    let (mut found, mut rooted) = searched(&world, base, screened, progress)?;
     if world.criterion == Criterion::Gates && world.anything_late(&found, &rooted) {
         progress("looking for what makes signals seem late");
         let punctual = World { punctual: true, ..world.clone() };
         let start = Point { starts: before.starts.clone(), ..start };
         let base = punctual.fitted(&[], &[start, punctual.in_time(&found.base.point)], Stop::NOISY);
+        let beyond = |base: Fitted| {
+            let screened = punctual.screened(&base)?;
+            searched(&punctual, base, screened, progress)
+        };
         // If that diverges, what was found without it stands.
-        if let Ok((other, hidden)) = base.and_then(|base| searched(&punctual, base, progress))
+        if let Ok((other, hidden)) = base.and_then(beyond)
             && world.does_without_lateness(&found, &other)
         {
             (world, found, rooted) = (punctual, other, hidden);
@@ -138,9 +146,10 @@ pub fn diagnose<'a>(
 fn searched(
     world: &World<'_>,
     base: Fitted,
+    screened: Vec<Screened>,
     progress: &(dyn Fn(&str) + Sync),
 ) -> Result<(Found, Vec<Accepted>), String> {
-    let mut found = world.search(base, progress)?;
+    let mut found = world.search(base, screened, progress)?;
     let mut rooted = world.rooted(&mut found)?;
     if world.dwarfed(&mut found, &rooted)? {
         rooted = world.rooted(&mut found)?;

@@ -149,6 +149,8 @@ pub struct Evidence {
     pub delta_bic: f64,
     /// Student's t of the gain over the blocks of the training data.
     pub block_t: f64,
+    /// Chance that of as many causes as were compared the best one's gain is as steady, where none of them is there.
+    pub chance: f64,
     /// Student's t of the gain over the blocks of the held-out data.
     pub held_out_t: f64,
     /// Share of the starting model's error power that it explains on the held-out data.
@@ -175,13 +177,14 @@ const BULK: f64 = 0.7;
 const STEADY: f64 = 2.0;
 
 impl Evidence {
-    /// What has to be exceeded, in every gate. The information criterion alone is never the verdict: small unmodelled
+    /// What has to be exceeded, in every gate; the chance must not be. The information criterion alone is never the verdict: small unmodelled
     /// effects pass it on every record.
     ///
     /// Of `phi_gain` and `taken`, one is enough: what is large, or more than half of what is missing.
     pub const REQUIRED: Self = Self {
         delta_bic: 20.0,
         block_t: 3.5,
+        chance: 0.01,
         held_out_t: 3.0,
         explained: 0.01,
         phi_gain: 0.015,
@@ -217,8 +220,8 @@ impl Evidence {
     /// Whether it passes beside another cause that has passed: whether anything is there is no question then, and its gains
     /// may be less steady.
     pub fn passes_beside_another(&self) -> bool {
-        let steady = if self.block_t > STEADY { f64::INFINITY } else { self.block_t };
-        Self { block_t: steady, ..*self }.refusal().is_none()
+        let steady = self.block_t > STEADY;
+        steady && Self { block_t: f64::INFINITY, chance: 0.0, ..*self }.refusal().is_none()
     }
 
     /// Whether it takes so much away that a small Student's t over the training data is enough.
@@ -228,7 +231,7 @@ impl Evidence {
 
     /// The first gate that is not passed of those that tell whether it is there at all.
     pub fn doubt(&self) -> Option<String> {
-        let Self { delta_bic, block_t, held_out_t, explained, .. } = *self;
+        let Self { delta_bic, block_t, chance, held_out_t, explained, .. } = *self;
         let required = self.required();
         if !explained.is_finite() {
             Some("diverges on the held-out data".to_owned())
@@ -236,6 +239,9 @@ impl Evidence {
             Some(format!("explains too little for its parameters (BIC falls by {delta_bic:.0})"))
         } else if !(block_t > required.block_t || self.is_steady_enough()) {
             Some(format!("no steady gain over the training data (t = {block_t:.1})"))
+        } else if !(chance < required.chance || self.is_steady_enough()) {
+            let percent = 100.0 * chance;
+            Some(format!("the best of all causes gains as steadily by chance (in {percent:.0} % of cases)"))
         } else if !(held_out_t > required.held_out_t || self.is_no_chance()) {
             Some(format!("no gain on held-out data (t = {held_out_t:.1})"))
         } else {

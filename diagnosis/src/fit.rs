@@ -92,6 +92,17 @@ impl Point {
 /// Measured less predicted, for each record and each of its measured outputs.
 pub type Residuals = Vec<Signals>;
 
+/// The normal equations `H d = −g` of a fit's coordinates and, behind them, of the amounts of further changes of its signals.
+#[derive(Clone, Debug)]
+pub struct Normal {
+    /// `H`.
+    pub h: DMatrix<f64>,
+    /// `g`.
+    pub g: DVector<f64>,
+    /// What each block of time adds to `g`, priors aside.
+    pub scores: Vec<DVector<f64>>,
+}
+
 /// Changes of the signals predicted of a section, by its number over all records.
 pub type Changes<'a> = dyn Fn(usize, &Recorded, &Range<usize>) -> Vec<Signals> + 'a;
 
@@ -215,36 +226,34 @@ impl<'a> Fit<'a> {
         all
     }
 
-    /// The normal equations `H d = −g` of the coordinates and of the amounts of changes of the predicted signals, without
+    /// The normal equations of the coordinates and of the amounts of changes of the predicted signals, without
     /// the states at the start. The changes are asked for section by section, since they are many, and entries of changes in
     /// different groups are not computed.
-    pub fn beside(
-        &self,
-        point: &Point,
-        changes: &Changes<'_>,
-        groups: &[Range<usize>],
-    ) -> (DMatrix<f64>, DVector<f64>) {
+    pub fn beside(&self, point: &Point, changes: &Changes<'_>, groups: &[Range<usize>]) -> Normal {
         let own = self.coordinates.len();
         let all = own + groups.last().map_or(0, |last| last.end);
-        let (mut h, mut g) = (DMatrix::zeros(all, all), DVector::zeros(all));
+        let (mut h, mut g, mut scores) = (DMatrix::zeros(all, all), DVector::zeros(all), Vec::new());
         for (index, record, section) in self.sections() {
             let signals = changes(index, record, section);
             let part = self.section(point, &point.starts[index], record, section, (&signals, groups));
             h += part.h;
             g += part.g;
+            scores.extend(part.scores);
         }
         for (index, coordinate) in self.coordinates.iter().enumerate() {
             if let Some((_, deviation)) = coordinate.prior {
                 h[(index, index)] += deviation.powi(-2);
             }
         }
-        (h, g)
+        Normal { h, g, scores }
     }
 }
 
 /// How much of each change of the predicted signals the residuals contain, beyond what the first `own` coordinates and the
-/// states at the start can do: the normal equations `H a = g` of the amounts, from those of both (see [`Fit::beside`]).
-pub fn contained(h: &DMatrix<f64>, g: &DVector<f64>, own: usize) -> (DMatrix<f64>, DVector<f64>) {
+/// states at the start can do: the normal equations `H a = g` of the amounts, from those of both. Each block's part of `g` has
+/// the sign of `g`.
+pub fn contained(normal: &Normal, own: usize) -> Normal {
+    let Normal { h, g, scores } = normal;
     let extra = g.len() - own;
     // At the minimum the coordinates' own gradient is zero, up to what bounds hold.
     let mut block = h.view((0, 0), (own, own)).into_owned();
@@ -254,9 +263,13 @@ pub fn contained(h: &DMatrix<f64>, g: &DVector<f64>, own: usize) -> (DMatrix<f64
     }
     let cross = h.view((0, own), (own, extra)).into_owned();
     let solved = block.cholesky().map_or_else(|| DMatrix::zeros(own, extra), |it| it.solve(&cross));
-    let h = h.view((own, own), (extra, extra)) - cross.transpose() * &solved;
     // The changes' columns in the Jacobian of the residuals are negative.
-    (h, -g.rows(own, extra) + solved.transpose() * g.rows(0, own))
+    let beyond = |g: &DVector<f64>| -g.rows(own, extra) + solved.tr_mul(&g.rows(0, own));
+    Normal {
+        h: h.view((own, own), (extra, extra)) - cross.tr_mul(&solved),
+        g: beyond(g),
+        scores: scores.iter().map(beyond).collect(),
+    }
 }
 
 /// Half the squared distance of a point from what was known of the coordinates before, in its standard deviations.

@@ -91,6 +91,8 @@ pub struct World<'a> {
     pub only: Vec<String>,
     /// What decides whether a cause is named.
     pub criterion: Criterion,
+    /// Number of independent looks at the errors that comparing every cause to them amounts to.
+    pub looks: f64,
     /// Standard deviation of each output's residuals.
     pub sigma: Vec<f64>,
     /// Noise of each measured output, in the order of a record's.

@@ -13,7 +13,7 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use crate::fit::{Coordinate, Handle, Point};
+use crate::fit::{Coordinate, Handle, Normal, Point};
 use crate::hypothesis::{Fitted, POINTS, Term, World};
 use crate::lsq::Problem;
 use crate::recorded::Recorded;
@@ -92,7 +92,7 @@ impl World<'_> {
     /// How far each coordinate would move beside each cause that is not in the model, the cause being in the shape in which the
     /// errors contain most of it; only of causes that are worth a fit.
     fn pulls(&self, fitted: &Fitted) -> Result<Vec<DVector<f64>>, String> {
-        let TriedOut { terms, probes, normal: (h, g) } = self.tried_out(fitted)?;
+        let TriedOut { terms, probes, normal: Normal { h, g, .. } } = self.tried_out(fitted)?;
         let mut most: Vec<Option<(f64, DVector<f64>)>> = vec![None; terms.len()];
         for (probe, range) in &probes {
             // It can do all that a gain, a lag and a delay can, which count on their own.

@@ -1,17 +1,18 @@
 //! Which causes the residuals of a fit may contain: every term is tried out, and compared to what is missing.
 
+mod looks;
 mod probes;
 mod typical;
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::catalogue;
 use crate::correction::{AFTER, Correction, Fault};
-use crate::fit::{Handle, Point, contained};
+use crate::fit::{Handle, Normal, Point, contained};
 use crate::hypothesis::{Fitted, Term, World};
 use crate::naming::name;
 use crate::plant::{Dynamics, Signals};
@@ -44,8 +45,8 @@ pub struct TriedOut {
     /// Each term tried out, some in several shapes, with the range of its columns: one for each of its points. None that
     /// diverges.
     pub probes: Vec<(Probe, Range<usize>)>,
-    /// The normal equations `H d = −g` of the fit's coordinates and, behind them, of these columns.
-    pub normal: (DMatrix<f64>, DVector<f64>),
+    /// The normal equations of the fit's coordinates and, behind them, of these columns.
+    pub normal: Normal,
 }
 
 impl World<'_> {
@@ -179,15 +180,19 @@ impl World<'_> {
     /// # Errors
     /// If the model refuses its settings.
     pub fn screened(&self, fitted: &Fitted) -> Result<Vec<Screened>, String> {
-        let TriedOut { terms, probes, normal: (h, g) } = self.tried_out(fitted)?;
-        let (h, g) = contained(&h, &g, fitted.coordinates.len());
+        Ok(self.ranked(&self.tried_out(fitted)?, fitted))
+    }
+
+    /// Every term that was tried out beside a fit, compared to what it misses: the best first.
+    pub fn ranked(&self, TriedOut { terms, probes, normal }: &TriedOut, fitted: &Fitted) -> Vec<Screened> {
+        let Normal { h, g, .. } = contained(normal, fitted.coordinates.len());
 
         let mut screened: Vec<Screened> = terms
             .iter()
             .map(|term| Screened { term: *term, gain: 0.0, starts: Vec::new(), detectable: f64::INFINITY })
             .collect();
         let mut found: Vec<Vec<(f64, Point)>> = vec![Vec::new(); terms.len()];
-        for (probe, range) in &probes {
+        for (probe, range) in probes {
             let mut block = h.view((range.start, range.start), (range.len(), range.len())).into_owned();
             for index in 0..range.len() {
                 block[(index, index)] = block[(index, index)] * (1.0 + 1e-6) + f64::MIN_POSITIVE;
@@ -213,7 +218,7 @@ impl World<'_> {
                 found.into_iter().take(2).filter(|(gain, _)| *gain >= near).map(|(_, point)| point).collect();
         }
         screened.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-        Ok(screened)
+        screened
     }
 
     /// By how much a probe differs from the fit in the term's first parameter.

@@ -93,9 +93,9 @@ pub struct Found {
 
 impl Found {
     /// The starting model, with nothing added.
-    fn nothing(base: Fitted) -> Self {
+    fn nothing(base: Fitted, screened: Vec<Screened>) -> Self {
         let extended = base.clone();
-        Self { base, extended, accepted: vec![], common: vec![], screened: vec![], tried: vec![] }
+        Self { base, extended, accepted: vec![], common: vec![], screened, tried: vec![] }
     }
 }
 
@@ -178,6 +178,15 @@ impl World<'_> {
         worthy(false).take(TABLES).chain(worthy(true).take(RESPONSES)).collect()
     }
 
+    /// Every term compared to what the extended model misses; the starting model's errors have been compared.
+    fn beyond(&self, found: &Found) -> Result<Vec<Screened>, String> {
+        if found.extended.terms.is_empty() {
+            Ok(found.screened.clone())
+        } else {
+            self.screened(&found.extended)
+        }
+    }
+
     fn try_all(&self, base: &Fitted, null: &Fitted, screened: &[&Screened]) -> Vec<Tried> {
         let mut tried: Vec<Tried> = screened.par_iter().map(|it| self.tried(base, null, it)).collect();
         self.beside_their_limits(base, null, screened, &mut tried);
@@ -185,15 +194,20 @@ impl World<'_> {
         tried
     }
 
-    /// Looks for causes.
+    /// Looks for causes beyond a fit, beside which all of them were screened.
     ///
     /// # Errors
     /// If the model refuses its settings or diverges.
-    pub fn search(&self, base: Fitted, progress: &(dyn Fn(&str) + Sync)) -> Result<Found, String> {
+    pub fn search(
+        &self,
+        base: Fitted,
+        screened: Vec<Screened>,
+        progress: &(dyn Fn(&str) + Sync),
+    ) -> Result<Found, String> {
+        let mut found = Found::nothing(base, screened);
         if self.criterion == Criterion::Bic {
-            return self.search_by_bic(base, progress);
+            return self.search_by_bic(found, progress);
         }
-        let mut found = Found::nothing(base);
         self.forward(&mut found, progress)?;
         self.revised(&mut found, progress)?;
         Ok(found)
@@ -217,7 +231,7 @@ impl World<'_> {
     /// Adds the cause that explains most of what the model still misses, if any passes. Tells whether one did.
     fn another(&self, found: &mut Found, progress: &(dyn Fn(&str) + Sync)) -> Result<bool, String> {
         progress("comparing every cause to what is missing");
-        let screened = self.screened(&found.extended)?;
+        let screened = self.beyond(found)?;
         let mut promising = self.promising(&found.base, &screened);
         if !found.common.is_empty() {
             promising.truncate(FITTED_BESIDE);
@@ -265,9 +279,6 @@ impl World<'_> {
             }
             _ => None,
         };
-        if found.screened.is_empty() {
-            found.screened = screened;
-        }
         merge(&mut found.tried, tried);
         let Some((accepted, close)) = next else { return Ok(false) };
         found.extended = close;

@@ -5,6 +5,7 @@ use crate::findings::Evidence;
 
 const HELD_OUT: &str = "Held-out data";
 const TRAINING: &str = "Training data";
+const CHANCE: &str = "Chance";
 const SIZE: &str = "Size";
 const RELEVANCE: &str = "Relevance";
 
@@ -25,11 +26,11 @@ pub struct Gate {
 }
 
 /// All gates.
-pub fn gates(evidence: &Evidence) -> [Gate; 5] {
+pub fn gates(evidence: &Evidence) -> [Gate; 6] {
     let limits = evidence.required();
     let waived = |name: &str| match name {
         HELD_OUT if evidence.is_no_chance() => Some("so much of the error goes that it is no chance"),
-        TRAINING if evidence.is_steady_enough() => {
+        TRAINING | CHANCE if evidence.is_steady_enough() => {
             Some("most of the error goes, so that its gain is as uneven")
         }
         SIZE | RELEVANCE if evidence.grave => {
@@ -60,6 +61,14 @@ pub fn gates(evidence: &Evidence) -> [Gate; 5] {
             limits.block_t,
             number,
         ),
+        Gate {
+            name: CHANCE,
+            meaning: "that the best of all causes gains as steadily there where there is none",
+            found: percent(evidence.chance),
+            required: format!("< {}", percent(limits.chance)),
+            passed: evidence.chance < limits.chance,
+            waived: waived(CHANCE),
+        },
         gate(
             "Parsimony",
             "fall of the Bayesian information criterion",
@@ -100,7 +109,12 @@ pub fn sentences(evidence: &Evidence) -> Vec<String> {
             t(evidence.held_out_t)
         ),
         format!("It explains {} of the power of the error there.", percent(evidence.explained)),
-        format!("On the data that it was learnt from, the gain over blocks has {}.", t(evidence.block_t)),
+        format!(
+            "On the data that it was learnt from, the gain over blocks has {}; where there is none, the best of all causes \
+             has as much with a chance of {}.",
+            t(evidence.block_t),
+            percent(evidence.chance)
+        ),
         format!(
             "The gain outweighs its additional parameters: the Bayesian information criterion falls by {}.",
             number(evidence.delta_bic)

@@ -21,13 +21,12 @@ impl World<'_> {
     /// If the model refuses its settings or diverges.
     pub(super) fn search_by_bic(
         &self,
-        base: Fitted,
+        mut found: Found,
         progress: &(dyn Fn(&str) + Sync),
     ) -> Result<Found, String> {
-        let mut found = Found::nothing(base);
         while found.accepted.len() < MOST {
             progress("comparing every cause to what is missing");
-            let screened = self.screened(&found.extended)?;
+            let screened = self.beyond(&found)?;
             let mut promising = self.promising(&found.base, &screened);
             promising.extend(self.curves(&found.base, &screened, 0.0));
             progress(&format!("fitting {} causes", promising.len()));
@@ -36,9 +35,6 @@ impl World<'_> {
             let fall =
                 |it: &Tried| it.fitted.as_ref().map_or(f64::NEG_INFINITY, |fitted| now - self.bic(fitted));
             let best = tried.iter().max_by(|a, b| fall(a).total_cmp(&fall(b))).cloned();
-            if found.screened.is_empty() {
-                found.screened = screened;
-            }
             let chosen = best.filter(|it| fall(it) > VERY_STRONG);
             merge(&mut found.tried, tried);
             let Some(Tried { term, fitted: Ok(fitted), evidence, .. }) = chosen else { break };

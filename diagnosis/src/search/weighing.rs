@@ -1,7 +1,7 @@
 //! What speaks for one fit over another.
 
 use crate::catalogue::Element;
-use crate::comparison::{Errors, student};
+use crate::comparison::{Errors, Student, student};
 use crate::findings::Evidence;
 use crate::fit::{Handle, Residuals, strain};
 use crate::hypothesis::{Fitted, TIMING, Term, World};
@@ -27,12 +27,17 @@ impl World<'_> {
 
     /// Student's t of the gain over blocks, in units of what the better fit leaves. Of what acts beyond a threshold only, or where
     /// a resonance is excited, the gains are as uneven as the events: there, it is enough if each event's own errors shrink steadily.
-    fn steadiness(&self, term: Term, null: &Residuals, other: &Residuals) -> f64 {
+    fn steadiness(&self, term: Term, null: &Residuals, other: &Residuals) -> Student {
         let (null, other) = (self.errors(null), self.errors(other));
         let unit = other.mean_squares();
         let gain = student(&null.gains(&other, self.block(), &unit));
         let uneven = has_threshold(term) || is_resonance(term);
-        if uneven { gain.max(student(&null.ratios(&other, self.block(), &unit))) } else { gain }
+        let ratio = || student(&null.ratios(&other, self.block(), &unit));
+        if uneven {
+            [gain, ratio()].into_iter().max_by(|a, b| a.t.total_cmp(&b.t)).unwrap_or(gain)
+        } else {
+            gain
+        }
     }
 
     /// What speaks for a term by which one fit extends another; how much it explains is counted in the errors
@@ -48,10 +53,12 @@ impl World<'_> {
         let shares = |unit: &Fitted, fitted: &Fitted| self.shares_of(term, unit, fitted);
         let (before, after) = (shares(base, null), shares(base, fitted));
         let [learnt, held_out] = [before[0] - after[0], before[1] - after[1]];
+        let steadiness = self.steadiness(term, &null.train, &fitted.train);
         Evidence {
             delta_bic: gain - more as f64 * total.max(1.0).ln(),
-            block_t: self.steadiness(term, &null.train, &fitted.train),
-            held_out_t: self.steadiness(term, &null.test, &fitted.test),
+            block_t: steadiness.t,
+            chance: (self.looks * steadiness.chance_of_gain()).min(1.0),
+            held_out_t: self.steadiness(term, &null.test, &fitted.test).t,
             explained: if is_resonance(term) { learnt.max(held_out) } else { held_out },
             phi_gain: everywhere(term, self.phi_gains(null, fitted)),
             taken: everywhere(term, shares(null, fitted).map(|share| 1.0 - share)),
@@ -122,7 +129,7 @@ impl World<'_> {
         };
         let mut all = of(&other.train, &better.train);
         all.extend(of(&other.test, &better.test));
-        student(&all)
+        student(&all).t
     }
 
     /// Errors left on the training and on the held-out data together, in those of another fit: two where nothing is

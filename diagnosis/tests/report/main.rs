@@ -302,6 +302,7 @@ fn every_field_and_verdict_is_described_in_the_readme() {
     for (gate, limit) in [
         ("delta_bic", required.delta_bic),
         ("block_t", required.block_t),
+        ("chance", required.chance),
         ("held_out_t", required.held_out_t),
         ("explained", required.explained),
         ("phi_gain", required.phi_gain),
@@ -341,7 +342,7 @@ fn with_numbers(mut findings: Findings, numbers: &[f64]) -> Findings {
         }
         let evidence = &mut effect.evidence;
         (evidence.delta_bic, evidence.block_t, evidence.held_out_t) = (next(), next(), next());
-        evidence.explained = next();
+        (evidence.chance, evidence.explained) = (next(), next());
         (evidence.phi_gain, evidence.taken) = (next(), next());
     }
     for parameter in &mut findings.base_parameters {

@@ -58,6 +58,7 @@ fn friction() -> Effect {
         evidence: Evidence {
             delta_bic: 18_240.0,
             block_t: 11.2,
+            chance: 3e-13,
             held_out_t: 7.31,
             explained: 0.943,
             phi_gain: 0.21,
@@ -108,6 +109,7 @@ fn candidates() -> Vec<Candidate> {
         let weak = Evidence {
             delta_bic: 12.0 - 9.0 * index as f64,
             block_t: 1.3,
+            chance: 1.0,
             held_out_t: 0.4,
             explained: 0.004,
             phi_gain: 0.002,
@@ -213,6 +215,7 @@ pub fn sample(verdict: Verdict) -> Findings {
             cogging.evidence = Evidence {
                 delta_bic: 312.0,
                 block_t: 4.6,
+                chance: 0.0021,
                 held_out_t: 3.4,
                 explained: 0.062,
                 phi_gain: 0.12,
