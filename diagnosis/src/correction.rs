@@ -1,5 +1,5 @@
-//! What a sensor or an actuator makes of a signal: gain, offset, drift, lag, delay, wrong rate, curvature; or a response that
-//! has no name.
+//! What a sensor or an actuator makes of a signal: gain, offset, drift, lag, delay, wrong rate, curvature, a limit; or a response
+//! that has no name.
 
 mod response;
 
@@ -29,13 +29,15 @@ pub enum Fault {
     Cubic,
     /// Relative error of the sampling rate: samples are taken at `(1 + rate) t`.
     Rate,
+    /// Largest magnitude, in the signal's unit; zero is no limit.
+    Limit,
     /// By how much the response to a step of one exceeds one, after a time of [`AFTER`].
     Response(usize),
 }
 
 impl Fault {
     /// All that have a name.
-    pub const NAMED: [Self; 8] = [
+    pub const NAMED: [Self; 9] = [
         Self::Gain,
         Self::Offset,
         Self::Drift,
@@ -44,6 +46,7 @@ impl Fault {
         Self::Quadratic,
         Self::Cubic,
         Self::Rate,
+        Self::Limit,
     ];
 
     /// Its place among those with a name.
@@ -62,6 +65,7 @@ impl Fault {
             Self::Quadratic => "quadratic",
             Self::Cubic => "cubic",
             Self::Rate => "rate",
+            Self::Limit => "limit",
             Self::Response(_) => "response",
         }
     }
@@ -70,7 +74,7 @@ impl Fault {
     pub fn unit(self, signal: &str) -> String {
         match self {
             Self::Gain | Self::Rate | Self::Response(_) => "1".into(),
-            Self::Offset => signal.into(),
+            Self::Offset | Self::Limit => signal.into(),
             Self::Drift => format!("{signal}/s"),
             Self::Lag | Self::Delay => "s".into(),
             Self::Quadratic => format!("1/({signal})"),
@@ -96,11 +100,11 @@ impl Samples {
 }
 
 /// Every change of one signal: `(1 + gain) lag(y(t')) + offset + drift t` with `t' = (1 + rate) t − delay` and the signal bent
-/// before, `y + q y² + c y³`; the lag's output passes the response without a name.
+/// before, `y + q y² + c y³`; the lag's output passes the response without a name, and what comes out is held within the limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Correction {
     /// Of [`Fault::NAMED`].
-    amounts: [f64; 8],
+    amounts: [f64; 9],
     response: Response,
 }
 
@@ -138,9 +142,9 @@ impl Correction {
     }
 
     /// What a signal was before this became of it: the inverse of [`Self::applied`], a lag by the signal's derivative. A
-    /// response without a name stays: what it has taken away cannot be had back.
+    /// response without a name and a limit stay: what they have taken away cannot be had back.
     pub fn removed(&self, signal: &[f64], samples: Samples) -> Vec<f64> {
-        let [gain, offset, drift, lag, delay, quadratic, cubic, rate] = self.amounts;
+        let [gain, offset, drift, lag, delay, quadratic, cubic, rate, _] = self.amounts;
         let linear = |(index, y): (usize, &f64)| (y - offset - drift * samples.time(index)) / (1.0 + gain);
         let mut result: Vec<f64> = signal.iter().enumerate().map(linear).collect();
         if lag > 0.0 {
@@ -165,7 +169,7 @@ impl Correction {
         result
     }
 
-    /// What becomes of a small change of a signal.
+    /// What becomes of a small change of a signal; limits, which are of inputs, aside.
     pub fn tangent(&self, signal: &[f64], change: &[f64], samples: Samples) -> Vec<f64> {
         let (quadratic, cubic) = (self.get(Fault::Quadratic), self.get(Fault::Cubic));
         if quadratic == 0.0 && cubic == 0.0 {
@@ -183,7 +187,7 @@ impl Correction {
     }
 
     fn through(&self, signal: &[f64], samples: Samples, constants: bool) -> Vec<f64> {
-        let [gain, offset, drift, lag, delay, quadratic, cubic, rate] = self.amounts;
+        let [gain, offset, drift, lag, delay, quadratic, cubic, rate, limit] = self.amounts;
         let mut result: Vec<f64> = if quadratic == 0.0 && cubic == 0.0 {
             signal.to_vec()
         } else {
@@ -207,6 +211,9 @@ impl Correction {
             for (index, y) in result.iter_mut().enumerate() {
                 *y += offset + drift * samples.time(index);
             }
+        }
+        if limit > 0.0 {
+            result.iter_mut().for_each(|y| *y = y.clamp(-limit, limit));
         }
         result
     }
@@ -307,6 +314,17 @@ mod tests {
         }
     }
 
+    #[test]
+    fn nothing_passes_beyond_a_limit_and_all_below_it() {
+        let mut correction = Correction::default();
+        correction.set(Fault::Limit, 2.0);
+        correction.set(Fault::Gain, 0.5);
+        assert_eq!(correction.applied(&[1.0, -1.25, 1.5, -4.0], every(1e-3)), [1.5, -1.875, 2.0, -2.0]);
+        assert!(!correction.is_neutral());
+        correction.set(Fault::Limit, 0.0);
+        assert_eq!(correction.applied(&[1.0, -4.0], every(1e-3)), [1.5, -6.0]);
+    }
+
     proptest! {
         #[test]
         fn a_shift_by_the_same_is_one_by_whatever_each_sample_says(
@@ -331,8 +349,9 @@ mod tests {
         }
 
         #[test]
-        fn what_is_removed_is_what_was_applied(amounts in prop::array::uniform8(-0.1..0.1_f64)) {
+        fn what_is_removed_is_what_was_applied(amounts in prop::array::uniform9(-0.1..0.1_f64)) {
             let mut correction = Correction { amounts, ..Correction::default() };
+            correction.set(Fault::Limit, 0.0);
             correction.set(Fault::Rate, 0.05 * amounts[7]);
             correction.set(Fault::Lag, 0.05 * amounts[3].abs());
             correction.set(Fault::Delay, 0.1 * amounts[4]);
@@ -344,8 +363,9 @@ mod tests {
         }
 
         #[test]
-        fn the_tangent_is_the_derivative(amounts in prop::array::uniform8(-0.2..0.2_f64), h in 1e-6..1e-5_f64) {
+        fn the_tangent_is_the_derivative(amounts in prop::array::uniform9(-0.2..0.2_f64), h in 1e-6..1e-5_f64) {
             let mut correction = Correction { amounts, ..Correction::default() };
+            correction.set(Fault::Limit, 0.0);
             correction.set(Fault::Response(5), amounts[0]);
             let y = sine(50, 1e-2, |t| (9.0 * t).sin());
             let change = sine(50, 1e-2, |t| (4.0 * t).cos());

@@ -328,7 +328,7 @@ pub struct Start {
 }
 
 /// What a signal passes on its way into or out of the extended model:
-/// `(1 + gain) lag(delay(y + quadratic y² + cubic y³)) + offset + drift t`.
+/// `(1 + gain) lag(delay(y + quadratic y² + cubic y³)) + offset + drift t`, held within the limit.
 #[derive(Clone, Debug, Serialize)]
 pub struct SignalCorrection {
     /// The signal, as in the FMU.

@@ -7,7 +7,7 @@ use crate::correction::{AFTER, Correction, Fault, UNKNOWN};
 use crate::fit::{Coordinate, Fit, Handle, Point, Residuals, Trace};
 use crate::lsq::{self, Linear, Problem, Stop};
 use crate::plant::Dynamics;
-use crate::recorded::Recorded;
+use crate::recorded::{Recorded, Source};
 use crate::rig::Rig;
 use crate::search::Criterion;
 
@@ -22,6 +22,9 @@ pub const TIMING: f64 = 4e-4;
 const SURE: f64 = 3.0;
 /// Standard deviations of a channel's timing within which a signal is in time.
 const IN_TIME: f64 = 2.5;
+
+/// Share of the largest command below which it is not limited.
+const LOWEST: f64 = 0.2;
 
 /// Time over which the velocity at a section's start is guessed from a measured position, in seconds.
 const RATE: f64 = 0.02;
@@ -316,6 +319,15 @@ impl World<'_> {
         }
     }
 
+    /// Largest magnitude of a measured input on the training data.
+    pub fn largest(&self, input: usize) -> f64 {
+        let values = self.train.iter().filter_map(|record| match &record.inputs[input] {
+            Source::Measured(values) => Some(values),
+            Source::DerivativeOf(_) | Source::Constant(_) => None,
+        });
+        values.flatten().filter(|it| it.is_finite()).fold(0.0, |most, it| it.abs().max(most))
+    }
+
     fn fault_bounds(&self, handle: Handle) -> (f64, f64) {
         let fault = match handle {
             Handle::Input(_, fault) | Handle::Output(_, fault) => fault,
@@ -326,6 +338,11 @@ impl World<'_> {
             Fault::Lag => (0.0, 0.2),
             Fault::Delay => (-0.05, 0.05),
             Fault::Rate => (-0.02, 0.02),
+            // A limit far below the usual commands would be a gain.
+            Fault::Limit => match handle {
+                Handle::Input(input, _) => (LOWEST * self.largest(input), self.largest(input)),
+                Handle::Output(..) | Handle::Parameter(_) => (0.0, f64::INFINITY),
+            },
             Fault::Offset | Fault::Drift | Fault::Quadratic | Fault::Cubic | Fault::Response(_) => {
                 (f64::NEG_INFINITY, f64::INFINITY)
             }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use crate::data::check::{Checked, check, noise_floor};
+use crate::data::check::{Checked, check, lines, noise_floor};
 use crate::data::map::{Map, Wanted, plain};
 use crate::data::{
     self,
@@ -66,6 +66,8 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
     }
     let (uniform, resampled) = uniform(&mapped.record).map_err(|error| error.to_string())?;
     problems.extend(resampled);
+    let drives = |name: &str| rig.plant.input(name).is_some();
+    problems.extend(lines(&mapped.record, drives));
     let values = |name: &str| {
         let channel = uniform.channels.iter().find(|channel| channel.name == name);
         channel.map(|channel| channel.values.clone())

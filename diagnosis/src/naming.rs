@@ -78,15 +78,21 @@ pub fn numbers(plant: &Plant) -> Vec<String> {
 /// What the names of inputs begin with that act through an actuator, and not through a sensor alone.
 const ACTUATORS: &[&str] = &["actuator", "brake", "command", "motor", "voltage"];
 
+/// Whether an input, by its name, is what an actuator is told.
+pub fn is_command(input: &str) -> bool {
+    ACTUATORS.iter().any(|prefix| input.starts_with(prefix))
+}
+
 fn of_fault(handle: Handle, plant: &Plant) -> Name {
     let (signal, fault, input) = match handle {
         Handle::Input(index, fault) => (plant.inputs[index].name.clone(), fault, true),
         Handle::Output(index, fault) => (plant.outputs[index].name.clone(), fault, false),
         Handle::Parameter(index) => (plant.parameters[index].name.clone(), Fault::Gain, false),
     };
-    let actuator = input && ACTUATORS.iter().any(|prefix| signal.starts_with(prefix));
+    let actuator = input && is_command(&signal);
     let id = match (fault, input, actuator) {
         (Fault::Gain, true, true) => "25",
+        (Fault::Limit, _, _) => "26",
         (Fault::Delay, true, true) => "23",
         (Fault::Lag, true, true) => "24",
         (Fault::Offset | Fault::Drift, true, true) => "41",
@@ -110,6 +116,7 @@ fn of_fault(handle: Handle, plant: &Plant) -> Name {
         Fault::Quadratic => ("curvature", "y + quadratic y^2", "calibrate with gauge blocks"),
         Fault::Cubic => ("curvature", "y + cubic y^3", "calibrate with gauge blocks"),
         Fault::Response(_) => ("response", "a step response", "sweep to high frequencies"),
+        Fault::Limit => ("limit", "clamp(y, -limit, limit)", "repeat the run with half the command"),
         Fault::Rate => ("sampling rate", "y((1 + rate) t)", "compare the clocks, or record for longer"),
     };
     Name {

@@ -14,7 +14,7 @@ use crate::catalogue;
 use crate::correction::{AFTER, Correction, Fault};
 use crate::fit::{Handle, Normal, Point, contained};
 use crate::hypothesis::{Fitted, Term, World};
-use crate::naming::name;
+use crate::naming::{is_command, name};
 use crate::plant::{Dynamics, Signals};
 use crate::recorded::{Recorded, Source};
 use crate::search::has_no_name;
@@ -69,8 +69,10 @@ impl World<'_> {
         let Some(record) = self.train.first() else { return terms };
         for measured in &record.measured {
             let name = &plant.outputs[measured.output].name;
-            // A drift is looked for with the offset that it starts from.
-            for fault in Fault::NAMED.into_iter().filter(|fault| *fault != Fault::Drift) {
+            // A drift is looked for with the offset that it starts from, and flat tops when data are checked.
+            for fault in
+                Fault::NAMED.into_iter().filter(|fault| !matches!(fault, Fault::Drift | Fault::Limit))
+            {
                 let bends = matches!(fault, Fault::Quadratic | Fault::Cubic);
                 if !bends || name.ends_with("deflection") {
                     terms.push(Term::Fault(Handle::Output(measured.output, fault)));
@@ -91,7 +93,8 @@ impl World<'_> {
                 // A road that arrives behind a low-pass is a tyre's, where the plant knows of it.
                 let enveloped = name.starts_with("road") && plant.parameter("enveloping.time").is_some();
                 let lag = (!enveloped).then_some(Fault::Lag);
-                for fault in [Fault::Gain, Fault::Delay].into_iter().chain(lag).chain(offset) {
+                let limit = self.may_be_limited(input).then_some(Fault::Limit);
+                for fault in [Fault::Gain, Fault::Delay].into_iter().chain(lag).chain(offset).chain(limit) {
                     terms.push(Term::Fault(Handle::Input(input, fault)));
                 }
             }
@@ -106,6 +109,14 @@ impl World<'_> {
         let sections =
             || self.train.iter().flat_map(|it| it.sections.iter().map(|section| (it.step, section.len())));
         sections().map(|(step, length)| step * length as f64).sum::<f64>() / sections().count().max(1) as f64
+    }
+
+    /// Whether what an input commands may not all come, and the plant has no law of its own for that.
+    fn may_be_limited(&self, input: usize) -> bool {
+        let plant = &self.rig.plant;
+        let name = &plant.inputs[input].name;
+        let group = name.split_once('.').map_or(name.as_str(), |(group, _)| group);
+        is_command(name) && plant.parameter(&format!("{group}.saturation.ratio")).is_none()
     }
 
     /// Whether an input is measured as a position and as a velocity: one of them wrong would contradict the other.
@@ -202,7 +213,9 @@ impl World<'_> {
             let amounts = factor.solve(&right);
             let gain = amounts.dot(&right);
             let screened = &mut screened[probe.term];
-            if !has_no_name(terms[probe.term]) {
+            // A limit shows by how low it is, and not by how large.
+            let sized = !matches!(terms[probe.term], Term::Fault(Handle::Input(_, Fault::Limit)));
+            if sized && !has_no_name(terms[probe.term]) {
                 let size = self.first_size(terms[probe.term], &probe.points[0], &fitted.point);
                 screened.detectable = screened.detectable.min(5.0 * size * factor.inverse()[(0, 0)].sqrt());
             }

@@ -376,5 +376,9 @@ const THRESHOLDS: &[&str] = &["02", "05", "09", "12", "20", "26", "26s"];
 
 /// Whether nothing shows of a term while it is absent, and of what it does only now and then.
 fn has_threshold(term: Term) -> bool {
-    matches!(term, Term::Cause(cause) if THRESHOLDS.contains(&cause.id))
+    match term {
+        Term::Cause(cause) => THRESHOLDS.contains(&cause.id),
+        Term::Fault(handle) => matches!(handle, Handle::Input(_, Fault::Limit)),
+        Term::Table(_) | Term::Response(_) => false,
+    }
 }

@@ -6,7 +6,7 @@ use strut_diagnosis::data::map::Map;
 use strut_diagnosis::diagnosis::{Options, diagnose};
 use strut_diagnosis::fit::Handle;
 use strut_diagnosis::import::{align, choose_drive, import};
-use strut_diagnosis::naming::name;
+use strut_diagnosis::naming::{handle, name};
 use strut_diagnosis::recorded::Recorded;
 use strut_diagnosis::rig::Rig;
 use strut_diagnosis::virtual_rig::{self, Experiment};
@@ -26,7 +26,7 @@ struct Case {
     step: f64,
 }
 
-/// What a diagnosis says: numbers and places, and the extended model's parameters.
+/// What a diagnosis says: numbers and places, the extended model's parameters, and what was fitted beside it.
 struct Said {
     terms: Vec<String>,
     values: Vec<(String, f64)>,
@@ -88,15 +88,14 @@ impl Case {
         let (train, judging) = (conditioned(&records), conditioned(&test));
         let diagnosis = diagnose(&rig, &train, &judging, &test, Options::default(), &|_| {}).unwrap();
         let terms = diagnosis.found.accepted.iter().map(|it| name(it.term, &rig.plant).short()).collect();
-        let values = rig.plant.parameters.iter().zip(&diagnosis.found.extended.point.parameters);
-        let halves = diagnosis.intervals.iter().filter_map(|it| match it.handle {
-            Handle::Parameter(index) => Some((rig.plant.parameters[index].name.clone(), it.half)),
-            Handle::Input(..) | Handle::Output(..) => None,
-        });
+        let named = |of: Handle| handle(of, &rig.plant).0;
+        let (extended, intervals) = (&diagnosis.found.extended, &diagnosis.intervals);
+        let parameters = (0..rig.plant.parameters.len()).map(Handle::Parameter);
+        let all = parameters.chain(extended.coordinates.iter().map(|it| it.handle));
         Said {
             terms,
-            values: values.map(|(declared, value)| (declared.name.clone(), *value)).collect(),
-            halves: halves.collect(),
+            values: all.map(|of| (named(of), extended.point.get(of))).collect(),
+            halves: intervals.iter().map(|it| (named(it.handle), it.half)).collect(),
         }
     }
 
@@ -220,4 +219,14 @@ fn friction_is_found_in_a_drive_from_voltage_current_and_position() {
     let said = case.diagnosed(&[("guide.coulomb.force", 30.0)]);
     assert_eq!(said.terms, ["16 guide"]);
     said.meets("guide.coulomb.force", 30.0, 0.05);
+}
+
+/// An amplifier that gives 0.7 A at most, and a tiny bit more for a moment: 65 N.
+#[test]
+fn a_limit_of_the_current_is_found_in_a_drive_from_its_force() {
+    let columns = &[("command.force", "force [N]"), ("position", "position [m]")];
+    let case = Case { drive: Some("command.force"), columns, ..Case::of(MOTOR) };
+    let said = case.diagnosed(&[("continuous_current", 0.7), ("peak_current", 0.701)]);
+    assert_eq!(said.terms, ["26 command.force"]);
+    said.meets("command.force.limit", 0.7 * 93.0, 0.01);
 }

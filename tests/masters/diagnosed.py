@@ -43,7 +43,7 @@ def corrected(report, signals, step, first, into):
     """Signals on their way into the model, or out of it: (1 + gain) lag(y(t')) + offset + drift t, t' = (1 + rate) t - delay.
 
     They are bent before, y + q y² + c y³; t counts from the record's beginning, `first` samples earlier. After the lag they
-    pass a step response.
+    pass a step response; what comes out is held within the limit, if that is not zero.
     """
     signals = dict(signals)
     for it in (it for it in report["corrections"] if it["input"] == into and it["signal"] in signals):
@@ -52,7 +52,8 @@ def corrected(report, signals, step, first, into):
         time = step * (first + np.arange(len(y)))
         y = lagged(delayed(y, (it["delay"] - it["rate"] * time) / step), it["lag"] / step)
         y = answered(y, step, [(point["after"], point["value"]) for point in it["response"]])
-        signals[it["signal"]] = (1.0 + it["gain"]) * y + it["offset"] + it["drift"] * time
+        y = (1.0 + it["gain"]) * y + it["offset"] + it["drift"] * time
+        signals[it["signal"]] = np.clip(y, -it["limit"], it["limit"]) if it["limit"] > 0.0 else y
     return signals
 
 

@@ -28,7 +28,7 @@ def drive(name, inputs, changed, description, settings=None):
 CASES = [
     drive("linear-drive-force",
           {"force": {"sines": SINES, "steps": [[30.0, 1.4005]]}, "load.force": {"sines": [], "steps": [[-12.0, 2.0005]]}},
-          GUIDE | {"spring.stiffness": 400.0, "constant_load": 4.0},
+          GUIDE | {"ground_spring.stiffness": 400.0, "constant_load": 4.0},
           "Friction with breakaway, cogging, spring and loads."),
     drive("linear-drive-command", {"command": {"sines": [[2.5, 0.8, 0.1], [1.0, 3.1, 0.7]], "steps": []}},
           GUIDE | {"amplifier.gain": 35.0, "guide.curve.scale": 1.2, "guide.curve.velocity_range": 0.4,

@@ -37,7 +37,7 @@ class LinearDrive(Switched):
 
     def acceleration(self, state, u, mode):
         driven = self.p["amplifier.gain"] * u[1] if self.commanded else u[0]
-        held = self.p.get("spring.stiffness", 0.0) * state[0] + self.p.get("constant_load", 0.0)
+        held = self.p.get("ground_spring.stiffness", 0.0) * state[0] + self.p.get("constant_load", 0.0)
         return (driven + u[2] - held - self.resistance(state, mode)) / self.p["moving_mass"]
 
     def derivative(self, state, u, mode):

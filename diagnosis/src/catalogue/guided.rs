@@ -41,7 +41,7 @@ pub(super) const CAUSES: &[Cause] = &[
         equation: "F = k x",
         contains: &[],
         setting: None,
-        parts: &[part("spring.stiffness", Scale::STIFFNESS, (0.0, 100.0), &[0.1])],
+        parts: &[part("ground_spring.stiffness", Scale::STIFFNESS, (0.0, 100.0), &[0.1])],
         experiment: "hold several positions, and compare the forces",
     },
     Cause {

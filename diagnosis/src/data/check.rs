@@ -4,6 +4,7 @@
 //! failing sensors by not moving most of the time.
 
 mod channel;
+mod lines;
 
 use super::uniform::{median_period, runs};
 use super::{Channel, Record};
@@ -11,6 +12,7 @@ use crate::findings::DataProblem;
 use std::ops::Range;
 
 pub use super::noise::{Lattice, lattice, noise_floor};
+pub use lines::lines;
 
 /// Samples below which a record is of no use.
 const FEWEST_SAMPLES: usize = 200;

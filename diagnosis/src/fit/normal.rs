@@ -200,6 +200,7 @@ fn slope(at: &Correction, fault: Fault, step: f64, applied: impl Fn(&Correction)
         Fault::Lag => 0.05 * step,
         // Fine enough for the end of any section.
         Fault::Rate => 1e-7,
+        Fault::Limit => 1e-3 * value,
         _ => 1e-3,
     };
     let middle = if fault == Fault::Lag { value.max(0.1 * step) } else { value };

@@ -11,6 +11,9 @@ use super::rms;
 /// Relative errors of a sampling rate from which they are looked for.
 const RATES: &[f64] = &[1e-4, 1e-3, -1e-3, 3e-3, -3e-3, 6e-3, -6e-3, 1e-2, -1e-2];
 
+/// Shares of the largest command at which its limit is looked for.
+const LIMITS: &[f64] = &[0.5, 0.7, 0.85];
+
 /// A point with a term tried out, and what its signals are differenced against being the fit's.
 pub struct Probe {
     /// Index of the term.
@@ -47,6 +50,10 @@ impl World<'_> {
                 match handle {
                     // From zero, a signal whose phase has run away shows no way back.
                     Handle::Output(_, Fault::Rate) => RATES.iter().map(|rate| probe(*rate)).collect(),
+                    Handle::Input(input, Fault::Limit) => {
+                        let largest = self.largest(input);
+                        LIMITS.iter().map(|share| probe(share * largest)).collect()
+                    }
                     _ => vec![probe(self.typical_fault(handle))],
                 }
             }
@@ -139,6 +146,7 @@ impl World<'_> {
             Fault::Drift => 0.1 * magnitude / (record.len() as f64 * record.step),
             Fault::Lag | Fault::Delay => record.step.max(1e-3),
             Fault::Rate => RATES[0],
+            Fault::Limit => magnitude,
             Fault::Quadratic => 0.05 / magnitude,
             Fault::Cubic => 0.05 / magnitude.powi(2),
         }

@@ -40,7 +40,7 @@ pub struct Parameters<R> {
     /// Guide
     pub guide: DriveGuide<R>,
     /// Spring to the ground
-    pub spring: GroundSpring<R>,
+    pub ground_spring: GroundSpring<R>,
     /// Static load, positive against positive positions
     #[var(unit = N, start = 0.0)]
     pub constant_load: R,
@@ -181,7 +181,7 @@ impl Model for LinearDrive {
             Drive::Command => p.amplifier.gain * input.command,
         };
         let resistance = p.guide.resistance(position, velocity);
-        let held = p.spring.stiffness * position + resistance + p.constant_load;
+        let held = p.ground_spring.stiffness * position + resistance + p.constant_load;
         let acceleration = (force + input.load.force - held) / p.moving_mass;
         (State { position: velocity, velocity: acceleration }, Output { acceleration, resistance })
     }
