@@ -191,8 +191,7 @@ impl Car {
         let (x, v) = (body - wheel, body_velocity - wheel_velocity);
         // The lever turns deflection into the strut's own length, and its force back (virtual work).
         let lever = 1.0 + self.strut.linkage * x;
-        let length = x * (1.0 + 0.5 * self.strut.linkage * x);
-        let (passive, inner_rates) = self.strut.force(outside.time, length, lever * v, &inner);
+        let (passive, inner_rates) = self.strut.force(outside.time, self.strut.length(x), lever * v, &inner);
         let made = outside.made;
         let (mut active, lag_rate) =
             if self.actuator.lag > 0.0 { (lagged, (made - lagged) / self.actuator.lag) } else { (made, 0.0) };

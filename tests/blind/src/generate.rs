@@ -2,8 +2,9 @@
 
 mod excitations;
 mod sizing;
+mod spring;
 
-use crate::car::RATE;
+use crate::car::{Motion, RATE};
 use crate::case::{Case, Generated, Oracle, Plant, Present, Table, Truth, Value};
 use crate::catalogue::Entry;
 use crate::excitation::Profile;
@@ -12,6 +13,7 @@ use crate::rig::{Rig, signals, start, true_base, true_signal};
 use crate::sensors::{Sensor, rms};
 use excitations::{Excitation, excitations};
 use sizing::Sizing;
+use spring::Measured;
 
 /// Makes a case's data.
 ///
@@ -30,10 +32,7 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
         rig.clutter_plant(level, &mut Random::new(case.seed, "clutter"));
         rig.clutter_sensors(level, &mut Random::new(case.seed, "clutter of sensors"));
     }
-    // Part of the stiffness that anyone measures about rest.
-    let magnets = rig.car.strut.magnets_stiffness();
-    oracle.car.strut.stiffness += magnets;
-    let sound = rig.sensors.clone();
+    let (cluttered, sound) = (rig.car.strut.clone(), rig.sensors.clone());
     let mut effects = vec![];
     for number in 0..case.effects.len() {
         let (present, values) = sizing.present(number)?;
@@ -42,25 +41,33 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
         }
         effects.push(present);
     }
-    for value in effects.iter_mut().flat_map(|it| &mut it.parameters) {
-        // The clutter's is in the same spring.
-        if value.name == "strut.spring.cubic" {
-            value.value = rig.car.strut.cubic;
+    let run = |all: &[Excitation]| -> Vec<Motion> {
+        all.iter().map(|it| rig.run(&it.road, &it.command, case.reach())).collect()
+    };
+    let motions = run(&train);
+    let added = |x: f64| cluttered.spring(x) - plain.car.strut.spring(x);
+    let measured = Measured::new(case, &rig, &motions, added);
+    measured.add_to(&mut oracle.car.strut);
+    let (noise, tests) = (noise(case, &motions), run(&test));
+    for value in &noise {
+        if let Some(sensor) = rig.sensors.get_mut(&value.name) {
+            sensor.noise = value.value;
         }
     }
-    let noise = set_noise(case, &mut rig, &train);
-    let tables = |all: &[Excitation], purpose: &str| {
-        all.iter().map(|excitation| table(case, &rig, excitation, purpose)).collect()
+    let tables = |all: &[Excitation], motions: &[Motion], purpose: &str| -> Vec<Table> {
+        let each = all.iter().zip(motions);
+        each.map(|(it, motion)| table(case, &rig, motion, &name(purpose, it))).collect()
     };
-    let (train, exact): (Vec<Table>, Vec<Excitation>) = (tables(&train, "train"), test);
-    let test: Vec<Table> = tables(&exact, "test");
+    let (train, exact) = (tables(&train, &motions, "train"), test);
+    let test = tables(&exact, &tests, "test");
     // Who knows of a fault of an input's sensor takes it back.
     let mut known = rig.clone();
     for (sensor, sound) in known.sensors.values_mut().zip(sound.into_values()) {
         *sensor = Sensor { noise: sensor.noise, ..sound };
     }
-    let recorded: Vec<Excitation> = exact.iter().map(|it| recorded(case, &known, it)).collect();
-    let exact: Vec<Excitation> = exact.into_iter().map(|it| commanded(case, &rig, it)).collect();
+    let each = || exact.iter().zip(&tests);
+    let recorded: Vec<Excitation> = each().map(|(it, motion)| recorded(case, &known, it, motion)).collect();
+    let exact: Vec<Excitation> = each().map(|(it, motion)| commanded(&rig, it, motion)).collect();
     // It is told what was commanded, and commands nothing itself.
     oracle.car.regulator = None;
     let foreseen = |by: &[Excitation]| by.iter().map(|it| foreseen(case, &oracle, it)).collect::<Vec<_>>();
@@ -71,7 +78,7 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
         Oracle { recorded: left(&test, &foreseen(&recorded)), exact: left(&test, &foreseen(&exact)) }
     };
     let mut base = changed(base, &effects);
-    base.iter_mut().filter(|it| it.name == "strut.stiffness").for_each(|it| it.value += magnets);
+    measured.tell(base.iter_mut().chain(effects.iter_mut().flat_map(|it| &mut it.parameters)));
     Ok(Generated { train, test, start, truth: Truth { case: case.clone(), effects, base, noise, oracle } })
 }
 
@@ -89,18 +96,17 @@ fn changed(mut base: Vec<Value>, effects: &[Present]) -> Vec<Value> {
 }
 
 /// An excitation with all that was commanded, of what the rig did, too.
-fn commanded(case: &Case, rig: &Rig, excitation: Excitation) -> Excitation {
-    if rig.car.regulator.is_none() {
-        return excitation;
+fn commanded(rig: &Rig, excitation: &Excitation, motion: &Motion) -> Excitation {
+    let mut all = excitation.clone();
+    if rig.car.regulator.is_some() {
+        all.command = Profile::through(&motion.command, RATE);
     }
-    let motion = rig.run(&excitation.road, &excitation.command, case.reach());
-    Excitation { command: Profile::through(&motion.command, RATE), ..excitation }
+    all
 }
 
 /// An excitation as its sensors recorded it.
-fn recorded(case: &Case, rig: &Rig, excitation: &Excitation) -> Excitation {
-    let motion = rig.run(&excitation.road, &excitation.command, case.reach());
-    let columns = rig.measured(case, &motion, &name("test", excitation));
+fn recorded(case: &Case, rig: &Rig, excitation: &Excitation, motion: &Motion) -> Excitation {
+    let columns = rig.measured(case, motion, &name("test", excitation));
     let through = |number: usize| Profile::through(&columns[number].2, case.rate);
     let command = if case.plant.is_car() { through(1) } else { Profile::still() };
     Excitation { name: excitation.name, road: through(0), command }
@@ -153,10 +159,8 @@ fn check(case: &Case) -> Result<(), String> {
     Ok(())
 }
 
-fn table(case: &Case, rig: &Rig, excitation: &Excitation, purpose: &str) -> Table {
-    let name = name(purpose, excitation);
-    let motion = rig.run(&excitation.road, &excitation.command, case.reach());
-    let measured = rig.measured(case, &motion, &name);
+fn table(case: &Case, rig: &Rig, motion: &Motion, name: &str) -> Table {
+    let measured = rig.measured(case, motion, name);
     let count = measured[0].2.len();
     let time = (0..count).map(|k| k as f64 / case.rate).collect();
     let mut columns = vec![("time".to_owned(), "s".to_owned(), time)];
@@ -167,24 +171,18 @@ fn table(case: &Case, rig: &Rig, excitation: &Excitation, purpose: &str) -> Tabl
         let velocity = motion.road_velocity.iter().step_by(every).take(count).copied().collect();
         columns.push((format!("{of}.velocity"), "m/s".to_owned(), velocity));
     }
-    Table { name, columns }
+    Table { name: name.into(), columns }
 }
 
 /// A sensor has the same noise in all records: so many dB below its signal in those to learn from.
-fn set_noise(case: &Case, rig: &mut Rig, train: &[Excitation]) -> Vec<Value> {
+fn noise(case: &Case, train: &[Motion]) -> Vec<Value> {
     let Some(noise_db) = case.noise_db else { return vec![] };
-    let motions: Vec<_> = train.iter().map(|e| rig.run(&e.road, &e.command, case.reach())).collect();
-    let mut all = vec![];
-    for (name, unit) in signals(case.plant, case.sensors) {
-        let power: f64 =
-            motions.iter().map(|motion| rms(&true_signal(case.plant, motion, name)).powi(2)).sum();
-        let noise = (power / motions.len() as f64).sqrt() * 10_f64.powf(-noise_db / 20.0);
-        if let Some(sensor) = rig.sensors.get_mut(name) {
-            sensor.noise = noise;
-        }
-        all.push(Value { name: name.into(), unit: unit.into(), value: noise });
-    }
-    all
+    let of = |(name, unit): (&str, &str)| {
+        let power: f64 = train.iter().map(|motion| rms(&true_signal(case.plant, motion, name)).powi(2)).sum();
+        let value = (power / train.len() as f64).sqrt() * 10_f64.powf(-noise_db / 20.0);
+        Value { name: name.into(), unit: unit.into(), value }
+    };
+    signals(case.plant, case.sensors).into_iter().map(of).collect()
 }
 
 /// Columns: name, unit, values.

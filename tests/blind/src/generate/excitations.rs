@@ -6,6 +6,7 @@ use crate::random::Random;
 use crate::rig::Rig;
 
 /// A record to be made.
+#[derive(Clone)]
 pub(super) struct Excitation {
     /// Its name in the file's.
     pub(super) name: &'static str,

@@ -280,3 +280,31 @@ fn the_clutters_magnets_are_in_the_true_stiffness() {
         assert_eq!(without.value != with.value, without.name == "strut.stiffness", "{}", without.name);
     }
 }
+
+/// Their covariance over the deflections' variance, of what was recorded.
+#[test]
+fn what_the_clutter_adds_to_the_stiffness_is_what_the_records_cover() {
+    for (plant, column, sign) in
+        [(Plant::LinearQuarter, "suspension.deflection", 1.0), (Plant::StrutDyno, "motion.position", -1.0)]
+    {
+        let of = |clutter| {
+            generate(&Case { plant, clutter, noise_db: None, ..short(vec![Hidden::new("01")]) }).unwrap()
+        };
+        let (without, with) = (of(0), of(1));
+        let plain = Rig::new(plant, &without.truth.base);
+        let mut cluttered = plain.clone();
+        cluttered.clutter_plant(1.0, &mut Random::new(11, "clutter"));
+        let columns = with.train.iter().flat_map(|table| table.column(column).unwrap());
+        let pairs: Vec<(f64, f64)> = columns
+            .map(|x| sign * x)
+            .map(|x| (x, cluttered.car.strut.spring(x) - plain.car.strut.spring(x)))
+            .collect();
+        let mean = |of: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>() / pairs.len() as f64;
+        let (x, force) = (mean(&|it| it.0), mean(&|it| it.1));
+        let due = mean(&|it| (it.0 - x) * (it.1 - force)) / mean(&|it| (it.0 - x).powi(2));
+        let told =
+            |made: &Generated| made.truth.base.iter().find(|it| it.name == "strut.stiffness").unwrap().value;
+        let added = told(&with) - told(&without);
+        assert!((added / due - 1.0).abs() < 0.01, "{plant:?}: {added} N/m for {due} N/m");
+    }
+}
