@@ -10,7 +10,7 @@ use crate::catalogue::Entry;
 use crate::excitation::Profile;
 use crate::random::Random;
 use crate::rig::{Rig, signals, start, true_base, true_signal};
-use crate::sensors::{Sensor, rms};
+use crate::sensors::{Sensor, rms, swing};
 use excitations::{Excitation, excitations};
 use sizing::Sizing;
 use spring::Measured;
@@ -70,6 +70,7 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
     let exact: Vec<Excitation> = each().map(|(it, motion)| commanded(&rig, it, motion)).collect();
     // It is told what was commanded, and commands nothing itself.
     oracle.car.regulator = None;
+    oracle.sas.drag = None;
     let foreseen = |by: &[Excitation]| by.iter().map(|it| foreseen(case, &oracle, it)).collect::<Vec<_>>();
     // A loop has the motor say what the position does: who would foresee both has no error to compare with.
     let oracle = if case.plant == Plant::LinearDrive {
@@ -88,8 +89,13 @@ fn changed(mut base: Vec<Value>, effects: &[Present]) -> Vec<Value> {
         let added = parameter.name.strip_suffix(".added");
         let name = added.unwrap_or(&parameter.name);
         // What the published rig does not have is the effect's own.
-        if let Some(value) = base.iter_mut().find(|value| value.name == name && value.value != 0.0) {
-            value.value = parameter.value + if added.is_some() { value.value } else { 0.0 };
+        for value in base.iter_mut().filter(|value| value.table() == name && value.value != 0.0) {
+            value.value = match added {
+                Some(_) => value.value + parameter.value,
+                // All points of a characteristic are as many times as large.
+                None if value.name != name => value.value * parameter.value,
+                None => parameter.value,
+            };
         }
     }
     base
@@ -98,7 +104,7 @@ fn changed(mut base: Vec<Value>, effects: &[Present]) -> Vec<Value> {
 /// An excitation with all that was commanded, of what the rig did, too.
 fn commanded(rig: &Rig, excitation: &Excitation, motion: &Motion) -> Excitation {
     let mut all = excitation.clone();
-    if rig.car.regulator.is_some() {
+    if rig.car.regulator.is_some() || rig.is_braked() {
         all.command = Profile::through(&motion.command, RATE);
     }
     all
@@ -107,8 +113,12 @@ fn commanded(rig: &Rig, excitation: &Excitation, motion: &Motion) -> Excitation 
 /// An excitation as its sensors recorded it.
 fn recorded(case: &Case, rig: &Rig, excitation: &Excitation, motion: &Motion) -> Excitation {
     let columns = rig.measured(case, motion, &name("test", excitation));
-    let through = |number: usize| Profile::through(&columns[number].2, case.rate);
-    let command = if case.plant.is_car() { through(1) } else { Profile::still() };
+    let through = |number: usize| {
+        let (name, _, shown) = &columns[number];
+        let rest = true_signal(case.plant, motion, name)[0];
+        Profile::through(&shown.iter().map(|x| x - rest).collect::<Vec<_>>(), case.rate)
+    };
+    let command = if case.plant.is_commanded() { through(1) } else { Profile::still() };
     Excitation { name: excitation.name, road: through(0), command }
 }
 
@@ -165,7 +175,7 @@ fn table(case: &Case, rig: &Rig, motion: &Motion, name: &str) -> Table {
     let time = (0..count).map(|k| k as f64 / case.rate).collect();
     let mut columns = vec![("time".to_owned(), "s".to_owned(), time)];
     columns.extend(measured);
-    if case.road_velocity && case.plant != Plant::LinearDrive {
+    if case.road_velocity && !motion.road_velocity.is_empty() {
         let of = if case.plant.is_car() { "road" } else { "motion" };
         let every = (RATE / case.rate).round() as usize;
         let velocity = motion.road_velocity.iter().step_by(every).take(count).copied().collect();
@@ -178,7 +188,8 @@ fn table(case: &Case, rig: &Rig, motion: &Motion, name: &str) -> Table {
 fn noise(case: &Case, train: &[Motion]) -> Vec<Value> {
     let Some(noise_db) = case.noise_db else { return vec![] };
     let of = |(name, unit): (&str, &str)| {
-        let power: f64 = train.iter().map(|motion| rms(&true_signal(case.plant, motion, name)).powi(2)).sum();
+        let power: f64 =
+            train.iter().map(|motion| swing(&true_signal(case.plant, motion, name)).powi(2)).sum();
         let value = (power / train.len() as f64).sqrt() * 10_f64.powf(-noise_db / 20.0);
         Value { name: name.into(), unit: unit.into(), value }
     };
