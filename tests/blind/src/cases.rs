@@ -37,8 +37,9 @@ const OF_DRIVE: [&str; 4] = ["02g", "16", "27", "33g"];
 /// Effects of a pump actuator.
 const OF_PUMP: [&str; 6] = ["30p", "32a", "32b", "32c", "23", "25"];
 
-/// Effects of a semi-active rig.
-const OF_SAS: [&str; 4] = ["01p", "19p", "23", "25"];
+/// Effects of a semi-active rig. Not its brake's gain: no force is measured there, so that everything else could be as many times
+/// heavier and stiffer, and nobody could tell.
+const OF_SAS: [&str; 3] = ["01p", "19p", "23"];
 
 /// Effects of a strut on a dyno.
 const ON_DYNO: [&str; 10] = ["01", "03", "03b", "04", "05", "06", "07", "08", "09", "32"];
