@@ -1,5 +1,6 @@
 //! The quarter vehicle on its rig, integrated at 20 kHz.
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use crate::excitation::Profile;
@@ -102,7 +103,7 @@ pub struct Actuator {
 
 impl Actuator {
     /// The force that it makes of a command in N, before its lag.
-    fn made_of(&self, command: f64) -> f64 {
+    pub fn made_of(&self, command: f64) -> f64 {
         (self.gain * command).clamp(-self.limit, self.limit)
     }
 
@@ -139,10 +140,12 @@ pub struct Motion {
     pub wheel_velocity: Vec<f64>,
     /// In m/s².
     pub wheel_acceleration: Vec<f64>,
-    /// Dynamic, in N.
+    /// Dynamic, in N; of a semi-active rig with its static part.
     pub tire_force: Vec<f64>,
     /// Difference of the cylinder's chambers, in Pa.
     pub pressure: Vec<f64>,
+    /// Of pump actuators and semi-active rigs all that is measured, by the names and in the units of the record.
+    pub signals: BTreeMap<&'static str, Vec<f64>>,
 }
 
 /// Positions and velocities of body and wheel, hidden states of the strut, force of the actuator; position and
@@ -191,8 +194,7 @@ impl Car {
         let (x, v) = (body - wheel, body_velocity - wheel_velocity);
         // The lever turns deflection into the strut's own length, and its force back (virtual work).
         let lever = 1.0 + self.strut.linkage * x;
-        let length = x * (1.0 + 0.5 * self.strut.linkage * x);
-        let (passive, inner_rates) = self.strut.force(outside.time, length, lever * v, &inner);
+        let (passive, inner_rates) = self.strut.force(outside.time, self.strut.length(x), lever * v, &inner);
         let made = outside.made;
         let (mut active, lag_rate) =
             if self.actuator.lag > 0.0 { (lagged, (made - lagged) / self.actuator.lag) } else { (made, 0.0) };

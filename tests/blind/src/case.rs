@@ -25,6 +25,10 @@ pub enum Plant {
     MrDyno,
     /// A carriage whose motor follows a position in closed loop; the motor's force is measured.
     LinearDrive,
+    /// A pump actuator on a dyno: its piston is moved, its motor's torque commanded (Ajala).
+    PumpDyno,
+    /// Two arms on a pivot with a spring and a brake between them, on an eccentric (Kogut).
+    SasRig,
 }
 
 impl Plant {
@@ -34,6 +38,11 @@ impl Plant {
             self,
             Self::LinearQuarter | Self::RegulatedQuarter | Self::PublishedQuarter | Self::ServoQuarter
         )
+    }
+
+    /// Whether its record has a command beside what moves it.
+    pub fn is_commanded(self) -> bool {
+        self.is_car() || matches!(self, Self::PumpDyno | Self::SasRig)
     }
 
     /// As the page of results calls it.
@@ -46,6 +55,8 @@ impl Plant {
             Self::ServoQuarter => "quarter car with a servo valve",
             Self::MrDyno => "magnetorheological damper on a dyno",
             Self::LinearDrive => "linear drive in closed loop",
+            Self::PumpDyno => "pump actuator on a dyno",
+            Self::SasRig => "semi-active rig",
         }
     }
 }
@@ -224,6 +235,13 @@ pub struct Value {
     pub unit: String,
     /// In `unit`.
     pub value: f64,
+}
+
+impl Value {
+    /// Its name without its number among the points of a characteristic: of `valve.rebound.flow[3]` what comes before the bracket.
+    pub fn table(&self) -> &str {
+        self.name.split('[').next().unwrap_or_default()
+    }
 }
 
 /// An effect that is there.

@@ -34,6 +34,13 @@ const REGULATED: [&str; 6] = ["01", "07", "12", "16", "23", "25"];
 /// Effects of a linear drive.
 const OF_DRIVE: [&str; 4] = ["02g", "16", "27", "33g"];
 
+/// Effects of a pump actuator.
+const OF_PUMP: [&str; 6] = ["30p", "32a", "32b", "32c", "23", "25"];
+
+/// Effects of a semi-active rig. Not its brake's gain: no force is measured there, so that everything else could be as many times
+/// heavier and stiffer, and nobody could tell.
+const OF_SAS: [&str; 3] = ["01p", "19p", "23"];
+
 /// Effects of a strut on a dyno.
 const ON_DYNO: [&str; 10] = ["01", "03", "03b", "04", "05", "06", "07", "08", "09", "32"];
 
@@ -189,6 +196,24 @@ fn other_rigs(seed: u64, all: &mut Vec<Case>) {
     ] {
         let case = standard(format!("mr-{name}-{seed}"), effects, seed);
         all.push(Case { plant: Plant::MrDyno, noise_db: Some(60.0), ..case });
+    }
+    // On the semi-active rig, the wheel arm follows the eccentric and all that is in its record.
+    for (rig, plant, noise, of_parts, of_sensors) in [
+        ("pump", Plant::PumpDyno, 40.0, &OF_PUMP[..], [("33", "force"), ("34", "force"), ("36", "force")]),
+        (
+            "sas",
+            Plant::SasRig,
+            60.0,
+            &OF_SAS,
+            [("33", "relative.angle"), ("34", "body_arm.acceleration"), ("36", "relative.angle")],
+        ),
+    ] {
+        let parts = [&["none"][..], of_parts].concat().into_iter().map(|id| (id, hidden(id)));
+        let sensors = of_sensors.iter().map(|(id, signal)| (*id, vec![Hidden::at(id, signal)]));
+        for (id, effects) in parts.chain(sensors) {
+            let case = standard(format!("{rig}-{id}-{seed}"), effects, seed);
+            all.push(Case { plant, noise_db: Some(noise), ..case });
+        }
     }
 }
 

@@ -2,6 +2,8 @@
 
 mod drive;
 mod parts;
+mod pump;
+mod sas;
 mod sensor;
 mod strut;
 mod unnamed;
@@ -26,6 +28,10 @@ pub enum Place {
     Frame,
     /// From the command to the acting force.
     Actuator,
+    /// Pump, motor, gas or valves of a pump actuator.
+    Pump,
+    /// Between two arms.
+    Pivot,
     /// In a sensor; the element of the effect is its signal.
     Sensor,
 }
@@ -43,7 +49,7 @@ pub enum Scale {
     Command,
     /// The base parameter of the same name.
     Base,
-    /// The rms of the sensor's signal without the effect.
+    /// The rms of the sensor's signal about its rest without the effect.
     Signal,
 }
 
@@ -121,11 +127,13 @@ pub const RATE_ERROR: f64 = 0.01;
 
 /// Everything that can be hidden.
 pub fn entries() -> impl Iterator<Item = &'static Entry> {
-    [strut::ENTRIES, parts::ENTRIES, drive::ENTRIES, sensor::ENTRIES, unnamed::ENTRIES].into_iter().flatten()
+    let of_plants = [strut::ENTRIES, parts::ENTRIES, drive::ENTRIES, pump::ENTRIES, sas::ENTRIES];
+    of_plants.into_iter().chain([sensor::ENTRIES, unnamed::ENTRIES]).flatten()
 }
 
-/// Laws with a letter in the catalogue of the diagnosis, too: who calls one by its number alone means another one.
-const LETTERED: [&str; 4] = ["03b", "26s", "28h", "41h"];
+/// Laws with a letter in the catalogue of the diagnosis, too, or that are nothing but other values of parameters: who calls one by
+/// its number alone means another one.
+const LETTERED: [&str; 7] = ["03b", "26s", "28h", "32a", "32b", "32c", "41h"];
 
 /// The number in the catalogue of the diagnosis: what shares one has a letter here.
 pub fn number(id: &str) -> &str {
@@ -201,8 +209,8 @@ mod tests {
         for entry in entries() {
             assert_eq!(entries().filter(|other| other.id == entry.id).count(), 1, "{}", entry.id);
         }
-        let numbers = ["38d", "02g", "01", "U1", "28h"].map(number);
-        assert_eq!(numbers, ["38", "02", "01", "U1", "28h"]);
+        let numbers = ["38d", "02g", "01", "U1", "28h", "30p", "32c", "32h"].map(number);
+        assert_eq!(numbers, ["38", "02", "01", "U1", "28h", "30", "32c", "32"]);
         assert!(Entry::find("99").is_err());
     }
 }

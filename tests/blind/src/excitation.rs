@@ -62,6 +62,11 @@ impl Profile {
         }
     }
 
+    /// Its rate of change.
+    pub fn rate(&self) -> Self {
+        Self { knots: (0..self.knots.len()).map(|k| self.at(k as f64 * STEP).1).collect(), rates: None }
+    }
+
     /// The profile, `factor` times as large.
     pub fn scaled(&self, factor: f64) -> Self {
         let scaled = |all: &Vec<f64>| all.iter().map(|x| x * factor).collect();
@@ -221,6 +226,8 @@ mod tests {
             let t = 1.0 + f64::from(k) * 7.3e-3;
             let difference = (profile.at(t + 1e-6).0 - profile.at(t - 1e-6).0) / 2e-6;
             assert!((difference - profile.at(t).1).abs() < 1e-5, "at {t} s");
+            // As a profile of its own it is straight enough between its knots.
+            assert!((profile.rate().at(t).0 - profile.at(t).1).abs() < 1e-4, "at {t} s");
         }
     }
 }

@@ -45,15 +45,30 @@ fn start(made: &Generated) -> String {
         Plant::MrDyno => ("BlindMrDyno", "ElementDyno", "start", element),
         Plant::ServoQuarter => ("BlindServoSuspension", "ServoSuspension", "Konieczny", ""),
         Plant::LinearDrive => ("BlindLinearDrive", "LinearDrive", "start", ""),
+        Plant::PumpDyno => ("BlindPumpActuator", "PumpHydraulicActuator", "Ajala", ""),
+        Plant::SasRig => (
+            "BlindSasRig",
+            "SasRig",
+            "Kogut",
+            "spring.lever = { value = \"Printed\", source = \"start\" }\n\
+             tire.lift_off = { value = false, source = \"start\" }\n",
+        ),
     };
     let mut text = format!(
         "fmu = \"{fmu}\"\nmodel = \"{model}\"\ntitle = \"What is known of the rig\"\nsource = \"{source}\"\n\n[values]\n{choice}"
     );
-    for value in &made.start {
+    // The points of a characteristic stand in one list.
+    for points in made.start.chunk_by(|one, other| one.table() == other.table()) {
+        let mut values: Vec<String> = points.iter().map(|point| format!("{:?}", point.value)).collect();
+        if points[0].name != points[0].table() {
+            values = vec![format!("[{}]", values.join(", "))];
+        }
         writeln!(
             text,
-            "{} = {{ value = {:?}, unit = \"{}\", source = \"start\" }}",
-            value.name, value.value, value.unit
+            "{} = {{ value = {}, unit = \"{}\", source = \"start\" }}",
+            points[0].table(),
+            values.concat(),
+            points[0].unit
         )
         .expect("a string takes everything");
     }
@@ -97,5 +112,16 @@ mod tests {
         let truth = std::fs::read_to_string(folder.join("sealed/truth.json")).unwrap();
         let truth: Truth = serde_json::from_str(&truth).unwrap();
         assert_eq!((&truth.case, &truth.effects[0].id), (&case, &made.truth.effects[0].id));
+    }
+
+    #[test]
+    fn a_characteristic_is_a_list_in_the_set() {
+        let case = Case { duration: 4.0, plant: Plant::PumpDyno, ..Case::standard("case", vec![], 5) };
+        let text = start(&crate::generate(&case).unwrap());
+        let list = "valve.compression.pressure_drop = { value = [-140000.0, -100000.0, -70000.0, -40000.0, 0.0, \
+                    40000.0, 160000.0, 270000.0, 390000.0], unit = \"Pa\", source = \"start\" }\n";
+        assert!(text.contains(list), "{text}");
+        assert!(text.contains("pump.displacement = { value = 1.2e-5, unit = \"m3\""), "{text}");
+        assert_eq!(text.matches("valve.").count(), 4);
     }
 }

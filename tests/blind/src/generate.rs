@@ -2,16 +2,18 @@
 
 mod excitations;
 mod sizing;
+mod spring;
 
-use crate::car::RATE;
+use crate::car::{Motion, RATE};
 use crate::case::{Case, Generated, Oracle, Plant, Present, Table, Truth, Value};
 use crate::catalogue::Entry;
 use crate::excitation::Profile;
 use crate::random::Random;
 use crate::rig::{Rig, signals, start, true_base, true_signal};
-use crate::sensors::{Sensor, rms};
+use crate::sensors::{Sensor, rms, swing};
 use excitations::{Excitation, excitations};
 use sizing::Sizing;
+use spring::Measured;
 
 /// Makes a case's data.
 ///
@@ -30,10 +32,7 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
         rig.clutter_plant(level, &mut Random::new(case.seed, "clutter"));
         rig.clutter_sensors(level, &mut Random::new(case.seed, "clutter of sensors"));
     }
-    // Part of the stiffness that anyone measures about rest.
-    let magnets = rig.car.strut.magnets_stiffness();
-    oracle.car.strut.stiffness += magnets;
-    let sound = rig.sensors.clone();
+    let (cluttered, sound) = (rig.car.strut.clone(), rig.sensors.clone());
     let mut effects = vec![];
     for number in 0..case.effects.len() {
         let (present, values) = sizing.present(number)?;
@@ -42,27 +41,36 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
         }
         effects.push(present);
     }
-    for value in effects.iter_mut().flat_map(|it| &mut it.parameters) {
-        // The clutter's is in the same spring.
-        if value.name == "strut.spring.cubic" {
-            value.value = rig.car.strut.cubic;
+    let run = |all: &[Excitation]| -> Vec<Motion> {
+        all.iter().map(|it| rig.run(&it.road, &it.command, case.reach())).collect()
+    };
+    let motions = run(&train);
+    let added = |x: f64| cluttered.spring(x) - plain.car.strut.spring(x);
+    let measured = Measured::new(case, &rig, &motions, added);
+    measured.add_to(&mut oracle.car.strut);
+    let (noise, tests) = (noise(case, &motions), run(&test));
+    for value in &noise {
+        if let Some(sensor) = rig.sensors.get_mut(&value.name) {
+            sensor.noise = value.value;
         }
     }
-    let noise = set_noise(case, &mut rig, &train);
-    let tables = |all: &[Excitation], purpose: &str| {
-        all.iter().map(|excitation| table(case, &rig, excitation, purpose)).collect()
+    let tables = |all: &[Excitation], motions: &[Motion], purpose: &str| -> Vec<Table> {
+        let each = all.iter().zip(motions);
+        each.map(|(it, motion)| table(case, &rig, motion, &name(purpose, it))).collect()
     };
-    let (train, exact): (Vec<Table>, Vec<Excitation>) = (tables(&train, "train"), test);
-    let test: Vec<Table> = tables(&exact, "test");
+    let (train, exact) = (tables(&train, &motions, "train"), test);
+    let test = tables(&exact, &tests, "test");
     // Who knows of a fault of an input's sensor takes it back.
     let mut known = rig.clone();
     for (sensor, sound) in known.sensors.values_mut().zip(sound.into_values()) {
         *sensor = Sensor { noise: sensor.noise, ..sound };
     }
-    let recorded: Vec<Excitation> = exact.iter().map(|it| recorded(case, &known, it)).collect();
-    let exact: Vec<Excitation> = exact.into_iter().map(|it| commanded(case, &rig, it)).collect();
+    let each = || exact.iter().zip(&tests);
+    let recorded: Vec<Excitation> = each().map(|(it, motion)| recorded(case, &known, it, motion)).collect();
+    let exact: Vec<Excitation> = each().map(|(it, motion)| commanded(&rig, it, motion)).collect();
     // It is told what was commanded, and commands nothing itself.
     oracle.car.regulator = None;
+    oracle.sas.drag = None;
     let foreseen = |by: &[Excitation]| by.iter().map(|it| foreseen(case, &oracle, it)).collect::<Vec<_>>();
     // A loop has the motor say what the position does: who would foresee both has no error to compare with.
     let oracle = if case.plant == Plant::LinearDrive {
@@ -71,7 +79,7 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
         Oracle { recorded: left(&test, &foreseen(&recorded)), exact: left(&test, &foreseen(&exact)) }
     };
     let mut base = changed(base, &effects);
-    base.iter_mut().filter(|it| it.name == "strut.stiffness").for_each(|it| it.value += magnets);
+    measured.tell(base.iter_mut().chain(effects.iter_mut().flat_map(|it| &mut it.parameters)));
     Ok(Generated { train, test, start, truth: Truth { case: case.clone(), effects, base, noise, oracle } })
 }
 
@@ -81,28 +89,36 @@ fn changed(mut base: Vec<Value>, effects: &[Present]) -> Vec<Value> {
         let added = parameter.name.strip_suffix(".added");
         let name = added.unwrap_or(&parameter.name);
         // What the published rig does not have is the effect's own.
-        if let Some(value) = base.iter_mut().find(|value| value.name == name && value.value != 0.0) {
-            value.value = parameter.value + if added.is_some() { value.value } else { 0.0 };
+        for value in base.iter_mut().filter(|value| value.table() == name && value.value != 0.0) {
+            value.value = match added {
+                Some(_) => value.value + parameter.value,
+                // All points of a characteristic are as many times as large.
+                None if value.name != name => value.value * parameter.value,
+                None => parameter.value,
+            };
         }
     }
     base
 }
 
 /// An excitation with all that was commanded, of what the rig did, too.
-fn commanded(case: &Case, rig: &Rig, excitation: Excitation) -> Excitation {
-    if rig.car.regulator.is_none() {
-        return excitation;
+fn commanded(rig: &Rig, excitation: &Excitation, motion: &Motion) -> Excitation {
+    let mut all = excitation.clone();
+    if rig.car.regulator.is_some() || rig.is_braked() {
+        all.command = Profile::through(&motion.command, RATE);
     }
-    let motion = rig.run(&excitation.road, &excitation.command, case.reach());
-    Excitation { command: Profile::through(&motion.command, RATE), ..excitation }
+    all
 }
 
 /// An excitation as its sensors recorded it.
-fn recorded(case: &Case, rig: &Rig, excitation: &Excitation) -> Excitation {
-    let motion = rig.run(&excitation.road, &excitation.command, case.reach());
-    let columns = rig.measured(case, &motion, &name("test", excitation));
-    let through = |number: usize| Profile::through(&columns[number].2, case.rate);
-    let command = if case.plant.is_car() { through(1) } else { Profile::still() };
+fn recorded(case: &Case, rig: &Rig, excitation: &Excitation, motion: &Motion) -> Excitation {
+    let columns = rig.measured(case, motion, &name("test", excitation));
+    let through = |number: usize| {
+        let (name, _, shown) = &columns[number];
+        let rest = true_signal(case.plant, motion, name)[0];
+        Profile::through(&shown.iter().map(|x| x - rest).collect::<Vec<_>>(), case.rate)
+    };
+    let command = if case.plant.is_commanded() { through(1) } else { Profile::still() };
     Excitation { name: excitation.name, road: through(0), command }
 }
 
@@ -153,38 +169,31 @@ fn check(case: &Case) -> Result<(), String> {
     Ok(())
 }
 
-fn table(case: &Case, rig: &Rig, excitation: &Excitation, purpose: &str) -> Table {
-    let name = name(purpose, excitation);
-    let motion = rig.run(&excitation.road, &excitation.command, case.reach());
-    let measured = rig.measured(case, &motion, &name);
+fn table(case: &Case, rig: &Rig, motion: &Motion, name: &str) -> Table {
+    let measured = rig.measured(case, motion, name);
     let count = measured[0].2.len();
     let time = (0..count).map(|k| k as f64 / case.rate).collect();
     let mut columns = vec![("time".to_owned(), "s".to_owned(), time)];
     columns.extend(measured);
-    if case.road_velocity && case.plant != Plant::LinearDrive {
+    if case.road_velocity && !motion.road_velocity.is_empty() {
         let of = if case.plant.is_car() { "road" } else { "motion" };
         let every = (RATE / case.rate).round() as usize;
         let velocity = motion.road_velocity.iter().step_by(every).take(count).copied().collect();
         columns.push((format!("{of}.velocity"), "m/s".to_owned(), velocity));
     }
-    Table { name, columns }
+    Table { name: name.into(), columns }
 }
 
 /// A sensor has the same noise in all records: so many dB below its signal in those to learn from.
-fn set_noise(case: &Case, rig: &mut Rig, train: &[Excitation]) -> Vec<Value> {
+fn noise(case: &Case, train: &[Motion]) -> Vec<Value> {
     let Some(noise_db) = case.noise_db else { return vec![] };
-    let motions: Vec<_> = train.iter().map(|e| rig.run(&e.road, &e.command, case.reach())).collect();
-    let mut all = vec![];
-    for (name, unit) in signals(case.plant, case.sensors) {
+    let of = |(name, unit): (&str, &str)| {
         let power: f64 =
-            motions.iter().map(|motion| rms(&true_signal(case.plant, motion, name)).powi(2)).sum();
-        let noise = (power / motions.len() as f64).sqrt() * 10_f64.powf(-noise_db / 20.0);
-        if let Some(sensor) = rig.sensors.get_mut(name) {
-            sensor.noise = noise;
-        }
-        all.push(Value { name: name.into(), unit: unit.into(), value: noise });
-    }
-    all
+            train.iter().map(|motion| swing(&true_signal(case.plant, motion, name)).powi(2)).sum();
+        let value = (power / train.len() as f64).sqrt() * 10_f64.powf(-noise_db / 20.0);
+        Value { name: name.into(), unit: unit.into(), value }
+    };
+    signals(case.plant, case.sensors).into_iter().map(of).collect()
 }
 
 /// Columns: name, unit, values.

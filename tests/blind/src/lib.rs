@@ -1,7 +1,7 @@
 //! The blind benchmark: measured-looking data of rigs with hidden causes, and the score of whoever names them.
 //!
 //! It shares no code with the models or with the diagnosis: its own equations ([`car`], [`servo`], [`dyno`],
-//! [`drive`], [`strut`]), its own integrator at 20 kHz, friction that sticks ([`friction`]) instead of a tanh, exact
+//! [`drive`], [`pump`], [`sas`], [`strut`]), its own integrator at 20 kHz, friction that sticks ([`friction`]) instead of a tanh, exact
 //! delays, its own [`sensors`]. [`catalogue`] says what can be hidden, [`case`](mod@case) what is asked for,
 //! [`generate()`] makes it.
 
@@ -15,9 +15,11 @@ pub mod excitation;
 pub mod files;
 pub mod friction;
 pub mod generate;
+pub mod pump;
 pub mod random;
 pub mod rig;
 pub mod run;
+pub mod sas;
 pub mod score;
 pub mod sensors;
 pub mod servo;

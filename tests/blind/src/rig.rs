@@ -12,7 +12,9 @@ use crate::drive::{Drive, Loop};
 use crate::dyno;
 use crate::excitation::Profile;
 use crate::friction::{Contact, Limit};
+use crate::pump::Pump;
 use crate::random::Random;
+use crate::sas::Sas;
 use crate::sensors::Sensor;
 use crate::servo::Servo;
 use crate::strut::Strut;
@@ -20,9 +22,9 @@ use crate::strut::Strut;
 pub use published::{is_uncertain, start, true_base};
 pub use signals::{signals, true_signal};
 
-/// Between body and wheel.
+/// Between body and wheel, or between two arms.
 const STRUT: [f64; 2] = [1.0, -1.0];
-/// Between body and ground.
+/// Between body, carriage or rotor and ground.
 const GUIDE: [f64; 2] = [1.0, 0.0];
 /// Between wheel and ground.
 const WHEEL_GUIDE: [f64; 2] = [0.0, 1.0];
@@ -39,6 +41,10 @@ pub struct Rig {
     pub car: Car,
     /// The moving parts of a linear drive.
     pub drive: Drive,
+    /// A pump actuator.
+    pub pump: Pump,
+    /// The arms of a semi-active rig.
+    pub sas: Sas,
     /// Of each signal.
     pub sensors: BTreeMap<String, Sensor>,
 }
@@ -91,21 +97,31 @@ impl Rig {
         };
         let sensors = signals(plant, Sensors::Full).into_iter();
         let sensors = sensors.map(|(name, _)| (name.to_owned(), Sensor::default())).collect();
-        Self { plant, car, drive, sensors }
+        Self { plant, car, drive, pump: Pump::new(of), sas: Sas::new(of), sensors }
     }
 
     /// Adds the small effects that no model knows, `level` times.
     pub fn clutter_plant(&mut self, level: f64, random: &mut Random) {
-        if self.plant == Plant::LinearDrive {
-            self.drive.cable = Some((level * random.between(20.0, 60.0), random.between(0.05, 0.15)));
-            let share = level * random.between(0.003, 0.008);
-            self.drive.ripple = Some((share, random.between(0.02, 0.05), random.phase()));
-            return;
+        match self.plant {
+            Plant::LinearDrive => {
+                self.drive.cable = Some((level * random.between(20.0, 60.0), random.between(0.05, 0.15)));
+                let share = level * random.between(0.003, 0.008);
+                self.drive.ripple = Some((share, random.between(0.02, 0.05), random.phase()));
+                return;
+            }
+            Plant::PumpDyno => return self.pump.clutter(level, random),
+            Plant::SasRig => return self.sas.clutter(level, random),
+            _ => {}
         }
         let strut = &mut self.car.strut;
         strut.maxwell[1] = Some((level * random.between(1000.0, 2500.0), random.between(0.005, 0.015)));
         strut.cubic += level * random.between(1e6, 4e6);
         strut.cogging = Some((level * random.between(1.0, 4.0), random.between(0.01, 0.03), random.phase()));
+    }
+
+    /// Whether its command is a brake's rate, of which only the motion makes the torque that is recorded.
+    pub fn is_braked(&self) -> bool {
+        self.plant == Plant::SasRig && self.sas.drag.is_some()
     }
 
     /// Makes the sensors as slow and as late as such sensors are, `level` times.
@@ -119,10 +135,13 @@ impl Rig {
     }
 
     /// What the parts do under an excitation: of a car the road and its command, of a dyno the motion of its end, of
-    /// a drive the position that it shall follow.
+    /// a drive the position that it shall follow, of a pump actuator its piston's velocity and its torque, of a semi-active rig the
+    /// eccentric and its brake.
     pub fn run(&self, road: &Profile, command: &Profile, duration: f64) -> Motion {
         match self.plant {
             Plant::LinearDrive => self.drive.run(road, duration),
+            Plant::PumpDyno => self.pump.run(road, command, duration),
+            Plant::SasRig => self.sas.run(road, command, duration),
             Plant::StrutDyno | Plant::MrDyno => {
                 let limits: Vec<Limit> = self.car.contacts.iter().map(|contact| contact.limit).collect();
                 dyno::run(&self.car.strut, &limits, road, duration)

@@ -171,16 +171,19 @@ fn is_named(effect: &Present, named: &Named) -> bool {
     (named.id == number(&effect.id) || of_family) && fits(effect, &named.element)
 }
 
-/// Whether the report says so in another way than by an effect: the tyre's damping, the valve's gain and the
-/// cylinder's leakage are parameters of the model, and steps, flat tops and holes in a signal are found before any model is fitted.
+/// Whether the report says so in another way than by an effect: the tyre's damping, the gain of a servo valve, the cylinder's leakage,
+/// a pump actuator's charge pressure and its valves' characteristics are parameters of the model, and steps, flat tops and holes in a signal are found before any model is fitted.
 fn is_known_otherwise(effect: &Present, report: &Report) -> bool {
     let another = |name: &str| {
-        report.base_parameters.iter().any(|fitted| fitted.interval.name == name && fitted.mismatch)
+        let is_it = |of: &str| of.split('[').next() == Some(name);
+        report.base_parameters.iter().any(|fitted| is_it(&fitted.interval.name) && fitted.mismatch)
     };
     match number(&effect.id) {
         "21" => another("tire.damping"),
         "29" => another("actuator.spool.gain"),
         "30" => another("actuator.cylinder.leakage"),
+        "32a" => another("gas.charge_pressure"),
+        "32b" => another("valve.rebound.pressure_drop"),
         "37" | "38" => report.data_problems.iter().any(|problem| problem.signal == effect.signal),
         _ => false,
     }

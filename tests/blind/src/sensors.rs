@@ -213,6 +213,12 @@ pub fn rms(signal: &[f64]) -> f64 {
     (signal.iter().map(|x| x * x).sum::<f64>() / signal.len().max(1) as f64).sqrt()
 }
 
+/// Root mean square about where a signal is at rest, at the beginning of its record.
+pub fn swing(signal: &[f64]) -> f64 {
+    let rest = signal.first().copied().unwrap_or_default();
+    rms(&signal.iter().map(|x| x - rest).collect::<Vec<_>>())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -243,6 +249,12 @@ mod tests {
     fn what_would_fold_is_filtered_out() {
         let seen = Sensor::default().measure(&sine(90.0, 4.0), 100.0, &mut Random::new(1, "test"));
         assert!(rms(&seen[50..350]) < 0.01, "{}", rms(&seen[50..350]));
+    }
+
+    #[test]
+    fn a_swing_counts_from_rest() {
+        assert_eq!(swing(&[4.0, 7.0, 1.0, 4.0]), 4.5_f64.sqrt());
+        assert_eq!(swing(&[]), 0.0);
     }
 
     #[test]

@@ -6,12 +6,14 @@ use crate::random::Random;
 use crate::rig::Rig;
 
 /// A record to be made.
+#[derive(Clone)]
 pub(super) struct Excitation {
     /// Its name in the file's.
     pub(super) name: &'static str,
-    /// The road, the motion of a dyno's end, or what a drive shall follow; in m.
+    /// The road, the motion of a dyno's end, what a drive shall follow, or the lift of an eccentric, in m; the velocity of a pump
+    /// actuator's piston, in m/s.
     pub(super) road: Profile,
-    /// What the actuator is commanded.
+    /// What the actuator is commanded; a brake's rate beyond its drag, in N m s/rad.
     pub(super) command: Profile,
 }
 
@@ -53,6 +55,29 @@ pub(super) fn excitations(case: &Case, plain: &Rig) -> (Vec<Excitation>, Vec<Exc
             ("road", road(random, time, 0.006), multisine(random, time, 0.6, 1.0)),
             ("sweep", still(), sweep(time, 0.0, 1.5)),
         ],
+        // As fast as a damper is tested, within 6 cm.
+        Plant::PumpDyno => {
+            let fast = |profile: Profile| profile.rate().with_peak(0.4);
+            [
+                ("multisine", fast(multisine(random, time, 1.0, 1.0)), multisine(random, time, 0.4, 2.5)),
+                ("steps", fast(multisine(random, time, 0.8, 1.0)), steps(random, time, 0.1, 2.0)),
+                ("bumps", fast(bumps(random, time, 1.0)), multisine(random, time, 0.4, 2.0)),
+                ("road", fast(road(random, time, 1.0)), multisine(random, time, 0.6, 2.0)),
+                ("sweep", fast(sweep(time, 1.0, 1.0)), still()),
+            ]
+        }
+        // The brake from its drag to its largest rate, k_MR(1) = 13.5 k_MR(0).
+        Plant::SasRig => {
+            let half = 0.5 * 12.5 * 0.2632;
+            let braked = |changing: Profile| Profile::new(time, |_| half).plus(&changing);
+            [
+                ("multisine", multisine(random, time, 1.0, 6e-3), braked(still())),
+                ("steps", multisine(random, time, 0.8, 5e-3), braked(steps(random, time, 0.2, half))),
+                ("bumps", bumps(random, time, 4e-3), braked(multisine(random, time, 0.5, half))),
+                ("road", road(random, time, 6e-3), braked(still())),
+                ("sweep", sweep(time, 1.0, 4e-3), braked(steps(random, time, 1.0, half))),
+            ]
+        }
         Plant::LinearDrive => [
             ("multisine", multisine(random, time, 1.6, 0.10), still()),
             ("triangle", triangle(time, 5.0, 0.10).plus(&multisine(random, time, 1.6, 0.01)), still()),
@@ -62,6 +87,9 @@ pub(super) fn excitations(case: &Case, plain: &Rig) -> (Vec<Excitation>, Vec<Exc
         ],
     }
     .map(|(name, road, command)| Excitation { name, road, command });
+    if case.plant == Plant::SasRig {
+        all.iter_mut().for_each(|excitation| keep_contact(case, plain, excitation));
+    }
     if case.plant.is_car() {
         let lifting = case.effects.iter().any(|hidden| hidden.id == "20");
         for excitation in &mut all {
@@ -99,5 +127,19 @@ fn limit_pull(case: &Case, plain: &Rig, excitation: &mut Excitation, lifting: bo
             () => break,
         };
         excitation.road = excitation.road.scaled(factor);
+    }
+}
+
+/// Scales the lift of an eccentric such that the tyre keeps a fifth of its static load.
+fn keep_contact(case: &Case, plain: &Rig, excitation: &mut Excitation) {
+    let (_, load) = plain.sas.rest();
+    for _ in 0..8 {
+        let motion = plain.run(&excitation.road, &excitation.command, case.reach());
+        let least = motion.tire_force.iter().fold(load, |least, force| least.min(*force));
+        let share = 1.0 - least / load;
+        if share <= 0.8 {
+            break;
+        }
+        excitation.road = excitation.road.scaled(0.75 / share);
     }
 }

@@ -4,10 +4,10 @@
 use super::Columns;
 use super::excitations::Excitation;
 use crate::case::{Case, Present, Value};
-use crate::catalogue::{Drawn, Entry, Role, Scale};
+use crate::catalogue::{Drawn, Entry, Place, Role, Scale};
 use crate::random::Random;
-use crate::rig::{Rig, is_uncertain, true_signal};
-use crate::sensors::rms;
+use crate::rig::{Rig, is_uncertain, signals, true_signal};
+use crate::sensors::{rms, swing};
 
 /// Finds how large the effects must be.
 pub(super) struct Sizing<'a> {
@@ -27,10 +27,10 @@ pub(super) struct Sizing<'a> {
     /// What the clutter of the plant changes; none without.
     clutter: Option<Change>,
     /// What each of the rig's parameters changes.
-    parameters: Vec<(&'a str, Change)>,
+    parameters: Vec<(&'a Value, Change)>,
 }
 
-/// What is seen otherwise: differences over each record's columns, in units of the column's root mean square.
+/// What is seen otherwise: differences over each record's columns, in units of the column's root mean square about rest.
 type Change = Vec<Vec<f64>>;
 
 /// Number of the effect that every tyre has.
@@ -61,7 +61,7 @@ impl<'a> Sizing<'a> {
                 let mut other = Rig::new(case.plant, &others);
                 // The controller is the rig's own, whatever it moves.
                 other.drive.control = plain.drive.control;
-                (value.name.as_str(), sizing.change(&other))
+                (value, sizing.change(&other))
             };
             let uncertain = base.iter().enumerate().filter(|(_, value)| is_uncertain(value));
             let parameters = uncertain.map(of).collect();
@@ -79,7 +79,7 @@ impl<'a> Sizing<'a> {
             let motion = rig.run(&excitation.road, &excitation.command, self.case.reach());
             let measured = rig.measured(self.case, &motion, "sizing");
             let column = |((.., before), (.., after)): (&(_, _, Vec<f64>), &(_, _, Vec<f64>))| {
-                let size = rms(before);
+                let size = swing(before);
                 let unit = if size > 0.0 { 1.0 / size } else { 0.0 };
                 before.iter().zip(after).map(|(before, after)| (after - before) * unit).collect()
             };
@@ -90,9 +90,11 @@ impl<'a> Sizing<'a> {
 
     /// Orthonormal changes that span what the rig's parameters change, less those that the effect is one of.
     fn imitations(&self, entry: &Entry) -> Vec<Change> {
-        let own = |name: &str| entry.parameters.iter().any(|it| it.name.trim_end_matches(".added") == name);
+        let own = |value: &Value| {
+            entry.parameters.iter().any(|it| it.name.trim_end_matches(".added") == value.table())
+        };
         let mut span: Vec<Change> = Vec::new();
-        for (_, change) in self.parameters.iter().filter(|(name, _)| !own(name)) {
+        for (_, change) in self.parameters.iter().filter(|(value, _)| !own(value)) {
             let mut rest = without(change, &span);
             let (all, size) = (product(change, change), product(&rest, &rest));
             // What depends on the others but for rounding is none of its own.
@@ -110,7 +112,7 @@ impl<'a> Sizing<'a> {
         let entry = Entry::find(&hidden.id)?;
         let drawn = entry.draw(&mut Random::new(self.case.seed, &format!("effect {number}: {}", hidden.id)));
         let seen = self.seen[0].iter().find(|column| column.0 == hidden.signal);
-        let signal = seen.map_or(0.0, |column| rms(&column.2));
+        let signal = seen.map_or(0.0, |column| swing(&column.2));
         let sized = |size: f64| -> Vec<f64> {
             let value = |(parameter, value): (&Drawn, &f64)| {
                 let scale = match parameter.scale {
@@ -148,18 +150,21 @@ impl<'a> Sizing<'a> {
             size *= (1.1 * missing).clamp(1.1, 4.0);
         }
         let values = sized(size);
-        let of_sensor = !hidden.signal.is_empty();
+        // Where the model has no actuator, what one does is told as a fault of the command's signal.
+        let bare = entry.place == Place::Actuator && !self.case.plant.is_car();
+        let command = signals(self.case.plant, self.case.sensors)[1].0;
+        let of_signal = bare || !hidden.signal.is_empty();
         let named = entry.parameters.iter().zip(&values).map(|(parameter, value)| {
             let unit = seen.map_or("", |column| column.1.as_str());
-            let name = if of_sensor && !parameter.name.contains('.') {
-                format!("{}.{}", hidden.signal, parameter.name)
-            } else {
-                parameter.name.into()
+            let name = match parameter.name.split_once('.') {
+                None if of_signal => format!("{}.{}", hidden.signal, parameter.name),
+                Some((_, fault)) if bare => format!("{command}.{fault}"),
+                _ => parameter.name.into(),
             };
             let scaled = parameter.scale == Scale::Signal;
             let unit = if scaled { format!("{unit}{}", parameter.unit) } else { parameter.unit.into() };
-            // Of a sensor's gain the change is told.
-            let value = if of_sensor && parameter.role == Role::AroundOne { value - 1.0 } else { *value };
+            // Of a signal's gain the change is told.
+            let value = if of_signal && parameter.role == Role::AroundOne { value - 1.0 } else { *value };
             Value { name, unit, value }
         });
         let present = Present {

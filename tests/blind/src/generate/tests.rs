@@ -1,3 +1,5 @@
+mod rigs;
+
 use super::*;
 use crate::case::{Hidden, Sensors};
 
@@ -122,6 +124,8 @@ fn effects_outdo_the_clutter_and_every_one_can_be_hidden() {
         let plant = match entry.id {
             "28" | "28h" | "29" | "30" => Plant::ServoQuarter,
             "02g" | "27" | "33g" => Plant::LinearDrive,
+            "30p" | "32a" | "32b" | "32c" => Plant::PumpDyno,
+            "01p" | "19p" => Plant::SasRig,
             _ => Plant::LinearQuarter,
         };
         let signal = match (entry.place, entry.id) {
@@ -235,48 +239,37 @@ fn a_wrong_clock_sees_what_comes_later() {
 }
 
 #[test]
-fn the_rig_with_a_valve_obeys_newton_and_stays_within_its_stroke() {
-    let made = clean(Plant::ServoQuarter, vec![Hidden::new("30")]);
-    let of = |name: &str| made.truth.base.iter().find(|value| value.name == name).unwrap().value;
-    assert_eq!(of("actuator.cylinder.leakage"), made.truth.effects[0].parameters[0].value);
-    assert!(of("actuator.cylinder.leakage") > 25e-12, "it is enlarged");
-    assert_eq!(of("actuator.supply.pressure"), 12e6);
-    for table in made.train.iter().chain(&made.test) {
-        let column = |name| table.column(name).unwrap();
-        for (k, force) in column("wheel.force").iter().enumerate() {
-            let inertia = of("sprung_mass") * column("body.acceleration")[k]
-                + of("unsprung_mass") * column("wheel.acceleration")[k];
-            assert!((inertia - force).abs() < 1e-7, "{inertia} N, {force} N");
-            assert!(column("suspension.deflection")[k].abs() < 0.03, "{}", table.name);
-        }
-    }
-}
-
-#[test]
-fn the_drives_record_holds_the_resistance() {
-    let made = clean(Plant::LinearDrive, vec![Hidden::new("33g")]);
-    let of = |name: &str| made.truth.base.iter().find(|value| value.name == name).unwrap().value;
-    let load = made.truth.effects[0].parameters[0].value;
-    assert_eq!(made.truth.oracle, Oracle::default());
-    for table in made.train.iter().chain(&made.test) {
-        let (force, x) = (table.column("force").unwrap(), table.column("position").unwrap());
-        // The momentum's balance over whole stretches: no derivative of the position but at their ends.
-        for (a, b) in [(1000, 3000), (2000, 5500)] {
-            let velocity = |k: usize| (x[k + 1] - x[k - 1]) * 500.0;
-            let impulse: f64 =
-                (a + 1..b).map(|k| force[k] * 1e-3).sum::<f64>() + (force[a] + force[b]) * 5e-4;
-            let due = of("moving_mass") * (velocity(b) - velocity(a))
-                + of("guide.damping") * (x[b] - x[a])
-                + load * (b - a) as f64 * 1e-3;
-            assert!((impulse - due).abs() < 0.02 * load.abs(), "{}: {impulse} N s for {due} N s", table.name);
-        }
-    }
-}
-
-#[test]
 fn the_clutters_magnets_are_in_the_true_stiffness() {
     let of = |clutter: u32| generate(&Case { clutter, ..short(vec![]) }).unwrap().truth.base;
     for (without, with) in of(0).into_iter().zip(of(1)) {
         assert_eq!(without.value != with.value, without.name == "strut.stiffness", "{}", without.name);
+    }
+}
+
+/// Their covariance over the deflections' variance, of what was recorded.
+#[test]
+fn what_the_clutter_adds_to_the_stiffness_is_what_the_records_cover() {
+    for (plant, column, sign) in
+        [(Plant::LinearQuarter, "suspension.deflection", 1.0), (Plant::StrutDyno, "motion.position", -1.0)]
+    {
+        let of = |clutter| {
+            generate(&Case { plant, clutter, noise_db: None, ..short(vec![Hidden::new("01")]) }).unwrap()
+        };
+        let (without, with) = (of(0), of(1));
+        let plain = Rig::new(plant, &without.truth.base);
+        let mut cluttered = plain.clone();
+        cluttered.clutter_plant(1.0, &mut Random::new(11, "clutter"));
+        let columns = with.train.iter().flat_map(|table| table.column(column).unwrap());
+        let pairs: Vec<(f64, f64)> = columns
+            .map(|x| sign * x)
+            .map(|x| (x, cluttered.car.strut.spring(x) - plain.car.strut.spring(x)))
+            .collect();
+        let mean = |of: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>() / pairs.len() as f64;
+        let (x, force) = (mean(&|it| it.0), mean(&|it| it.1));
+        let due = mean(&|it| (it.0 - x) * (it.1 - force)) / mean(&|it| (it.0 - x).powi(2));
+        let told =
+            |made: &Generated| made.truth.base.iter().find(|it| it.name == "strut.stiffness").unwrap().value;
+        let added = told(&with) - told(&without);
+        assert!((added / due - 1.0).abs() < 0.01, "{plant:?}: {added} N/m for {due} N/m");
     }
 }

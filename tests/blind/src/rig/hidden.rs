@@ -8,21 +8,42 @@ use crate::friction::{Contact, Limit};
 use crate::servo::Servo;
 use crate::strut::Hump;
 
+/// Effects that only one plant can have.
+const OF_SERVO: [&str; 4] = ["28", "28h", "29", "30"];
+const OF_DRIVE: [&str; 3] = ["02g", "27", "33g"];
+const OF_PUMP: [&str; 4] = ["30p", "32a", "32b", "32c"];
+const OF_SAS: [&str; 2] = ["01p", "19p"];
+
 /// Whether a plant has the part that the effect sits in, and does not have the effect anyway.
 fn is_possible(plant: Plant, entry: &Entry) -> bool {
     let id = entry.id;
-    let of_servo = ["28", "28h", "29", "30"].contains(&id);
-    let of_drive = ["02g", "27", "33g"].contains(&id);
+    let elsewhere = |own: &[&str]| {
+        let all = [&OF_SERVO[..], &OF_DRIVE, &OF_PUMP, &OF_SAS].concat();
+        all.contains(&id) && !own.contains(&id)
+    };
+    let of_record = entry.place == Place::Sensor && !["41", "41h", "42"].contains(&id);
+    // Delay and gain of what is commanded.
+    let of_command = ["23", "25"].contains(&id);
     match plant {
-        Plant::LinearQuarter | Plant::RegulatedQuarter => !of_servo && !of_drive,
-        Plant::PublishedQuarter => !of_servo && !of_drive && !["01", "02", "04", "16", "19"].contains(&id),
-        Plant::ServoQuarter => of_servo || !of_drive && entry.place != Place::Actuator,
+        Plant::LinearQuarter | Plant::RegulatedQuarter => !elsewhere(&[]),
+        Plant::PublishedQuarter => !elsewhere(&[]) && !["01", "02", "04", "16", "19"].contains(&id),
+        Plant::ServoQuarter => {
+            OF_SERVO.contains(&id) || !elsewhere(&OF_SERVO) && entry.place != Place::Actuator
+        }
         Plant::StrutDyno | Plant::MrDyno => match entry.place {
             Place::Strut => !["13", "14"].contains(&id),
-            Place::Sensor => id != "42",
-            Place::Guide | Place::WheelGuide | Place::Tire | Place::Frame | Place::Actuator => false,
+            Place::Sensor => of_record,
+            Place::Guide
+            | Place::WheelGuide
+            | Place::Tire
+            | Place::Frame
+            | Place::Actuator
+            | Place::Pump
+            | Place::Pivot => false,
         },
-        Plant::LinearDrive => of_drive || id == "16" || entry.place == Place::Sensor && id != "42",
+        Plant::LinearDrive => OF_DRIVE.contains(&id) || id == "16" || of_record,
+        Plant::PumpDyno => OF_PUMP.contains(&id) || of_command || of_record,
+        Plant::SasRig => OF_SAS.contains(&id) || of_command || of_record,
     }
 }
 
@@ -38,6 +59,11 @@ impl Rig {
                 entry.id, self.plant
             ));
         }
+        let actuator = match self.plant {
+            Plant::PumpDyno => &mut self.pump.actuator,
+            Plant::SasRig => &mut self.sas.actuator,
+            _ => &mut self.car.actuator,
+        };
         let (strut, drive) = (&mut self.car.strut, &mut self.drive);
         let first = values.first().copied().unwrap_or_default();
         let hump = |values: &[f64]| Hump { height: values[0], centre: values[1], width: values[2] };
@@ -49,6 +75,7 @@ impl Rig {
         let contact = |along, limit| Contact { along, limit };
         match entry.id {
             "01" => self.car.contacts.push(contact(STRUT, Limit::Coulomb(first))),
+            "01p" => self.sas.contacts.push(contact(STRUT, Limit::Coulomb(first))),
             "02" => self.car.contacts.push(contact(STRUT, stribeck(values))),
             "02g" => drive.contacts.push(contact(GUIDE, stribeck(values))),
             "03" => strut.bristles = Some((first, values[1], 0.0)),
@@ -73,17 +100,22 @@ impl Rig {
                 self.car.frame = Some(Frame { mass: first, frequency: values[1], damping_ratio: values[2] });
             }
             "19" => self.car.tire_quadratic = first,
+            "19p" => self.sas.tire_quadratic = first,
             // The tyre never pulls; whether it leaves the road is a matter of the excitation.
             "20" => {}
             "21" => self.car.tire_damping += first,
             "22" => self.car.enveloping = first,
-            "23" => self.car.actuator.delay = first,
-            "24" => self.car.actuator.lag = first,
-            "25" => self.car.actuator.gain = first,
-            "26" => self.car.actuator.limit = first,
-            "26s" => self.car.actuator.slew = 1.0 / first,
+            "23" => actuator.delay = first,
+            "24" => actuator.lag = first,
+            "25" => actuator.gain = first,
+            "26" => actuator.limit = first,
+            "26s" => actuator.slew = 1.0 / first,
             "27" => drive.cogging = Some((first, values[1], values[2])),
             "28" | "28h" | "29" | "30" => put_in_valve(self.car.servo.as_mut(), entry.id, first),
+            "30p" => self.pump.leakage = first,
+            "32a" => self.pump.charge = first,
+            "32b" => self.pump.valves[1].drop.iter_mut().for_each(|drop| *drop *= first),
+            "32c" => self.pump.contacts.push(contact(GUIDE, Limit::Coulomb(first))),
             "32" | "32h" => strut.yielding = Some((first, values[1], values[2])),
             "33g" => drive.constant_load = first,
             "U1" => strut.hump = Some(hump(values)),

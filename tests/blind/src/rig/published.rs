@@ -1,6 +1,7 @@
 //! What is published of each rig: the parameters that its model starts with.
 
 use crate::case::{Plant, Value};
+use crate::pump::POINTS;
 use crate::random::Random;
 
 /// A parameter as the FMU calls it, its unit and its value.
@@ -42,8 +43,55 @@ const KONIECZNY: [Published; 18] = [
     ("actuator.spool.stroke", "m", 0.5e-3),
 ];
 
+/// The set AjalaSoftPumpHydraulicActuator; all of it is assumed, as the document has no values.
+const AJALA: [Published; 8] = [
+    ("pump.displacement", "m3", 12e-6),
+    ("motor.inertia", "kg.m2", 3.3e-4),
+    ("piston.compression_area", "m2", 10.2e-4),
+    ("piston.rebound_area", "m2", 8.6e-4),
+    ("gas.charge_pressure", "Pa", 3e6),
+    ("gas.exponent", "1", 1.3),
+    ("gas.compression_volume", "m3", 0.5e-3),
+    ("gas.rebound_volume", "m3", 0.5e-3),
+];
+
+/// Its valves: flows, and what they cost in compression and in rebound.
+const VALVES: [(&str, &str, [f64; POINTS]); 4] = [
+    ("valve.compression.flow", "m3/s", FLOWS),
+    (
+        "valve.compression.pressure_drop",
+        "Pa",
+        [-1.4e5, -1e5, -0.7e5, -0.4e5, 0.0, 0.4e5, 1.6e5, 2.7e5, 3.9e5],
+    ),
+    ("valve.rebound.flow", "m3/s", FLOWS),
+    ("valve.rebound.pressure_drop", "Pa", [-1.4e5, -1e5, -0.7e5, -0.4e5, 0.0, 0.4e5, 3.8e5, 6.7e5, 9.8e5]),
+];
+
+const FLOWS: [f64; POINTS] = [-1e-3, -6e-4, -3e-4, -5e-5, 0.0, 5e-5, 3e-4, 6e-4, 1e-3];
+
+/// Kogut 3.1.2 and 3.2.2: k_s = a_1 I/r_s2, M_1 = a_3 I_1, M_2 = a_6 I_2, k_t = a_1 I_1/R, and of the tyre's damping b_t over its
+/// lever at rest.
+const KOGUT: [Published; 16] = [
+    ("wheel_arm.inertia", "kg.m2", 0.2116),
+    ("wheel_arm.gravity_moment", "N.m", 9.883_836),
+    ("wheel_arm.length", "m", 0.21),
+    ("wheel_arm.offset", "rad", 0.234),
+    ("body_arm.inertia", "kg.m2", 1.37),
+    ("body_arm.gravity_moment", "N.m", 30.2359),
+    ("spring.stiffness", "N/m", 3_791.313_612_565_445),
+    ("spring.free_length", "m", 0.189),
+    ("spring.wheel_arm_mount", "m", 0.275),
+    ("spring.body_arm_mount", "m", 0.191),
+    ("wheel.rim_radius", "m", 0.075),
+    ("wheel.tire_thickness", "m", 0.02),
+    ("tire.stiffness", "N/m", 108_822.857_142_857_14),
+    ("tire.damping", "N.s/m", 1595.557),
+    ("eccentric.depth", "m", 0.22),
+    ("rest.eccentric_height", "m", 0.04),
+];
+
 /// What a gauge, a manometer or the oil's data sheet tells exactly.
-const EXACT: [&str; 8] = [
+const EXACT: [&str; 23] = [
     "actuator.supply.pressure",
     "actuator.fluid.density",
     "actuator.cylinder.area",
@@ -52,6 +100,21 @@ const EXACT: [&str; 8] = [
     "actuator.valve.discharge_coefficient",
     "actuator.valve.perimeter",
     "actuator.spool.stroke",
+    "piston.compression_area",
+    "piston.rebound_area",
+    "gas.compression_volume",
+    "gas.rebound_volume",
+    "valve.compression.flow",
+    "valve.rebound.flow",
+    "wheel_arm.length",
+    "wheel_arm.offset",
+    "spring.free_length",
+    "spring.wheel_arm_mount",
+    "spring.body_arm_mount",
+    "wheel.rim_radius",
+    "wheel.tire_thickness",
+    "eccentric.depth",
+    "rest.eccentric_height",
 ];
 
 /// A damper of the size of those on shakers: some 1 kN s/m without current, a gas spring. No seed has one.
@@ -72,13 +135,24 @@ pub fn start(plant: Plant) -> Vec<Value> {
         Plant::ServoQuarter => &KONIECZNY,
         Plant::MrDyno => &MAGNETORHEOLOGICAL,
         Plant::LinearDrive => &DRIVE,
+        Plant::PumpDyno => &AJALA,
+        Plant::SasRig => &KOGUT,
     };
     let wanted = |name: &str| plant != Plant::StrutDyno || name.starts_with("strut.");
     let value = |(name, unit, value): &Published| {
         let off = plant != Plant::PublishedQuarter && BEYOND_LINEAR.contains(name);
         Value { name: (*name).into(), unit: (*unit).into(), value: if off { 0.0 } else { *value } }
     };
-    published.iter().filter(|(name, ..)| wanted(name)).map(value).collect()
+    let tables: &[_] = if plant == Plant::PumpDyno { &VALVES } else { &[] };
+    let points = tables.iter().flat_map(|(name, unit, values)| {
+        let point = move |(number, value): (usize, &f64)| Value {
+            name: format!("{name}[{}]", number + 1),
+            unit: (*unit).into(),
+            value: *value,
+        };
+        values.iter().enumerate().map(point)
+    });
+    published.iter().filter(|(name, ..)| wanted(name)).map(value).chain(points).collect()
 }
 
 /// The true base parameters: those of `start`, off by a share of `off`, at most twice that.
@@ -92,5 +166,5 @@ pub fn true_base(start: &[Value], off: f64, random: &mut Random) -> Vec<Value> {
 
 /// Whether a base parameter is one that the rig has and that has to be measured.
 pub fn is_uncertain(value: &Value) -> bool {
-    value.value != 0.0 && !EXACT.contains(&value.name.as_str())
+    value.value != 0.0 && !EXACT.contains(&value.table())
 }

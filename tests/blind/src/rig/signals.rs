@@ -6,6 +6,26 @@ use crate::case::{Plant, Sensors};
 /// Signals and their units, inputs first.
 pub fn signals(plant: Plant, sensors: Sensors) -> Vec<(&'static str, &'static str)> {
     let command = match plant {
+        Plant::PumpDyno => {
+            return vec![
+                ("suspension.velocity", "m/s"),
+                ("motor.torque", "N.m"),
+                ("force", "N"),
+                ("motor.speed", "rad/s"),
+                ("pressure.compression", "Pa"),
+                ("pressure.rebound", "Pa"),
+            ];
+        }
+        Plant::SasRig => {
+            return vec![
+                ("eccentric.height", "m"),
+                ("brake.torque", "N.m"),
+                ("body_arm.angle", "rad"),
+                ("relative.angle", "rad"),
+                ("body_arm.acceleration", "rad/s2"),
+                ("wheel_arm.acceleration", "rad/s2"),
+            ];
+        }
         Plant::StrutDyno | Plant::MrDyno => return vec![("motion.position", "m"), ("force", "N")],
         Plant::LinearDrive => return vec![("force", "N"), ("position", "m")],
         Plant::LinearQuarter | Plant::RegulatedQuarter | Plant::PublishedQuarter => ("actuator.force", "N"),
@@ -27,6 +47,9 @@ pub fn signals(plant: Plant, sensors: Sensors) -> Vec<(&'static str, &'static st
 
 /// A signal of a plant without its sensor.
 pub fn true_signal(plant: Plant, motion: &Motion, name: &str) -> Vec<f64> {
+    if let Some(signal) = motion.signals.get(name) {
+        return signal.clone();
+    }
     match name {
         "road.position" | "motion.position" => motion.road.clone(),
         "actuator.force" | "voltage" => motion.command.clone(),

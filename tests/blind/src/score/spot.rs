@@ -53,6 +53,8 @@ impl<'a> Spot<'a> {
             Place::Tire => place.starts_with("tire"),
             Place::Frame => place.starts_with("frame"),
             Place::Actuator => self.is_actuator(),
+            Place::Pump => place.starts_with("pump"),
+            Place::Pivot => place.starts_with("pivot"),
             Place::Sensor => place == effect.signal,
         }
     }

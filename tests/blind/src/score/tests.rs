@@ -250,6 +250,51 @@ fn another_base_parameter_is_the_effect_of_the_valve() {
     assert_eq!(came_out(&[leakage], &report("sprung_mass")), Outcome::Missed);
 }
 
+/// A pump's friction has a letter in the diagnosis, too; its gas and its valves are parameters of the model.
+#[test]
+fn a_pump_actuators_causes_are_told_in_their_own_ways() {
+    let of = |id: &str, report: &str| {
+        let judged = score(&truth(&[(id, Place::Pump, "")]), report).unwrap();
+        (judged.outcome, judged.location_right)
+    };
+    assert_eq!(of("32c", &named(&[("32c", "pump", &[])])), (Outcome::Correct, Some(true)));
+    assert_eq!(of("32c", &named(&[("32", "pump", &[])])).0, Outcome::WrongName);
+    assert_eq!(of("30p", &named(&[("30", "pump", &[])])), (Outcome::Correct, Some(true)));
+    assert_eq!(of("30p", &named(&[("32c", "pump", &[])])), (Outcome::WrongName, Some(true)));
+    let another = |name: &str| {
+        format!(
+            r#"{{"verdict": "parameter_mismatch",
+            "base_parameters": [{{"name": "{name}", "low": 1, "high": 2, "mismatch": true}}]}}"#
+        )
+    };
+    let rebound = another("valve.rebound.pressure_drop[7]");
+    assert_eq!(of("32b", &rebound).0, Outcome::Correct);
+    assert_eq!(of("32b", &another("valve.compression.pressure_drop[7]")).0, Outcome::Missed);
+    assert_eq!(of("32a", &another("gas.charge_pressure")).0, Outcome::Correct);
+    assert_eq!(of("32a", &rebound).0, Outcome::Missed);
+    // On a damper, its own laws are a family, and a pump's friction is none of it.
+    let damper = |id: &str| came_out(&[("32h", Place::Strut, "")], &named(&[(id, "strut", &[])]));
+    assert_eq!(
+        [damper("32"), damper("32f"), damper("32c")],
+        [Outcome::Correct, Outcome::Correct, Outcome::WrongName]
+    );
+}
+
+#[test]
+fn a_pivots_friction_and_a_brake_are_the_plants() {
+    let of = |effect, id: &str, element: &str| {
+        let mut truth = truth(&[effect]);
+        truth.case.plant = Plant::SasRig;
+        let judged = score(&truth, &named(&[(id, element, &[])])).unwrap();
+        (judged.outcome, judged.location_right, judged.sensor_or_plant)
+    };
+    let right = (Outcome::Correct, Some(true), Some(true));
+    assert_eq!(of(("01p", Place::Pivot, ""), "01", "pivot"), right);
+    assert_eq!(of(("23", Place::Actuator, ""), "23", "brake.torque"), right);
+    assert_eq!(of(("33", Place::Sensor, "relative.angle"), "33", "relative.angle"), right);
+    assert_eq!(of(("01p", Place::Pivot, ""), "33", "relative.angle").2, Some(false));
+}
+
 #[test]
 fn a_constant_load_is_no_offset_of_a_sensor() {
     let load = ("33g", Place::Guide, "");
