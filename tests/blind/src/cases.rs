@@ -18,7 +18,7 @@ const PARTS: [&str; 21] = [
 const FURTHER: [&str; 5] = ["18", "22", "26", "26s", "03b"];
 
 /// Effects of a quarter car with a servo valve.
-const WITH_VALVE: [&str; 5] = ["01", "28", "28h", "29", "30"];
+const WITH_VALVE: [&str; 6] = ["01", "26v", "28", "28h", "29", "30"];
 
 /// What is the matter with a sensor and has no number.
 const UNNAMED_OF_SENSORS: [(&str, &str); 4] = [
@@ -127,7 +127,7 @@ fn full_of(seed: u64) -> Vec<Case> {
         }
     }
     all.push(standard(format!("single-20-{seed}"), vec![Hidden::new("20")], seed));
-    for id in ["33", "34", "35", "36", "37", "38", "38d", "40"] {
+    for id in ["33", "34", "35", "36", "37", "38", "38d", "40", "40a"] {
         for signal in SIGNALS {
             all.push(standard(format!("sensor-{id}-{signal}-{seed}"), vec![Hidden::at(id, signal)], seed));
         }

@@ -184,7 +184,7 @@ fn is_known_otherwise(effect: &Present, report: &Report) -> bool {
         "30" => another("actuator.cylinder.leakage"),
         "32a" => another("gas.charge_pressure"),
         "32b" => another("valve.rebound.pressure_drop"),
-        "37" | "38" => report.data_problems.iter().any(|problem| problem.signal == effect.signal),
+        "37" | "38" | "40a" => report.data_problems.iter().any(|problem| problem.signal == effect.signal),
         _ => false,
     }
 }

@@ -38,6 +38,8 @@ pub struct Sensor {
     pub quantum: f64,
     /// Largest value to each side.
     pub range: f64,
+    /// Amplitude in the signal's unit and frequency in Hz of a sine that no filter has taken away before the converter.
+    pub folded: (f64, f64),
     /// Chance that a sample begins a dropout of up to 50 ms, during which the last value stays.
     pub dropout: f64,
 }
@@ -59,6 +61,7 @@ impl Default for Sensor {
             noise: 0.0,
             quantum: 0.0,
             range: f64::INFINITY,
+            folded: (0.0, 0.0),
             dropout: 0.0,
         }
     }
@@ -72,7 +75,9 @@ impl Sensor {
         let slow = delayed(&lagged(&lagged(&passed, self.lag), self.bandwidth), self.skew);
         let mut shown = decimated(&stretched(&slow, self.rate_error), rate);
         for (k, value) in shown.iter_mut().enumerate() {
-            let drifted = self.offset + self.drift * k as f64 / rate;
+            let time = k as f64 / rate;
+            let drifted =
+                self.offset + self.drift * time + self.folded.0 * (TAU * self.folded.1 * time).sin();
             // Noise is drawn even if it is nothing, so that the rest of the stream stays where it is.
             let noisy = self.gain * *value + drifted + self.noise * random.normal();
             let clipped = noisy.clamp(-self.range, self.range);
@@ -325,6 +330,15 @@ mod tests {
             assert!((ringing[k] - expected).abs() < 1e-3, "{} for {expected}", ringing[k]);
             let expected = (omega * t + (1.0 / s).atan()).sin() * s / s.hypot(1.0);
             assert!((coupled[k] - expected).abs() < 1e-3, "{} for {expected}", coupled[k]);
+        }
+    }
+
+    /// 1100 Hz at a thousand samples a second are 100 Hz.
+    #[test]
+    fn what_is_too_fast_is_folded() {
+        let seen = shown(&Sensor { folded: (0.5, 1100.0), ..Sensor::default() }, &sine(0.0, 4.0));
+        for (k, seen) in seen.iter().enumerate() {
+            assert!((seen - 0.5 * (TAU * 0.1 * k as f64).sin()).abs() < 1e-9, "{seen} at {k}");
         }
     }
 

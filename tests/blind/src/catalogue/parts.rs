@@ -81,6 +81,12 @@ pub(super) static ENTRIES: &[Entry] = &[
         )],
     ),
     entry(
+        "26v",
+        "limit of the valve's voltage",
+        Place::Actuator,
+        &[of(Scale::Command, drawn("voltage.limit", "V", (0.5, 0.8), Role::Inverse, (0.15, 1.0)))],
+    ),
+    entry(
         "26s",
         "slew limit of the actuator",
         Place::Actuator,

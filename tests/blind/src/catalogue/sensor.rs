@@ -49,6 +49,16 @@ pub(super) static ENTRIES: &[Entry] = &[
         Place::Sensor,
         &[drawn("rate", "1", (0.002, 0.006), Role::Signed, (-RATE_ERROR, RATE_ERROR))],
     ),
+    // Faster than half of any record's sampling rate, and after every filter.
+    entry(
+        "40a",
+        "aliasing in a sensor",
+        Place::Sensor,
+        &[
+            of(Scale::Signal, drawn("alias", "", (0.05, 0.2), ZERO, (0.0, 0.5))),
+            drawn("alias_frequency", "Hz", (1030.0, 1150.0), Role::Shape, (1030.0, 1150.0)),
+        ],
+    ),
     entry(
         "41",
         "inertia of the wheel's force cell",

@@ -122,7 +122,7 @@ fn only_lift_off_lifts_off() {
 fn effects_outdo_the_clutter_and_every_one_can_be_hidden() {
     for entry in crate::catalogue::entries() {
         let plant = match entry.id {
-            "28" | "28h" | "29" | "30" => Plant::ServoQuarter,
+            "26v" | "28" | "28h" | "29" | "30" => Plant::ServoQuarter,
             "02g" | "27" | "33g" => Plant::LinearDrive,
             "30p" | "32a" | "32b" | "32c" => Plant::PumpDyno,
             "01p" | "19p" => Plant::SasRig,

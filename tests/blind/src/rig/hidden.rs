@@ -9,7 +9,7 @@ use crate::servo::Servo;
 use crate::strut::Hump;
 
 /// Effects that only one plant can have.
-const OF_SERVO: [&str; 4] = ["28", "28h", "29", "30"];
+const OF_SERVO: [&str; 5] = ["26v", "28", "28h", "29", "30"];
 const OF_DRIVE: [&str; 3] = ["02g", "27", "33g"];
 const OF_PUMP: [&str; 4] = ["30p", "32a", "32b", "32c"];
 const OF_SAS: [&str; 2] = ["01p", "19p"];
@@ -108,7 +108,7 @@ impl Rig {
             "23" => actuator.delay = first,
             "24" => actuator.lag = first,
             "25" => actuator.gain = first,
-            "26" => actuator.limit = first,
+            "26" | "26v" => actuator.limit = first,
             "26s" => actuator.slew = 1.0 / first,
             "27" => drive.cogging = Some((first, values[1], values[2])),
             "28" | "28h" | "29" | "30" => put_in_valve(self.car.servo.as_mut(), entry.id, first),
@@ -158,6 +158,8 @@ impl Rig {
                 "high_pass" => sensor.high_pass = *value,
                 "range" => sensor.range = *value,
                 "rate" => sensor.rate_error = *value,
+                "alias" => sensor.folded.0 = *value,
+                "alias_frequency" => sensor.folded.1 = *value,
                 "force_cell.mass" => sensor.moved_mass = *value,
                 "force_cell.hysteresis" => sensor.hysteresis = *value,
                 _ => sensor.dropout = *value,
