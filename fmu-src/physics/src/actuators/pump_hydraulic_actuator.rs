@@ -124,7 +124,8 @@ impl Model for PumpHydraulicActuator {
         kind: Kind::Actuator,
         equations: &[
             Equation {
-                text: "q_k = q_m - v A_k - q_l, q_r = -q_m + v A_r + q_l, q_m = V_c/2pi omega, v = suspension.velocity",
+                text: "q_k = q_m - v A_k - q_l, q_r = -q_m + v A_r + q_l, q_m = V_c/2pi omega, v = \
+                    suspension.velocity",
                 source: "Ajala eq. 5, 9 with z_e' = -v; leak: below",
             },
             Equation {
@@ -164,10 +165,11 @@ impl Model for PumpHydraulicActuator {
              valves; the reasons stand in the parameter sets.",
             "Both tables have the same slope on either side of rest, so that the c_k0, c_r0 of the \
              linearised model (17) exist. With a kink at rest they would not.",
-            "Oil does not compress. In Ajala the pump neither leaks nor rubs, as it does here with the start values of \
-             pump.leakage and pump.coulomb. The pressure difference that drives the leak is that without it, or there would \
-             be an algebraic loop: the leak is too large by its C_l (c_k + c_r)-th part, a few per cent at 1e-11 m5/(N.s). A \
-             locked pump leaks, too; motor.power is that of the motor's torque, before friction.",
+            "Oil does not compress. Ajala's pump neither leaks nor rubs, nor does this one with the start \
+             values of pump.leakage and pump.coulomb. The pressure difference that drives the leak is that \
+             without it, or there would be an algebraic loop: the leak is too large by C_l (c_k + c_r) times \
+             itself, a few per cent at 1e-11 m5/(N.s). A locked pump leaks, too. motor.power is that of the \
+             motor's torque, before friction.",
             "A locked pump holds the speed it starts with, which is zero unless said otherwise.",
         ],
         experiment: Experiment {

@@ -36,12 +36,14 @@ pub struct PumpWithLosses<R> {
 }
 
 impl<R: Real> PumpWithLosses<R> {
-    /// Flows into the chambers, less what leaks from that of the higher pressure to the other: C_l Δp, laminar as in
-    /// Konieczny eq. 2.11. `difference` is the pressure difference on the piston with those flows.
+    /// Flows into the chambers, less what leaks from that of the higher pressure to the other: C_l Δp,
+    /// laminar as in Konieczny eq. 2.11. `difference` is the pressure difference on the piston with those
+    /// flows.
     ///
-    /// The leak changes the flow through both valves, and so the difference that drives it: an algebraic loop. It is cut
-    /// here, at the difference without the leak, which makes the leak too large by its C_l (c_k + c_r)-th part: at 1e-11
-    /// m5/(N.s) by 1.6 % with the soft valves of Ajala's sets, by 3.4 % with the hard ones, and by less beyond 0.05 m/s.
+    /// The leak changes the flow through both valves, and so the difference that drives it: an algebraic
+    /// loop. It is cut at the difference without the leak, which makes the leak too large by C_l (c_k +
+    /// c_r) times itself: at 1e-11 m5/(N.s) by 1.6 % with the soft valves of Ajala's sets and by 3.4 %
+    /// with the hard ones, and by less where the piston is faster than 0.05 m/s.
     #[inline]
     pub fn leaked(&self, [compression, rebound]: [R; 2], difference: impl FnOnce() -> R) -> [R; 2] {
         if self.leakage.vanishes() {
@@ -53,8 +55,8 @@ impl<R: Real> PumpWithLosses<R> {
 }
 
 impl PumpWithLosses<f64> {
-    /// Refuses a leak that would turn over the pressure difference that drives it: it would feed energy in. `resistance` is
-    /// what both valves have at most against a change of their flow.
+    /// Refuses a leak that would turn over the pressure difference that drives it: it would feed energy in.
+    /// `resistance` is what both valves have at most against a change of their flow.
     ///
     /// # Errors
     /// A sentence that names the values and what must hold.
@@ -63,8 +65,9 @@ impl PumpWithLosses<f64> {
             return Ok(());
         }
         Err(format!(
-            "{name}.leakage = {:e} m5/(N.s) must be below one over the steepest slopes of both valves together, {resistance:e} \
-             Pa.s/m3: beyond, the leak would turn over the pressure that drives it, and feed energy in",
+            "{name}.leakage = {:e} m5/(N.s) must be below one over the steepest slopes of both valves \
+             together, {resistance:e} Pa.s/m3: beyond, the leak would turn over the pressure that drives it, \
+             and feed energy in",
             self.leakage
         ))
     }

@@ -96,7 +96,7 @@ proptest! {
         }
     }
 
-    /// Up to the ten times of what the catalogue expects of a leak.
+    /// Up to ten times what the catalogue expects of a leak.
     #[test]
     fn power_goes_into_rotor_and_gas_or_is_lost_in_valves_leak_and_friction(
         x in states(), torque in -8.0..8.0_f64, velocity in -1.0..1.0_f64,
@@ -163,7 +163,7 @@ fn a_leak_that_would_feed_energy_in_is_refused() {
     assert!(model.check(&p, &model.derive(&p)).unwrap_err().starts_with("pump.leakage"));
 }
 
-/// With piston and pump held, only the leak moves oil: the pressures meet with κ p_0 C_l (1/V_k + 1/V_r), 0.156 1/s.
+/// With piston and pump held, only the leak moves oil: κ p_0 C_l (1/V_k + 1/V_r) is 0.156 1/s.
 #[test]
 fn the_force_of_a_held_piston_decays_by_the_leak() {
     let mut simulation = Simulation::<PumpHydraulicActuator>::new(None, None).unwrap();
