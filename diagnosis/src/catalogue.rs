@@ -59,6 +59,8 @@ pub enum Element {
     Actuator,
     /// The valve of a hydraulic actuator: it deflects as its spool does.
     Valve,
+    /// The pump of a hydraulic actuator, with its motor: torques in N.m for forces, speeds in rad/s.
+    Pump,
     /// What carries the guides, and swings with the body.
     Frame,
     /// The cell that measures the wheel's force.
@@ -76,6 +78,7 @@ impl Element {
             Self::Pivot => "pivot",
             Self::Actuator => "actuator",
             Self::Valve => "valve",
+            Self::Pump => "pump",
             Self::Frame => "frame",
             Self::ForceCell => "wheel.force",
         }

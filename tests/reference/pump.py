@@ -2,10 +2,13 @@
 
 Nonlinear, eq. 1-16, with overpressures e = p - p_0 as states:
 
-    q_k = V_c w / 2 pi - A_k v,  q_r = -V_c w / 2 pi + A_r v            (5), (9)
+    q_k = V_c w / 2 pi - A_k v - L,  q_r = -V_c w / 2 pi + A_r v + L    (5), (9)
     p' = kappa q p / V,  V = V_0 (p_0 / p)^(1 / kappa)                  (2), (3), (46)
     p_k = p_ks + dp_k(q_k),  p_r = p_rs + dp_r(q_r)                     (7), (8)
-    J w' = T - V_c / 2 pi (p_k - p_r),  F_a = A_k p_k - A_r p_r         (4), (6)
+    J w' = T - V_c / 2 pi (p_k - p_r) - T_f tanh(w / w_f),  F_a = A_k p_k - A_r p_r  (4), (6)
+
+with the leak L = C_l (p_k - p_r), where p_k and p_r are those of L = 0. The mode is a piece of each valve's table,
+and with a leak before these a piece of each for the flow without it.
 
 Linear, eq. 18. A locked pump keeps its speed, whatever the torque.
 """
@@ -23,8 +26,6 @@ class PumpHydraulicActuator(Smooth):
     inputs = ["motor.torque", "suspension.velocity"]
     outputs = ["force", "total_force", "pressure.compression", "pressure.rebound",
                "chamber.compression", "chamber.rebound", "motor.power"]
-    guard_count = 2 * (POINTS - 2)
-
     def __init__(self, parameters, settings):
         p = parameters
         self.locked = settings.get("pump.locked", False)
@@ -34,22 +35,36 @@ class PumpHydraulicActuator(Smooth):
         self.vk, self.vr = p["gas.compression_volume"], p["gas.rebound_volume"]
         self.valves = [Table(array(p, f"valve.{side}.flow", POINTS), array(p, f"valve.{side}.pressure_drop", POINTS))
                        for side in ("compression", "rebound")]
+        self.leakage = p.get("pump.leakage", 0.0)
+        self.friction, self.turning_over = p.get("pump.coulomb.torque", 0.0), p.get("pump.coulomb.speed", 1.0)
+        # One table for each flow that counts.
+        self.tables = self.valves * (2 if self.leakage else 1)
+        self.guard_count = len(self.tables) * (POINTS - 2)
 
-    def flows(self, state, u):
+    def flows(self, state, u, mode=None):
+        """Through the valves; with a leak, those without it come first. Without a mode a piece is where its flow is."""
         pumped, v = self.displacement * state[0], u[1]
-        return pumped - self.ak * v, -pumped + self.ar * v
+        tight = [pumped - self.ak * v, -pumped + self.ar * v]
+        if not self.leakage:
+            return tight
+        pieces = [valve.piece(q) for valve, q in zip(self.valves, tight)] if mode is None else mode[:2]
+        pk, pr = (e + valve.value(q, piece) for e, q, valve, piece in zip(state[1:], tight, self.valves, pieces))
+        leak = self.leakage * (pk - pr)
+        return [*tight, tight[0] - leak, tight[1] + leak]
 
     def pressures(self, state, u, mode):
         """Flows, gas pressures and pressures on the piston."""
-        flows = self.flows(state, u)
+        flows = self.flows(state, u, mode)[-2:]
         gas = [self.p0 + state[1], self.p0 + state[2]]
-        return flows, gas, [p + valve.value(q, piece) for p, q, valve, piece in zip(gas, flows, self.valves, mode)]
+        pieces = mode[-2:]
+        return flows, gas, [p + valve.value(q, piece) for p, q, valve, piece in zip(gas, flows, self.valves, pieces)]
 
     def derivative(self, state, u, mode):
         flows, gas, (pk, pr) = self.pressures(state, u, mode)
         rates = [self.kappa * q * p / (v0 * (self.p0 / p) ** (1.0 / self.kappa))
                  for q, p, v0 in zip(flows, gas, (self.vk, self.vr))]
-        turning = 0.0 if self.locked else (u[0] - self.displacement * (pk - pr)) / self.inertia
+        friction = self.friction * math.tanh(state[0] / self.turning_over)
+        turning = 0.0 if self.locked else (u[0] - self.displacement * (pk - pr) - friction) / self.inertia
         return [turning, *rates]
 
     def output(self, state, u, mode):
@@ -58,19 +73,20 @@ class PumpHydraulicActuator(Smooth):
         return [total - (self.ak - self.ar) * self.p0, total, *gas, pk, pr, u[0] * state[0]]
 
     def mode(self, state, u):
-        return tuple(valve.piece(q) for valve, q in zip(self.valves, self.flows(state, u)))
+        return tuple(table.piece(q) for table, q in zip(self.tables, self.flows(state, u)))
 
     def guards(self, state, u):
-        return [guard for valve, q in zip(self.valves, self.flows(state, u)) for guard in valve.guards(q)]
+        return [guard for table, q in zip(self.tables, self.flows(state, u)) for guard in table.guards(q)]
 
     def watched(self, mode):
-        k, r = (valve.watched(piece) for valve, piece in zip(self.valves, mode))
-        return k + [(index + POINTS - 2, direction) for index, direction in r]
+        return [(number * (POINTS - 2) + index, direction)
+                for number, (table, piece) in enumerate(zip(self.tables, mode))
+                for index, direction in table.watched(piece)]
 
     def after(self, mode, guard, _state, _u):
-        side, guard = divmod(guard, POINTS - 2)
-        return tuple(valve.after(piece, guard) if index == side else piece
-                     for index, (valve, piece) in enumerate(zip(self.valves, mode)))
+        number, guard = divmod(guard, POINTS - 2)
+        return tuple(table.after(piece, guard) if index == number else piece
+                     for index, (table, piece) in enumerate(zip(self.tables, mode)))
 
     def gas_energy(self, state):
         """What the gas holds above its content at rest, pressures counting from p_0."""

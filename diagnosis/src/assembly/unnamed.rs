@@ -24,7 +24,10 @@ impl Diagnosis<'_> {
             Scale::VELOCITY => (signals.and_then(|it| it.velocity), "velocity", "m/s"),
             _ => (signals.map(|it| it.deflection), "deflection", "m"),
         };
-        (signal.unwrap_or(otherwise).to_owned(), unit)
+        let plant = &self.world.rig.plant;
+        let name = signal.unwrap_or(otherwise);
+        let mut declared = plant.inputs.iter().chain(&plant.outputs);
+        (name.to_owned(), declared.find(|it| it.name == name).map_or(unit, |it| it.unit.symbol))
     }
 
     /// Where something acts, and over what, if no more is known of it than a law that comes near.

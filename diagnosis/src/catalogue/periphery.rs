@@ -1,6 +1,7 @@
-//! Causes around strut and tyre: in the frame, in actuator and valve, and in the cell that measures the force.
+//! Causes around strut and tyre: in the frame, in actuator, valve and pump, and in the cell that measures the
+//! force.
 
-use super::{Cause, Element, Scale, part};
+use super::{Cause, Element, FRICTION_VELOCITY, Scale, part};
 
 /// Natural frequencies in Hz, so close that a lightly damped mode between two of them still shows.
 const FREQUENCIES: &[f64] =
@@ -64,6 +65,29 @@ pub(super) const CAUSES: &[Cause] = &[
         setting: None,
         parts: &[part("actuator.spool.hysteresis", Scale::DEFLECTION, (0.0, 1.0), &[0.1])],
         experiment: "drive the valve slowly up and down with the pressures balanced, and compare the flows",
+    },
+    Cause {
+        id: "30",
+        element: Element::Pump,
+        name: "leakage of the pump",
+        equation: "q = C_l (p_k - p_r)",
+        contains: &[],
+        setting: None,
+        parts: &[part("pump.leakage", Scale::ONE, (0.0, 1e-10), &[1e-11])],
+        experiment: "hold piston and motor under load: the force decays; hold the torque: the motor creeps",
+    },
+    Cause {
+        id: "32c",
+        element: Element::Pump,
+        name: "friction of the pump",
+        equation: "T = T_f tanh(w/w_f)",
+        contains: &[],
+        setting: None,
+        parts: &[
+            part("pump.coulomb.torque", Scale::FORCE, (0.0, 10.0), &[0.1]),
+            part("pump.coulomb.speed", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02, 0.2]),
+        ],
+        experiment: "turn the motor slowly to and fro without load: the torques differ by twice the friction",
     },
     Cause {
         id: "41",

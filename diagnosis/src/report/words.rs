@@ -161,7 +161,7 @@ pub fn place(element: &str) -> String {
         (Some(Part::Tire), _) => "in the tyre".into(),
         (Some(_), "body_guide") => "in the body’s guide".into(),
         (Some(_), "wheel_guide") => "in the wheel’s guide".into(),
-        (Some(_), _) => format!("in the {element}"),
+        (Some(_), _) | (None, "pump" | "valve") => format!("in the {element}"),
         (None, _) => format!("at {element}"),
     }
 }
@@ -321,6 +321,12 @@ mod tests {
         let names = [("viscous guide", "guide"), ("constant force", "guide"), ("soft mount", "strut")];
         let located = names.map(|(name, element)| located(name, element));
         assert_eq!(located, ["viscous guide", "constant force in the guide", "soft mount in the strut"]);
+    }
+
+    #[test]
+    fn what_is_inside_an_actuator_is_no_sensor() {
+        let places = ["pump", "valve", "tire", "motor.speed"].map(place);
+        assert_eq!(places, ["in the pump", "in the valve", "in the tyre", "at motor.speed"]);
     }
 
     #[test]

@@ -103,7 +103,13 @@ pub(super) const PUMP_ACTUATOR: Kind = Kind {
         "valve.rebound.pressure_drop[7]",
         "valve.rebound.pressure_drop[8]",
     ],
-    elements: &[],
+    elements: &[ElementSignals {
+        element: Element::Pump,
+        // What turns without an end has no deflection; the force stands for the pressure that drives a leak.
+        deflection: "force",
+        velocity: Some("motor.speed"),
+        force: ForceOf::Input("motor.torque"),
+    }],
     aliases: &[
         ("suspension.velocity", &["velocity"]),
         ("motor.torque", &["torque"]),

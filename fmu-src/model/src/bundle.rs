@@ -188,6 +188,25 @@ mod tests {
         assert_eq!(Element::<f64>::COUNT, 6);
     }
 
+    /// An element with more.
+    #[derive(Variables, Clone, Copy, Debug, PartialEq)]
+    struct More<R> {
+        /// What every element has
+        #[var(flatten)]
+        element: Element<R>,
+        /// Damping rate
+        #[var(unit = N_S_PER_M)]
+        damping: R,
+    }
+
+    #[test]
+    fn a_flattened_group_stands_among_the_others() {
+        let [all, own] = [Declarations::of::<More<f64>>(), Declarations::of::<Element<f64>>()];
+        assert_eq!((&all[..6], all[6].name.as_str()), (&own[..], "damping"));
+        let more: More<f64> = from_slice(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+        assert_eq!((more.element.coulomb.velocity, more.damping), (3.0, 7.0));
+    }
+
     #[test]
     fn arrays_and_structs_hold_the_same_numbers() {
         let element: Element<f64> = from_slice(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);

@@ -15,7 +15,7 @@ use syn::{Attribute, DeriveInput, Expr, ExprLit, Lit, Meta, parse_macro_input};
 /// `min`, `max`, `nominal`, `fixed` (a parameter that is fixed at initialisation) and `output` (a
 /// state that is an output as well). An array of them is declared alike, with one start for all or an
 /// array of starts; its variables are named `field[1]`, `field[2]` and so on. A field of another type is
-/// a group: its variables are named `field.variable`.
+/// a group: its variables are named `field.variable`, or `variable` if it carries `#[var(flatten)]`.
 #[proc_macro_derive(Variables, attributes(var))]
 pub fn derive_variables(input: TokenStream) -> TokenStream {
     expand(&parse_macro_input!(input as DeriveInput), variables::expand)

@@ -3,7 +3,7 @@
 use proc_macro2::{TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 use syn::ext::IdentExt;
-use syn::{DeriveInput, Expr, Field, GenericParam, Ident, Type};
+use syn::{Attribute, DeriveInput, Expr, Field, GenericParam, Ident, Type};
 
 /// What `#[var(...)]` says.
 struct Var {
@@ -75,7 +75,11 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
             combine.push(quote!(#ident: ::strut_model::Bundle::<#scalar>::combine(
                 &self.#ident, others.map(|it| &it.#ident), f,
             )));
-            declare.push(quote!(declarations.group::<#concrete>(#text, #doc);));
+            declare.push(if is_flattened(field)? {
+                quote!(<#concrete as ::strut_model::Bundle<f64>>::declare(declarations);)
+            } else {
+                quote!(declarations.group::<#concrete>(#text, #doc);)
+            });
         }
     }
     Ok(quote! {
@@ -108,7 +112,7 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
 }
 
 fn parse(field: &Field, ident: &Ident) -> syn::Result<Var> {
-    let Some(attribute) = field.attrs.iter().find(|attribute| attribute.path().is_ident("var")) else {
+    let Some(attribute) = attribute(field) else {
         return Err(syn::Error::new(
             ident.span(),
             format!("`{ident}` needs its unit: write `#[var(unit = M)]` (a constant of strut_model::unit)"),
@@ -151,6 +155,22 @@ fn parse(field: &Field, ident: &Ident) -> syn::Result<Var> {
         None => return Err(syn::Error::new_spanned(attribute, format!("`{ident}` needs its `unit`"))),
     };
     Ok(var)
+}
+
+/// Whether a group's variables are named as if they were the struct's own.
+fn is_flattened(field: &Field) -> syn::Result<bool> {
+    let mut flattened = false;
+    if let Some(attribute) = attribute(field) {
+        attribute.parse_nested_meta(|meta| {
+            flattened = meta.path.is_ident("flatten");
+            if flattened { Ok(()) } else { Err(meta.error("a group has nothing but `flatten`")) }
+        })?;
+    }
+    Ok(flattened)
+}
+
+fn attribute(field: &Field) -> Option<&Attribute> {
+    field.attrs.iter().find(|attribute| attribute.path().is_ident("var"))
 }
 
 fn option(value: Option<Expr>) -> TokenStream {

@@ -6,7 +6,7 @@ use strut_model::{
     About, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
 };
 
-use crate::elements::{Gas, Piston, Pump, Valve, Valves};
+use crate::elements::{Gas, Piston, PumpWithLosses, Valve, Valves};
 use crate::signals::{Pressures, Torque, TravelRate};
 
 /// Cylinder, two valves, two accumulators, pump and motor: Ajala eq. 1–16.
@@ -27,7 +27,7 @@ pub struct Options {
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<R> {
     /// Pump
-    pub pump: Pump<R>,
+    pub pump: PumpWithLosses<R>,
     /// Motor
     pub motor: Rotor<R>,
     /// Piston
@@ -124,8 +124,13 @@ impl Model for PumpHydraulicActuator {
         kind: Kind::Actuator,
         equations: &[
             Equation {
-                text: "q_k = q_m - v A_k, q_r = -q_m + v A_r, q_m = V_c/2pi omega, v = suspension.velocity",
-                source: "Ajala eq. 5, 9 with z_e' = -v",
+                text: "q_k = q_m - v A_k - q_l, q_r = -q_m + v A_r + q_l, q_m = V_c/2pi omega, v = \
+                    suspension.velocity",
+                source: "Ajala eq. 5, 9 with z_e' = -v; leak: below",
+            },
+            Equation {
+                text: "q_l = C_l (p_k - p_r), p_k and p_r with q_l = 0",
+                source: "catalogue of diagnosis: 30; law: Konieczny eq. 2.11",
             },
             Equation {
                 text: "p_ks' = kappa q_k p_ks/V_ks, p_rs' = kappa q_r p_rs/V_rs, V = V_0 (p_0/p)^(1/kappa)",
@@ -135,7 +140,10 @@ impl Model for PumpHydraulicActuator {
                 text: "p_k = p_ks + dp_k(q_k), p_r = p_rs + dp_r(q_r)",
                 source: "Ajala eq. 7, 8; dp from tables",
             },
-            Equation { text: "J_m omega' = T_m - V_c/2pi (p_k - p_r)", source: "Ajala eq. 4" },
+            Equation {
+                text: "J_m omega' = T_m - V_c/2pi (p_k - p_r) - T_f tanh(omega/omega_f)",
+                source: "Ajala eq. 4; friction, catalogue of diagnosis 32c: TUM eq. 12",
+            },
             Equation {
                 text: "F_a = p_k A_k - p_r A_r, force = F_a - (A_k - A_r) p_0",
                 source: "Ajala eq. 6",
@@ -157,8 +165,12 @@ impl Model for PumpHydraulicActuator {
              valves; the reasons stand in the parameter sets.",
             "Both tables have the same slope on either side of rest, so that the c_k0, c_r0 of the \
              linearised model (17) exist. With a kink at rest they would not.",
-            "Oil does not compress and the pump does not leak. A locked pump holds the speed it starts with, \
-             which is zero unless said otherwise.",
+            "Oil does not compress. Ajala's pump neither leaks nor rubs, nor does this one with the start \
+             values of pump.leakage and pump.coulomb. The pressure difference that drives the leak is that \
+             without it, or there would be an algebraic loop: the leak is too large by C_l (c_k + c_r) times \
+             itself, a few per cent at 1e-11 m5/(N.s). A locked pump leaks, too. motor.power is that of the \
+             motor's torque, before friction.",
+            "A locked pump holds the speed it starts with, which is zero unless said otherwise.",
         ],
         experiment: Experiment {
             stop: 2.0,
@@ -192,7 +204,8 @@ impl Model for PumpHydraulicActuator {
     }
 
     fn check(&self, p: &Parameters<f64>, _: &Derived<f64>) -> Result<(), String> {
-        p.valve.check("valve")
+        p.valve.check("valve")?;
+        p.pump.check("pump", p.valve.compression.steepest() + p.valve.rebound.steepest())
     }
 
     #[inline]
@@ -201,22 +214,28 @@ impl Model for PumpHydraulicActuator {
         let (area, gas, speed) = (p.piston, p.gas, x.motor.speed);
         let closing = -u.suspension.velocity;
 
-        let pumped = p.pump.per_radian() * speed;
-        let compression = Side {
-            flow: pumped + closing * area.compression_area,
+        let compression = |flow| Side {
+            flow,
             overpressure: x.overpressure.compression,
             volume_at_rest: gas.compression_volume,
             valve: &p.valve.compression,
         };
-        let rebound = Side {
-            flow: -pumped - closing * area.rebound_area,
+        let rebound = |flow| Side {
+            flow,
             overpressure: x.overpressure.rebound,
             volume_at_rest: gas.rebound_volume,
             valve: &p.valve.rebound,
         };
+        let per_radian = p.pump.ideal.per_radian();
+        let pumped = per_radian * speed;
+        let tight = [pumped + closing * area.compression_area, -pumped - closing * area.rebound_area];
+        let [into_compression, into_rebound] =
+            p.pump.leaked(tight, || compression(tight[0]).on_piston() - rebound(tight[1]).on_piston());
+        let (compression, rebound) = (compression(into_compression), rebound(into_rebound));
         let (on_compression, on_rebound) = (compression.on_piston(), rebound.on_piston());
 
-        let torque = u.motor.torque - p.pump.per_radian() * (on_compression - on_rebound);
+        let resisting = p.pump.coulomb.added_to(|| per_radian * (on_compression - on_rebound), speed);
+        let torque = u.motor.torque - resisting;
         let acceleration = if self.locked { R::from(0.0) } else { torque / p.motor.inertia };
         let rates = State {
             motor: Speed { speed: acceleration },
