@@ -285,8 +285,12 @@ impl Problem for Fit<'_> {
     type Point = Point;
     type Trace = Trace;
 
+    fn is_possible(&self, point: &Point) -> bool {
+        self.dynamics.check(&point.parameters).is_ok()
+    }
+
     fn cost(&self, point: &Point) -> f64 {
-        if self.dynamics.check(&point.parameters).is_err() {
+        if !self.is_possible(point) {
             return f64::INFINITY;
         }
         let sections = self.sections();

@@ -161,6 +161,10 @@ pub trait Problem {
     type Trace;
     /// Half the sum of squares; not finite where it cannot be told.
     fn cost(&self, point: &Self::Point) -> f64;
+    /// Whether the coordinates of a point go together, beyond the bounds of each.
+    fn is_possible(&self, _: &Self::Point) -> bool {
+        true
+    }
     /// The linearisation in the coordinates.
     fn linearise(&self, point: &Self::Point) -> (Linear, Self::Trace);
     /// The coordinates of a point.
@@ -175,6 +179,9 @@ pub trait Problem {
 const SOON: usize = 4;
 /// Damping with which it is looked for: next to none, but for coordinates that the residuals do not depend on.
 const FREELY: f64 = 1e-9;
+
+/// How often the way to where a coordinate cannot be is halved, before it stays.
+const HALVINGS: usize = 6;
 
 /// How to start and when to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -227,16 +234,38 @@ pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum
     let mut scale = unit_where_zero(&linear.column_norms());
     let mut lambda = stop.damping;
     let mut iterations = 1;
+    let mut free = vec![true; problem.bounds().len()];
     while iterations < stop.iterations {
         let at = problem.coordinates(&point);
-        let candidate = clamped_step(&linear, lambda, &scale, &at, problem.bounds());
+        let mut candidate = clamped_step(&linear, lambda, &scale, &at, problem.bounds(), &free);
         let length = candidate.component_mul(&scale).norm();
         let reach = at.component_mul(&scale).norm();
         if length <= stop.step * (reach + stop.step) {
             break;
         }
+        let mut trial = problem.moved(&point, &trace, &(&at + &candidate));
+        if !problem.is_possible(&trial) {
+            // What alone would go where it cannot be goes a part of the way; next to the end it stays for this once, and the
+            // others take another step.
+            let alone = |index: &usize| {
+                let mut alone = at.clone();
+                alone[*index] += candidate[*index];
+                !problem.is_possible(&problem.moved(&point, &trace, &alone))
+            };
+            let stuck: Vec<usize> = (0..at.len()).filter(alone).collect();
+            for _ in 0..HALVINGS {
+                stuck.iter().for_each(|index| candidate[*index] *= 0.5);
+                trial = problem.moved(&point, &trace, &(&at + &candidate));
+                if problem.is_possible(&trial) {
+                    break;
+                }
+            }
+            if !stuck.is_empty() && !problem.is_possible(&trial) {
+                stuck.into_iter().for_each(|index| free[index] = false);
+                continue;
+            }
+        }
         let expected = linear.fall(&candidate);
-        let trial = problem.moved(&point, &trace, &(&at + &candidate));
         let trial_cost = problem.cost(&trial);
         let fall = cost - trial_cost;
         if trial_cost.is_finite() && fall > 0.0 {
@@ -245,6 +274,7 @@ pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum
             lambda *= (1.0 - (2.0 * quality - 1.0).powi(3)).clamp(1.0 / 9.0, 2.0);
             lambda = lambda.max(1e-16);
             point = trial;
+            free.fill(true);
             let small = fall <= stop.cost * cost;
             cost = trial_cost;
             (linear, trace) = problem.linearise(&point);
@@ -252,7 +282,7 @@ pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum
             scale = scale.zip_map(&linear.column_norms(), f64::max);
             let in_sight = || {
                 let at = problem.coordinates(&point);
-                let freely = clamped_step(&linear, FREELY, &scale, &at, problem.bounds());
+                let freely = clamped_step(&linear, FREELY, &scale, &at, problem.bounds(), &free);
                 let as_now = (stop.iterations - iterations) as f64 * fall;
                 cost - linear.fall(&freely).max(as_now) <= stop.below
             };
@@ -273,15 +303,16 @@ fn unit_where_zero(norms: &DVector<f64>) -> DVector<f64> {
     norms.map(|norm| if norm > 0.0 { norm } else { 1.0 })
 }
 
-/// A step within the bounds: a coordinate that would leave them stops there, and the others take another step.
+/// A step of what is free within the bounds: a coordinate that would leave them stops there, and the others take another step.
 fn clamped_step(
     linear: &Linear,
     lambda: f64,
     scale: &DVector<f64>,
     at: &DVector<f64>,
     bounds: &[(f64, f64)],
+    free: &[bool],
 ) -> DVector<f64> {
-    let mut free = vec![true; at.len()];
+    let mut free = free.to_vec();
     loop {
         let step = linear.step(lambda, scale, &free);
         let leaving = (0..at.len()).find(|&i| {
@@ -296,5 +327,55 @@ fn clamped_step(
                 });
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Distances from a target, the first two of which must ascend: the third is reached all the same.
+    struct Ascending([f64; 3]);
+
+    impl Problem for Ascending {
+        type Point = DVector<f64>;
+        type Trace = ();
+
+        fn is_possible(&self, point: &DVector<f64>) -> bool {
+            point[0] < point[1]
+        }
+
+        fn cost(&self, point: &DVector<f64>) -> f64 {
+            let distance = point - DVector::from_row_slice(&self.0);
+            if self.is_possible(point) { 0.5 * distance.norm_squared() } else { f64::INFINITY }
+        }
+
+        fn linearise(&self, point: &DVector<f64>) -> (Linear, ()) {
+            let gradient = point - DVector::from_row_slice(&self.0);
+            (Linear::by_cholesky(&DMatrix::identity(3, 3), &gradient), ())
+        }
+
+        fn coordinates(&self, point: &DVector<f64>) -> DVector<f64> {
+            point.clone()
+        }
+
+        fn moved(&self, _: &DVector<f64>, (): &(), coordinates: &DVector<f64>) -> DVector<f64> {
+            coordinates.clone()
+        }
+
+        fn bounds(&self) -> &[(f64, f64)] {
+            &[(-10.0, 10.0); 3]
+        }
+    }
+
+    #[test]
+    fn what_cannot_go_together_holds_nothing_else_up() {
+        let start = || DVector::from_row_slice(&[0.0, 1.0, 0.0]);
+        let found = |target: [f64; 3]| minimise(&Ascending(target), start(), Stop::EXACT).point;
+        let free = found([-1.0, 2.0, 3.0]);
+        assert!((free - DVector::from_row_slice(&[-1.0, 2.0, 3.0])).norm() < 1e-9);
+        let stuck = found([3.0, 0.9, 5.0]);
+        assert!(stuck[0] < stuck[1] && stuck[1] - stuck[0] < 0.1, "{stuck}");
+        assert!((stuck[2] - 5.0).abs() < 1e-6, "{stuck}");
     }
 }
