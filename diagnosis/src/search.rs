@@ -259,7 +259,8 @@ impl World<'_> {
                 .retain(|it| !found.tried.iter().any(|before| before.term == it.term && is_far_off(before)));
             tried.extend(self.try_all(&found.base, &found.extended, &curves));
         }
-        let passing: Vec<&Tried> = tried.iter().filter(|it| passes(it)).collect();
+        let own = |it: &&Tried| !self.is_done_by_a_fault(&found.base, it, &tried);
+        let passing: Vec<&Tried> = tried.iter().filter(|it| passes(it)).filter(own).collect();
         let common = self.far_better(&found.base, &tried, &passing);
         let far_better = !common.is_empty();
         let passing: Vec<&Tried> = if far_better { common.iter().collect() } else { passing };

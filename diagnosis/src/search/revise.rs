@@ -9,7 +9,7 @@ use crate::fit::Handle;
 use crate::hypothesis::{Fitted, Term, World};
 use crate::lsq::Stop;
 
-use super::{Accepted, Found, contains_by_name, has_no_name, matters_beside, merge};
+use super::{Accepted, Found, Tried, contains_by_name, has_no_name, matters_beside, merge};
 
 /// Share of a name's errors that a curve in its place leaves at most …
 const CLEARLY: f64 = 0.85;
@@ -173,6 +173,15 @@ impl World<'_> {
             _ => self.left(base, fitted) / self.left(base, named),
         };
         left < CLEARLY && self.apart(fitted, named) > CLEARLY_APART
+    }
+
+    /// Whether a sensor's response without a name does little that one of its faults with a name does not: what a signal counts
+    /// from may be far away, and a response that passes more of it is an offset.
+    pub(super) fn is_done_by_a_fault(&self, base: &Fitted, response: &Tried, tried: &[Tried]) -> bool {
+        let (Term::Response(output), Ok(fitted)) = (response.term, &response.fitted) else { return false };
+        let of_sensor = |it: &&Tried| matches!(it.term, Term::Fault(Handle::Output(of, _)) if of == output);
+        let mut faults = tried.iter().filter(of_sensor).filter_map(|it| it.fitted.as_ref().ok());
+        faults.any(|fault| !self.is_clearly_better(base, (response.term, fitted), fault))
     }
 
     /// Whether a table is the cause itself. If what was found first is needed beside it, they are about different things; and
