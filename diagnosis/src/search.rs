@@ -110,6 +110,10 @@ impl World<'_> {
 
     /// A fit of a term on top of the null's, with what it shows.
     fn weighed(&self, base: &Fitted, null: &Fitted, term: Term, fitted: Result<Fitted, String>) -> Tried {
+        let fitted = fitted.and_then(|it| match self.driven_off(null, &it).filter(|_| !has_no_name(term)) {
+            Some(parameter) => Err(format!("drives {parameter} to its end")),
+            None => Ok(it),
+        });
         let (evidence, score) = match &fitted {
             Ok(fitted) => (self.evidence(term, base, null, fitted), self.score(null, fitted)),
             Err(_) => (Evidence::default(), f64::NEG_INFINITY),

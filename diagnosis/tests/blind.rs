@@ -58,6 +58,8 @@ named! {
     a_sampling_rate_that_is_off: "sensor-40";
     a_saturated_actuator: "single-26";
     a_force_that_cannot_change_fast: "single-26s";
+    a_limited_voltage: "servo-26v";
+    a_pump_that_leaks: "pump-30p";
     an_overlapped_valve: "servo-28";
     a_valve_with_hysteresis: "servo-28h";
     a_force_cell_with_hysteresis: "sensor-41h";
@@ -87,7 +89,7 @@ fn nothing_is_claimed_where_nothing_is_hidden() {
 /// A cause that is in no catalogue gets no name, and is found in its place: in the strut, and in a sensor.
 #[test]
 fn a_cause_without_a_name_gets_none() {
-    for name in ["unnamed-U1", "unnamed-U5"] {
+    for name in ["unnamed-U1", "driven-U1", "unnamed-U5"] {
         let score = diagnosed(name);
         assert!(matches!(score.outcome, Outcome::Correct | Outcome::Unnamed), "{score:?}");
         assert_eq!((score.location_right, score.variable_right), (Some(true), Some(true)), "{score:?}");

@@ -67,6 +67,24 @@ impl World<'_> {
         }
     }
 
+    /// A parameter that a data sheet states and that cannot be zero, as a stiffness or a mass, which a fit has driven to its end
+    /// where the one without the cause has not: what needs that is not the cause.
+    pub(super) fn driven_off(&self, null: &Fitted, fitted: &Fitted) -> Option<&str> {
+        let at_its_end = |of: &Fitted, handle: Handle| {
+            let own = of.coordinates.iter().find(|it| it.handle == handle);
+            let value = of.point.get(handle);
+            own.is_some_and(|it| value <= it.bounds.0 || value >= it.bounds.1)
+        };
+        let declared = &self.rig.plant.parameters;
+        let cannot_be_zero = |index: &usize| declared[*index].min.is_some_and(|least| least > 0.0);
+        let mut stated = self.rig.base().into_iter().filter(|index| self.rig.stated[*index]);
+        let gone = stated.find(|index| {
+            let handle = Handle::Parameter(*index);
+            cannot_be_zero(index) && at_its_end(fitted, handle) && !at_its_end(null, handle)
+        });
+        gone.map(|index| declared[index].name.as_str())
+    }
+
     /// Whether every rig has a little of it. Of a command that is late, by no more than signals are.
     fn is_usual(&self, term: Term, fitted: &Fitted) -> bool {
         let Name { id, sensor, .. } = name(term, &self.rig.plant);
