@@ -120,8 +120,11 @@ impl Spectrum {
             let near = &self.power[bin.saturating_sub(SPREAD)..(bin + SPREAD + 1).min(self.power.len())];
             near.iter().all(|it| *it <= self.power[*bin]) && self.above(*bin) > ABOVE
         };
-        // The window passes half of a sine, which has half of its power at this side of the spectrum.
-        let amplitude = |bin: usize| 4.0 * self.power[bin].sqrt() / self.samples as f64;
+        // A sine has half of its power on this side, wherever it is between two bins; the window passes 3/8.
+        let amplitude = |bin: usize| {
+            let power: f64 = self.power[bin - SPREAD..=bin + SPREAD].iter().sum();
+            (4.0 / 0.375 * power).sqrt() / self.samples as f64
+        };
         (0..self.power.len()).filter(peak).map(|bin| Line { bin, amplitude: amplitude(bin) }).collect()
     }
 }
@@ -178,8 +181,16 @@ mod tests {
         let found = told(&signals);
         assert_eq!(found.len(), 1, "{found:?}");
         assert_eq!(found[0].signal, "1");
-        assert!(found[0].text.starts_with("has a sine of 0.5"), "{}", found[0].text);
         assert!(found[0].text.contains(" m at 163 Hz that no other signal has"), "{}", found[0].text);
+    }
+
+    #[test]
+    fn a_line_s_size_does_not_depend_on_where_it_is_between_bins() {
+        for part in 0..10 {
+            let frequency = 1163.0 + f64::from(part) / (10.0 * COUNT as f64 * STEP);
+            let lines = Spectrum::of(&with_sine(&noise(7, COUNT), 0.5, frequency)).lines();
+            assert!(lines.len() == 1 && (lines[0].amplitude / 0.5 - 1.0).abs() < 0.05, "{lines:?}");
+        }
     }
 
     #[test]
