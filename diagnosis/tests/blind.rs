@@ -89,7 +89,7 @@ fn nothing_is_claimed_where_nothing_is_hidden() {
 /// A cause that is in no catalogue gets no name, and is found in its place: in the strut, and in a sensor.
 #[test]
 fn a_cause_without_a_name_gets_none() {
-    for name in ["unnamed-U1", "driven-U1", "unnamed-U5"] {
+    for name in ["unnamed-U1", "driven-U1", "unnamed-U5", "answering-U6"] {
         let score = diagnosed(name);
         assert!(matches!(score.outcome, Outcome::Correct | Outcome::Unnamed), "{score:?}");
         assert_eq!((score.location_right, score.variable_right), (Some(true), Some(true)), "{score:?}");

@@ -26,10 +26,15 @@ impl World<'_> {
     }
 
     /// Whether what was found with every signal in time has names, and leaves little more than what was found with some that
-    /// are late.
+    /// are late; of a signal whose sensor has a response without a name, in that signal, where alone it shows.
     pub fn does_without_lateness(&self, late: &Found, punctual: &Found) -> bool {
         let named = |it: &Accepted| matches!(it.term, Term::Cause(_));
         let left = |it: &Found| self.left(&late.base, &it.extended);
-        punctual.accepted.iter().any(named) && left(punctual) < LITTLE_MORE * left(late)
+        let answered = late.accepted.iter().all(|it| {
+            let Term::Response(output) = it.term else { return true };
+            let left = |it: &Found| self.left_of(output, &late.base, &it.extended);
+            left(punctual) < LITTLE_MORE * left(late)
+        });
+        punctual.accepted.iter().any(named) && left(punctual) < LITTLE_MORE * left(late) && answered
     }
 }

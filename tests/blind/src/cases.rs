@@ -104,6 +104,8 @@ pub fn compact() -> Vec<Case> {
     all.push(Case { plant: Plant::StrutDyno, ..standard("noisy-01", vec![Hidden::new("01")], 1014) });
     // A hump so steep that the body has two places to rest: as a stop it would need a spring that is none.
     all.push(standard("driven-U1", vec![Hidden::new("U1")], 1017));
+    // A sensor's response, which with every signal in time is imitated by causes that leave its own signal as wrong.
+    all.push(standard("answering-U6", vec![Hidden::at("U6", "body.acceleration")], 1018));
     all.push(Case { plant: Plant::ServoQuarter, ..standard("servo-26v", vec![Hidden::new("26v")], 44) });
     all.push(Case { plant: Plant::PumpDyno, ..standard("pump-30p", vec![Hidden::new("30p")], 45) });
     // A law that contains presliding; and a loop that answers what the effect does.
@@ -301,7 +303,7 @@ mod tests {
             sensor-34/23 sensor-33/27 sensor-36/28 sensor-40/30 single-26/31 dyno-01/29 servo-28/32 \
             single-26s/39 servo-28h/40 sensor-41h/41 none/24 none-cluttered/25 mismatch/26 drive-02g/33 \
             drive-16/34 drive-27/35 drive-16-33g/36 common-07/1007 behind-18/1012 behind-36/1012 \
-            behind-35/1014 resized-02g/1014 noisy-01/1014 driven-U1/1017 servo-26v/44 pump-30p/45 single-03b/42 regulated-16/43";
+            behind-35/1014 resized-02g/1014 noisy-01/1014 driven-U1/1017 answering-U6/1018 servo-26v/44 pump-30p/45 single-03b/42 regulated-16/43";
         assert_eq!(names.collect::<Vec<_>>().join(" "), expected);
     }
 }
