@@ -237,34 +237,20 @@ pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum
     let mut free = vec![true; problem.bounds().len()];
     while iterations < stop.iterations {
         let at = problem.coordinates(&point);
-        let mut candidate = clamped_step(&linear, lambda, &scale, &at, problem.bounds(), &free);
+        let candidate = clamped_step(&linear, lambda, &scale, &at, problem.bounds(), &free);
         let length = candidate.component_mul(&scale).norm();
         let reach = at.component_mul(&scale).norm();
         if length <= stop.step * (reach + stop.step) {
             break;
         }
-        let mut trial = problem.moved(&point, &trace, &(&at + &candidate));
-        if !problem.is_possible(&trial) {
-            // What alone would go where it cannot be goes a part of the way; next to the end it stays for this once, and the
-            // others take another step.
-            let alone = |index: &usize| {
-                let mut alone = at.clone();
-                alone[*index] += candidate[*index];
-                !problem.is_possible(&problem.moved(&point, &trace, &alone))
-            };
-            let stuck: Vec<usize> = (0..at.len()).filter(alone).collect();
-            for _ in 0..HALVINGS {
-                stuck.iter().for_each(|index| candidate[*index] *= 0.5);
-                trial = problem.moved(&point, &trace, &(&at + &candidate));
-                if problem.is_possible(&trial) {
-                    break;
-                }
-            }
-            if !stuck.is_empty() && !problem.is_possible(&trial) {
-                stuck.into_iter().for_each(|index| free[index] = false);
-                continue;
-            }
+        let moved = |step: &DVector<f64>| problem.moved(&point, &trace, &(&at + step));
+        let possible = |step: &DVector<f64>| problem.is_possible(&moved(step));
+        let (candidate, stuck) = within_reach(candidate, possible);
+        if !stuck.is_empty() {
+            stuck.into_iter().for_each(|index| free[index] = false);
+            continue;
         }
+        let trial = moved(&candidate);
         let expected = linear.fall(&candidate);
         let trial_cost = problem.cost(&trial);
         let fall = cost - trial_cost;
@@ -297,6 +283,28 @@ pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum
         }
     }
     Minimum { point, cost, linear, trace, iterations }
+}
+
+/// A step, of which what alone would go where it cannot be goes a part of the way; next to the end, where it is to stay so that
+/// the others take another step, it is told.
+fn within_reach(
+    mut step: DVector<f64>,
+    possible: impl Fn(&DVector<f64>) -> bool,
+) -> (DVector<f64>, Vec<usize>) {
+    let alone = |index: usize| {
+        DVector::from_fn(step.len(), |other, _| if other == index { step[index] } else { 0.0 })
+    };
+    if possible(&step) {
+        return (step, Vec::new());
+    }
+    let stuck: Vec<usize> = (0..step.len()).filter(|index| !possible(&alone(*index))).collect();
+    for _ in 0..HALVINGS {
+        stuck.iter().for_each(|index| step[*index] *= 0.5);
+        if !stuck.is_empty() && possible(&step) {
+            return (step, Vec::new());
+        }
+    }
+    (step, stuck)
 }
 
 fn unit_where_zero(norms: &DVector<f64>) -> DVector<f64> {
