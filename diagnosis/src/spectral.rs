@@ -9,7 +9,7 @@ mod welch;
 pub(crate) use cumulative::cumulative_periodogram;
 pub(crate) use filter::{about_line, filled, in_band};
 pub(crate) use refine::{FINER, refined};
-pub(crate) use welch::{coherence, power_spectrum};
+pub(crate) use welch::{coherence, periodogram, power_spectrum};
 
 /// White noise of unit variance for tests, the same at every run.
 #[cfg(test)]

@@ -31,6 +31,14 @@ pub(crate) fn power_spectrum(signal: &[f64], step: f64) -> (Vec<f64>, Vec<f64>) 
     (segments.frequency(step), segments.density(step))
 }
 
+/// Power of each bin of a whole signal below half the sampling rate, behind Hann's window: squares of its transform.
+pub(crate) fn periodogram(signal: &[f64]) -> Vec<f64> {
+    // Of no samples there is no transform.
+    let whole = Segments::of(signal, signal.len().max(1));
+    let bins = whole.transforms.iter().flat_map(|transform| &transform[..signal.len() / 2]);
+    bins.map(Complex::norm_sqr).collect()
+}
+
 /// The coherence of a signal with one that may drive it, `|S_xy|²/(S_xx S_yy)`.
 ///
 /// The limit is that of so many independent segments (G. C. Carter, Coherence and time delay estimation, Proc. IEEE

@@ -3,16 +3,13 @@
 //! What moves a rig shows in its inputs, and what resonates in it is wider than a line. Where an input has lines itself (sines,
 //! repeated pseudo-random sequences) every bend in the rig makes more of them, and nothing is told.
 
-use std::f64::consts::TAU;
-
-use rustfft::FftPlanner;
-use rustfft::num_complex::Complex;
+use std::ops::Range;
 
 use super::{Channel, GAP, Problems, Record, number};
 use crate::data::noise::median;
 use crate::data::uniform::median_period;
 use crate::findings::DataProblem;
-use crate::spectral::filled;
+use crate::spectral::{filled, periodogram};
 
 /// Samples that are transformed at most.
 const MOST: usize = 1 << 17;
@@ -23,7 +20,6 @@ const AROUND: usize = 18;
 const ABOVE: f64 = 150.0;
 /// The same below which a signal has nothing there.
 const NOTHING: f64 = 10.0;
-
 /// Share of a signal's power that is at one frequency if it is a sine, however few of its periods were recorded.
 const MOSTLY: f64 = 0.3;
 /// Lines of one signal at most: what has more is meant to have them.
@@ -86,13 +82,7 @@ struct Spectrum {
 impl Spectrum {
     fn of(values: &[f64]) -> Self {
         let values = filled(&values[..values.len().min(MOST)]).unwrap_or_default();
-        let samples = values.len();
-        let mean = values.iter().sum::<f64>() / samples.max(1) as f64;
-        let window = |k: usize| 0.5 - 0.5 * (TAU * k as f64 / samples as f64).cos();
-        let mut buffer: Vec<Complex<f64>> =
-            values.iter().enumerate().map(|(k, value)| ((value - mean) * window(k)).into()).collect();
-        FftPlanner::new().plan_fft_forward(samples).process(&mut buffer);
-        Self { power: buffer[..samples / 2].iter().map(Complex::norm_sqr).collect(), samples }
+        Self { power: periodogram(&values), samples: values.len() }
     }
 
     /// In units of the sampling rate.
@@ -102,7 +92,7 @@ impl Spectrum {
 
     /// Power of a bin over the median around it, on the side where that is more.
     fn above(&self, bin: usize) -> f64 {
-        let side = |bins: std::ops::Range<usize>| median(&mut self.power.get(bins)?.to_vec());
+        let side = |bins: Range<usize>| median(&mut self.power.get(bins)?.to_vec());
         let below = bin.checked_sub(AROUND).and_then(|from| side(from..bin - SPREAD));
         let beyond = side(bin + SPREAD + 1..bin + AROUND + 1);
         let (Some(below), Some(beyond)) = (below, beyond) else { return 0.0 };
@@ -131,6 +121,8 @@ impl Spectrum {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
     use crate::data::check::tests::noise;
 
@@ -199,6 +191,12 @@ mod tests {
         assert_eq!(told(&[driving.clone(), shaken.clone(), resonating(3)]).len(), 1);
         assert_eq!(told(&[driving, shaken.clone(), with_sine(&noise(3, COUNT), 0.5, 37.0)]), []);
         assert_eq!(told(&[shaken, with_sine(&noise(3, COUNT), 0.5, 111.0)]), []);
+    }
+
+    #[test]
+    fn what_is_missing_has_no_lines() {
+        assert_eq!(told(&[noise(1, COUNT), vec![f64::NAN; COUNT]]), []);
+        assert_eq!(told(&[vec![], vec![]]), []);
     }
 
     /// Seven periods, and friction's third harmonic in the force.
