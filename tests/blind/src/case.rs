@@ -240,8 +240,13 @@ pub struct Value {
 impl Value {
     /// Its name without its number among the points of a characteristic: of `valve.rebound.flow[3]` what comes before the bracket.
     pub fn table(&self) -> &str {
-        self.name.split('[').next().unwrap_or_default()
+        characteristic(&self.name)
     }
+}
+
+/// The name of a characteristic, of one of its points.
+pub fn characteristic(name: &str) -> &str {
+    name.split('[').next().unwrap_or_default()
 }
 
 /// An effect that is there.

@@ -9,7 +9,7 @@ mod tests;
 
 use std::collections::BTreeSet;
 
-use crate::case::{Oracle, Plant, Present, Truth, Value};
+use crate::case::{Oracle, Plant, Present, Truth, Value, characteristic};
 use crate::catalogue::{Place, number};
 
 use spot::Spot;
@@ -171,12 +171,15 @@ fn is_named(effect: &Present, named: &Named) -> bool {
     (named.id == number(&effect.id) || of_family) && fits(effect, &named.element)
 }
 
-/// Whether the report says so in another way than by an effect: the tyre's damping, the gain of a servo valve, the cylinder's leakage,
-/// a pump actuator's charge pressure and its valves' characteristics are parameters of the model, and steps, flat tops and holes in a signal are found before any model is fitted.
+/// Whether the report says so in another way than by an effect: the tyre's damping, the gain of a servo valve, the cylinder's
+/// leakage, a pump actuator's charge pressure and its valves' characteristics are parameters of the model, and steps, flat tops,
+/// holes and folded lines in a signal are found before any model is fitted.
 fn is_known_otherwise(effect: &Present, report: &Report) -> bool {
     let another = |name: &str| {
-        let is_it = |of: &str| of.split('[').next() == Some(name);
-        report.base_parameters.iter().any(|fitted| is_it(&fitted.interval.name) && fitted.mismatch)
+        report
+            .base_parameters
+            .iter()
+            .any(|fitted| characteristic(&fitted.interval.name) == name && fitted.mismatch)
     };
     match number(&effect.id) {
         "21" => another("tire.damping"),
