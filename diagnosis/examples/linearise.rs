@@ -10,12 +10,12 @@
 use std::path::Path;
 use std::time::Instant;
 
-use strut_diagnosis::correction::Correction;
 use strut_diagnosis::data::map::Map;
-use strut_diagnosis::fit::{Coordinate, Fit, Handle, Point};
-use strut_diagnosis::import::import;
-use strut_diagnosis::lsq::Problem;
+use strut_diagnosis::dataset::import::import;
+use strut_diagnosis::estimation::fit::{Coordinate, Fit, Handle, Point};
+use strut_diagnosis::estimation::lsq::Problem;
 use strut_diagnosis::rig::Rig;
+use strut_diagnosis::signal::distortion::Correction;
 
 /// Repetitions of which the median counts.
 const RUNS: usize = 11;

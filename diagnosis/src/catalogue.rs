@@ -1,6 +1,7 @@
 //! The catalogue of causes: which parameters they switch on, how large they may be, what they are confused with.
 
 mod guided;
+pub mod naming;
 mod periphery;
 mod strut;
 mod tables;

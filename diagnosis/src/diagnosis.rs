@@ -2,16 +2,16 @@
 
 use std::ops::Range;
 
-use crate::correction::Fault;
-use crate::fit::{Handle, Point, Residuals};
-use crate::hypothesis::{Fitted, Term, World};
-use crate::intervals::Interval;
-use crate::lsq::Stop;
+use crate::dataset::recorded::{Recorded, Source};
+use crate::estimation::fit::{Handle, Point, Residuals};
+use crate::estimation::hypothesis::{Fitted, Term, World};
+use crate::estimation::intervals::Interval;
+use crate::estimation::lsq::Stop;
 use crate::plant::Drive;
-use crate::recorded::{Recorded, Source};
 use crate::rig::Rig;
 use crate::screening::{Screened, rms, typical};
 use crate::search::{Accepted, Criterion, Found};
+use crate::signal::distortion::Fault;
 
 /// Length of a short stretch of data in seconds, over which no model goes far astray.
 const SHOT: f64 = 1.0;

@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    strut_diagnosis::run::main()
+    strut_diagnosis::app::run::main()
 }

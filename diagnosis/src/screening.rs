@@ -11,13 +11,13 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::catalogue;
-use crate::correction::{AFTER, Correction, Fault};
-use crate::fit::{Handle, Normal, Point, contained};
-use crate::hypothesis::{Fitted, Term, World};
-use crate::naming::{is_command, name};
+use crate::catalogue::naming::{is_command, name};
+use crate::dataset::recorded::{Recorded, Source};
+use crate::estimation::fit::{Handle, Normal, Point, contained};
+use crate::estimation::hypothesis::{Fitted, Term, World};
 use crate::plant::{Dynamics, Signals};
-use crate::recorded::{Recorded, Source};
 use crate::search::has_no_name;
+use crate::signal::distortion::{AFTER, Correction, Fault};
 
 pub use probes::Probe;
 pub use typical::typical;

@@ -14,12 +14,12 @@ use std::collections::BTreeSet;
 
 use rayon::prelude::*;
 
-use crate::correction::Fault;
-use crate::findings::Evidence;
-use crate::fit::{Handle, Point};
-use crate::hypothesis::{Fitted, Term, World};
-use crate::lsq::Stop;
+use crate::estimation::fit::{Handle, Point};
+use crate::estimation::hypothesis::{Fitted, Term, World};
+use crate::estimation::lsq::Stop;
+use crate::report::findings::Evidence;
 use crate::screening::Screened;
+use crate::signal::distortion::Fault;
 
 /// Causes that are fitted in a round, and in one beside what is common: most have been tried without.
 const FITTED: usize = 7;

@@ -6,7 +6,7 @@ mod nist;
 use nalgebra::{DMatrix, DVector};
 use nist::Set;
 use num_dual::Dual64;
-use strut_diagnosis::lsq::{Linear, Problem, Stop, minimise};
+use strut_diagnosis::estimation::lsq::{Linear, Problem, Stop, minimise};
 
 struct Regression<'a> {
     set: &'a Set,

@@ -2,14 +2,14 @@
 
 use std::fs;
 
+use strut_diagnosis::app::virtual_rig::{self, Experiment};
+use strut_diagnosis::catalogue::naming::{handle, name};
 use strut_diagnosis::data::map::Map;
+use strut_diagnosis::dataset::import::{align, choose_drive, import};
+use strut_diagnosis::dataset::recorded::Recorded;
 use strut_diagnosis::diagnosis::{Options, diagnose};
-use strut_diagnosis::fit::Handle;
-use strut_diagnosis::import::{align, choose_drive, import};
-use strut_diagnosis::naming::{handle, name};
-use strut_diagnosis::recorded::Recorded;
+use strut_diagnosis::estimation::fit::Handle;
 use strut_diagnosis::rig::Rig;
-use strut_diagnosis::virtual_rig::{self, Experiment};
 
 /// A plant whose record is made, read and diagnosed.
 struct Case {

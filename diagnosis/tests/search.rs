@@ -1,13 +1,13 @@
 //! The search on records that the plant itself has made: what is hidden is found, what is not there is not claimed.
 
-use strut_diagnosis::correction::Fault;
+use strut_diagnosis::catalogue::naming::name;
+use strut_diagnosis::dataset::recorded::{Measured, Recorded, Source, derivative};
 use strut_diagnosis::diagnosis::{Diagnosis, Options, diagnose};
-use strut_diagnosis::fit::Handle;
-use strut_diagnosis::naming::name;
+use strut_diagnosis::estimation::fit::Handle;
 use strut_diagnosis::plant::{Between, Drive};
-use strut_diagnosis::recorded::{Measured, Recorded, Source, derivative};
 use strut_diagnosis::rig::Rig;
 use strut_diagnosis::screening::rms;
+use strut_diagnosis::signal::distortion::Fault;
 
 const STEP: f64 = 2e-3;
 

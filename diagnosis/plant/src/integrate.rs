@@ -64,29 +64,72 @@ impl<'a, M: Model, R: Scalar> Run<'a, M, R> {
         mut put: impl FnMut(usize, R),
     ) {
         for sample in 0..samples {
-            let at = |share: f64| M::Input::<R>::from_fn(|i| input(i, sample, share));
-            let (time, first) = (sample as f64 * self.step, at(0.0));
-            self.tick_at(time, &first);
-            let (rates, output) = self.equations(R::from(time), &self.state, &first);
-            output.for_each(&mut put);
-            let mut states = self.measured.iter().peekable();
-            self.state.for_each(|index, value| {
-                if let Some((_, output)) = states.next_if(|(state, _)| *state == index) {
-                    put(*output, value);
-                }
-            });
+            let (first, rates) = self.outputs(sample, |i, share| input(i, sample, share), &mut put);
             if sample + 1 < samples {
-                self.pace.reach(&self.state);
-                let state = self.state;
-                loop {
-                    let need = self.advance(sample, &first, &rates, at);
-                    if !self.pace.refuse(need) {
-                        break;
-                    }
-                    self.state = state;
-                }
+                self.reach_next(sample, &first, &rates, |i, share| input(i, sample, share));
             }
         }
+    }
+
+    /// Hands out the outputs at a sample, by their index; the inputs and the rates there.
+    #[inline(always)]
+    pub fn outputs(
+        &mut self,
+        sample: usize,
+        input: impl Fn(usize, f64) -> R,
+        mut put: impl FnMut(usize, R),
+    ) -> (M::Input<R>, M::State<R>) {
+        let (time, first) = (sample as f64 * self.step, M::Input::<R>::from_fn(|i| input(i, 0.0)));
+        self.tick_at(time, &first);
+        let (rates, output) = self.equations(R::from(time), &self.state, &first);
+        output.for_each(&mut put);
+        let mut states = self.measured.iter().peekable();
+        self.state.for_each(|index, value| {
+            if let Some((_, output)) = states.next_if(|(state, _)| *state == index) {
+                put(*output, value);
+            }
+        });
+        (first, rates)
+    }
+
+    /// Goes on to the next sample, in as many steps as the pace asks for.
+    #[inline(always)]
+    fn reach_next(
+        &mut self,
+        sample: usize,
+        first: &M::Input<R>,
+        rates: &M::State<R>,
+        input: impl Fn(usize, f64) -> R,
+    ) {
+        self.pace.reach(&self.state);
+        let state = self.state;
+        loop {
+            let need = self.advance(sample, first, rates, |share| M::Input::<R>::from_fn(|i| input(i, share)));
+            if !self.pace.refuse(need) {
+                break;
+            }
+            self.state = state;
+        }
+    }
+
+    /// Puts the model in a state; what its sampled part remembers is kept without derivatives.
+    pub fn place(&mut self, state: impl FnMut(usize) -> R) {
+        self.state = Bundle::from_fn(state);
+        let mut numbers = Vec::new();
+        self.memory.for_each(|_, value| numbers.push(value.number()));
+        self.memory = Bundle::from_fn(|i| R::from(numbers[i]));
+    }
+
+    /// Goes from the state at a sample to the next one and hands out the states there, by their index.
+    pub fn advanced(
+        &mut self,
+        sample: usize,
+        input: impl Fn(usize, f64) -> R,
+        put: impl FnMut(usize, R),
+    ) {
+        let (first, rates) = self.outputs(sample, &input, |_, _| {});
+        self.reach_next(sample, &first, &rates, input);
+        self.state.for_each(put);
     }
 
     /// Goes from a sample, where input and rates are known, to the next; the largest need of its steps, as [`Pace::need`].
@@ -163,8 +206,41 @@ fn along<M: Model, R: Real, const N: usize>(
 type Dual = Jet<DIRECTIONS>;
 
 /// The direction of one seed.
-fn direction(index: usize) -> [f64; DIRECTIONS] {
+pub(super) fn direction(index: usize) -> [f64; DIRECTIONS] {
     std::array::from_fn(|i| f64::from(i == index))
+}
+
+/// Which seeds change each input.
+pub(super) struct Seeding<'a> {
+    /// Of each input: the number of the seed and the change.
+    changes: Vec<Vec<(usize, &'a [f64])>>,
+}
+
+impl<'a> Seeding<'a> {
+    /// Of at most [`DIRECTIONS`] seeds.
+    pub fn new(seeds: &'a [Seed], drive: &Drive) -> Self {
+        let of = |input: usize| {
+            let changing = seeds.iter().enumerate().filter_map(|(index, seed)| match seed {
+                Seed::Inputs(changes) => Some(changes.iter().map(move |change| (index, change))),
+                Seed::Parameter(_) | Seed::State(_) => None,
+            });
+            let of_input = changing.flatten().filter(|(_, (changed, _))| *changed == input);
+            of_input.map(|(index, (_, signal))| (index, signal.as_slice())).collect()
+        };
+        Self { changes: (0..drive.inputs.len()).map(of).collect() }
+    }
+
+    /// An input at a share of the way from a sample to the next, with its derivatives.
+    #[inline]
+    pub fn value(&self, drive: &Drive, input: usize, sample: usize, share: f64) -> Dual {
+        let between = |signal: &[f64]| drive.value(signal, sample, share);
+        let value = between(&drive.inputs[input]);
+        let mut slopes = [0.0; DIRECTIONS];
+        for (index, signal) in &self.changes[input] {
+            slopes[*index] = between(signal);
+        }
+        Dual { value, slopes }
+    }
 }
 
 /// The outputs that are asked for and their derivatives, as [`Dynamics::linearised`](super::Dynamics::linearised), for at
@@ -188,29 +264,8 @@ pub(super) fn linearised<M: Model>(
         Bundle::from_fn(|i| seeded(start[i], &|seed| *seed == Seed::State(i))),
         drive,
     );
-    // Which changes there are of each input.
-    let changes: Vec<Vec<(usize, &[f64])>> = (0..drive.inputs.len())
-        .map(|input| {
-            let changing = seeds.iter().enumerate().filter_map(|(index, seed)| match seed {
-                Seed::Inputs(changes) => Some(changes.iter().map(move |change| (index, change))),
-                Seed::Parameter(_) | Seed::State(_) => None,
-            });
-            let of_input = changing.flatten().filter(|(_, (changed, _))| *changed == input);
-            of_input.map(|(index, (_, signal))| (index, signal.as_slice())).collect()
-        })
-        .collect();
-    let input = |i: usize, sample: usize, share: f64| {
-        let between = |signal: &[f64]| drive.value(signal, sample, share);
-        let value = between(&drive.inputs[i]);
-        if changes[i].is_empty() {
-            return Dual::from(value);
-        }
-        let mut slopes = [0.0; DIRECTIONS];
-        for (index, signal) in &changes[i] {
-            slopes[*index] = between(signal);
-        }
-        Dual { value, slopes }
-    };
+    let seeding = Seeding::new(seeds, drive);
+    let input = |i: usize, sample: usize, share: f64| seeding.value(drive, i, sample, share);
     let empty = || vec![Vec::with_capacity(drive.len()); wanted.len()];
     let mut found = Linearised { outputs: empty(), slopes: seeds.iter().map(|_| empty()).collect() };
     let rows: Vec<Option<usize>> =

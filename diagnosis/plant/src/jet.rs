@@ -34,6 +34,9 @@ impl<const N: usize> Jet<N> {
 pub(super) trait Scalar: Real {
     /// Its value, without derivatives.
     fn number(&self) -> f64;
+
+    /// Its derivatives; a plain number has none.
+    fn slopes(&self) -> &[f64];
 }
 
 impl Scalar for f64 {
@@ -41,12 +44,22 @@ impl Scalar for f64 {
     fn number(&self) -> f64 {
         *self
     }
+
+    #[inline(always)]
+    fn slopes(&self) -> &[f64] {
+        &[]
+    }
 }
 
 impl<const N: usize> Scalar for Jet<N> {
     #[inline(always)]
     fn number(&self) -> f64 {
         self.value
+    }
+
+    #[inline(always)]
+    fn slopes(&self) -> &[f64] {
+        &self.slopes
     }
 }
 

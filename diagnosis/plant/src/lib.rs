@@ -7,11 +7,14 @@ mod integrate;
 mod jet;
 pub mod models;
 mod pace;
+mod steps;
 
 use rayon::prelude::*;
 use strut_model::{Bundle, Declaration, Declarations, Model, SettingDeclaration, Settings, Value};
 
 use integrate::{Equations, Run};
+
+pub use steps::Follower;
 
 /// Derivatives that are taken at once.
 const DIRECTIONS: usize = 8;
@@ -204,6 +207,17 @@ pub trait Dynamics: Send + Sync {
         wanted: &[usize],
     ) -> Linearised;
 
+    /// Goes from sample to sample with a follower, who may say from which state at each: one-sample predictions, and
+    /// their derivatives with respect to the seeds. States are seeded anew at every sample.
+    fn followed(
+        &self,
+        parameters: &[f64],
+        start: &[f64],
+        drive: &Drive,
+        of: (&[Seed], &[usize]),
+        follower: &mut dyn Follower,
+    );
+
     /// Refuses parameters that do not go together.
     ///
     /// # Errors
@@ -240,6 +254,17 @@ impl<M: Model + Sync> Dynamics for Equations<M> {
         let mut all = parts.next().unwrap_or_else(|| of(&[]));
         all.slopes.extend(parts.flat_map(|part| part.slopes));
         all
+    }
+
+    fn followed(
+        &self,
+        parameters: &[f64],
+        start: &[f64],
+        drive: &Drive,
+        of: (&[Seed], &[usize]),
+        follower: &mut dyn Follower,
+    ) {
+        steps::followed(&self.model, parameters, start, drive, of, follower);
     }
 
     fn check(&self, parameters: &[f64]) -> Result<(), String> {

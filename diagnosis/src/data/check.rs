@@ -8,7 +8,7 @@ mod lines;
 
 use super::uniform::{median_period, runs};
 use super::{Channel, Record};
-use crate::findings::DataProblem;
+use crate::report::findings::DataProblem;
 use std::ops::Range;
 
 pub use super::noise::{Lattice, lattice, noise_floor};

@@ -7,7 +7,7 @@
 use super::check::{describe, number};
 use super::interpolate::{cubic, linear};
 use super::{Channel, DataError, Record};
-use crate::findings::DataProblem;
+use crate::report::findings::DataProblem;
 use std::ops::Range;
 
 /// Deviation from the even grid, in periods, up to which a time stamp counts as on it.

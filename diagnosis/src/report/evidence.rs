@@ -1,7 +1,7 @@
 //! The gates that an effect has to pass, and what they say in words.
 
 use super::words::{number, percent};
-use crate::findings::Evidence;
+use crate::report::findings::Evidence;
 
 const HELD_OUT: &str = "Held-out data";
 const TRAINING: &str = "Training data";

@@ -5,9 +5,9 @@ use std::io::{self, Write};
 use serde::Serialize;
 use serde_json::ser::Formatter;
 
-use crate::findings::Findings;
+use crate::report::findings::Findings;
 
-/// The findings as JSON, format version [`crate::findings::FORMAT`]; its fields are described in the crate's
+/// The findings as JSON, format version [`crate::report::findings::FORMAT`]; its fields are described in the crate's
 /// README. A number that is not finite becomes `null`.
 pub fn json(findings: &Findings) -> String {
     let mut text = Vec::new();

@@ -1,7 +1,11 @@
 //! What was found, for people and programs: `report.html`, `report.json` and a summary for the terminal; and, before there is
 //! anything to be found, what a rig's records may hold.
 
+pub mod assembly;
 mod evidence;
+pub mod extend;
+pub mod file;
+pub mod findings;
 mod json;
 mod page;
 mod plot;
@@ -17,8 +21,8 @@ pub use terminal::terminal;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::file::replace;
-use crate::findings::Findings;
+use crate::report::file::replace;
+use crate::report::findings::Findings;
 
 /// Why a report could not be written.
 #[derive(Debug, thiserror::Error)]

@@ -7,7 +7,7 @@ use super::words::{
     badge, capitalised, cause, count, digits, fit, headline, interval, located, number, percent, place,
     sized, unit,
 };
-use crate::findings::{Effect, Findings, Verdict};
+use crate::report::findings::{Effect, Findings, Verdict};
 
 /// Columns that a line has at most.
 const WIDTH: usize = 100;

@@ -1,6 +1,6 @@
 //! Numbers, units and places in words that an engineer reads.
 
-use crate::findings::{Effect, Findings, Verdict};
+use crate::report::findings::{Effect, Findings, Verdict};
 
 /// A number with a few significant digits: `57.3`, `−0.0042`, `1.2e7`; a dash if there is none.
 pub fn number(value: f64) -> String {

@@ -8,9 +8,9 @@
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal as Gaussian};
 
-use crate::fit::contained;
-use crate::hypothesis::Fitted;
-use crate::random::Random;
+use crate::estimation::fit::contained;
+use crate::estimation::hypothesis::Fitted;
+use crate::signal::random::Random;
 
 use super::TriedOut;
 

@@ -1,10 +1,10 @@
 //! How terms are tried out: by which amounts, and in which shapes.
 
 use crate::catalogue::{Cause, Part, Table};
-use crate::correction::{AFTER, Fault};
-use crate::fit::{Handle, Point};
-use crate::hypothesis::{POINTS, Term, World};
-use crate::recorded::Source;
+use crate::dataset::recorded::Source;
+use crate::estimation::fit::{Handle, Point};
+use crate::estimation::hypothesis::{POINTS, Term, World};
+use crate::signal::distortion::{AFTER, Fault};
 
 use super::rms;
 

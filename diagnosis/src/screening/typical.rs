@@ -1,7 +1,7 @@
 //! How large the forces and motions of a rig's elements are.
 
 use crate::catalogue::{Element, Typical};
-use crate::recorded::{Recorded, Source, derivative};
+use crate::dataset::recorded::{Recorded, Source, derivative};
 use crate::rig::{ElementSignals, ForceOf, Rig};
 
 use super::rms;

@@ -3,10 +3,10 @@
 
 use std::slice::from_ref;
 
-use crate::findings::Evidence;
-use crate::fit::Residuals;
-use crate::hypothesis::{Fitted, World};
-use crate::lsq::Stop;
+use crate::estimation::fit::Residuals;
+use crate::estimation::hypothesis::{Fitted, World};
+use crate::estimation::lsq::Stop;
+use crate::report::findings::Evidence;
 
 use super::{Accepted, Found, MOST, Tried, merge};
 

@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
-use crate::findings::Evidence;
-use crate::hypothesis::{Fitted, Term, World};
-use crate::lsq::Stop;
+use crate::estimation::hypothesis::{Fitted, Term, World};
+use crate::estimation::lsq::Stop;
+use crate::report::findings::Evidence;
 
 use super::{Tried, contains, has_no_name, parts};
 

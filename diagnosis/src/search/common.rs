@@ -3,8 +3,8 @@
 
 use std::slice::from_ref;
 
-use crate::hypothesis::World;
-use crate::lsq::Stop;
+use crate::estimation::hypothesis::World;
+use crate::estimation::lsq::Stop;
 
 use super::weighing::is_in_time;
 use super::{ALONG, Accepted, Found, Tried, has_no_name};

@@ -3,8 +3,8 @@
 
 use rayon::prelude::*;
 
-use crate::fit::Point;
-use crate::hypothesis::{Fitted, World};
+use crate::estimation::fit::Point;
+use crate::estimation::hypothesis::{Fitted, World};
 use crate::screening::Screened;
 
 use super::{Tried, comparing, contains_by_name, parts};

@@ -1,8 +1,8 @@
 //! Signals that are later than any measurement makes them, or causes that make them seem so: what friction holds follows late,
 //! and a fit that may choose each signal's delay chooses that.
 
-use crate::fit::Point;
-use crate::hypothesis::{Term, World};
+use crate::estimation::fit::Point;
+use crate::estimation::hypothesis::{Term, World};
 
 use super::choice::LITTLE_MORE;
 use super::{Accepted, Found};

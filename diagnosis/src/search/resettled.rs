@@ -5,9 +5,9 @@ use std::slice::from_ref;
 
 use rayon::prelude::*;
 
-use crate::fit::Point;
-use crate::hypothesis::{Fitted, World};
-use crate::lsq::Stop;
+use crate::estimation::fit::Point;
+use crate::estimation::hypothesis::{Fitted, World};
+use crate::estimation::lsq::Stop;
 
 use super::Tried;
 

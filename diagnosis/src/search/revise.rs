@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 
 use crate::catalogue::Element;
-use crate::correction::Fault;
-use crate::findings::Evidence;
-use crate::fit::Handle;
-use crate::hypothesis::{Fitted, Term, World};
-use crate::lsq::Stop;
+use crate::estimation::fit::Handle;
+use crate::estimation::hypothesis::{Fitted, Term, World};
+use crate::estimation::lsq::Stop;
+use crate::report::findings::Evidence;
+use crate::signal::distortion::Fault;
 
 use super::{Accepted, Found, Tried, contains_by_name, has_no_name, matters_beside, merge};
 

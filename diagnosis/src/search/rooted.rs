@@ -2,10 +2,10 @@
 //! that is later than any measurement makes it.
 
 use crate::catalogue;
-use crate::findings::Evidence;
-use crate::fit::{Handle, Point};
-use crate::hypothesis::{Fitted, Term, World};
-use crate::lsq::Stop;
+use crate::estimation::fit::{Handle, Point};
+use crate::estimation::hypothesis::{Fitted, Term, World};
+use crate::estimation::lsq::Stop;
+use crate::report::findings::Evidence;
 
 use super::{Accepted, Found, Tried, contains_by_name, has_no_name, matters_beside};
 

@@ -1,12 +1,12 @@
 //! What speaks for one fit over another.
 
 use crate::catalogue::Element;
-use crate::comparison::{Errors, Student, student};
-use crate::findings::Evidence;
-use crate::fit::{Handle, Residuals, strain};
-use crate::hypothesis::{Fitted, TIMING, Term, World};
-use crate::naming::{Name, name};
-use crate::recorded::Recorded;
+use crate::catalogue::naming::{Name, name};
+use crate::dataset::recorded::Recorded;
+use crate::estimation::comparison::{Errors, Student, student};
+use crate::estimation::fit::{Handle, Residuals, strain};
+use crate::estimation::hypothesis::{Fitted, TIMING, Term, World};
+use crate::report::findings::Evidence;
 use crate::screening::rms;
 
 use super::rooted::LATE;

@@ -6,8 +6,8 @@ mod simulation;
 use std::path::Path;
 
 use proptest::prelude::*;
-use strut_diagnosis::findings::{Evidence, Findings, Verdict};
 use strut_diagnosis::report;
+use strut_diagnosis::report::findings::{Evidence, Findings, Verdict};
 use unicode_width::UnicodeWidthStr;
 
 use samples::{VERDICTS, empty, sample};

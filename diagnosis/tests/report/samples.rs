@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use strut_diagnosis::findings::{
+use strut_diagnosis::report::findings::{
     BaseParameter, Candidate, Curve, DataProblem, Effect, EffectParameter, Evidence, FORMAT, Findings,
     Pictures, Signal, Verdict,
 };

@@ -1,6 +1,8 @@
 //! A quarter car on a bumpy road, so that the samples' curves look like what a rig gives.
 
-use strut_diagnosis::findings::{Binned, Coherence, Mark, Parity, Periodogram, Signal, Spectrum, Trace};
+use strut_diagnosis::report::findings::{
+    Binned, Coherence, Mark, Parity, Periodogram, Signal, Spectrum, Trace,
+};
 
 /// In seconds.
 const STEP: f64 = 1e-3;

@@ -8,8 +8,8 @@ use std::ops::Range;
 use super::{Channel, GAP, Problems, Record, number};
 use crate::data::noise::median;
 use crate::data::uniform::median_period;
-use crate::findings::DataProblem;
-use crate::spectral::{filled, periodogram};
+use crate::report::findings::DataProblem;
+use crate::signal::spectral::{filled, periodogram};
 
 /// Samples that are transformed at most.
 const MOST: usize = 1 << 17;

@@ -2,8 +2,8 @@
 
 use maud::{Markup, html};
 
-use crate::findings::{Effect, Evidence, Findings};
 use crate::report::evidence::{gates, sentences};
+use crate::report::findings::{Effect, Evidence, Findings};
 use crate::report::words::{capitalised, cause, interval, located, sized, unit};
 
 /// All effects that were found.

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::extended;
-use crate::findings::{Findings, Signal};
+use crate::report::findings::{Findings, Signal};
 use crate::report::plot::px;
 use crate::report::words::{digits, fit, number, percent, unit};
 

@@ -9,7 +9,7 @@ mod tables;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::words::{badge, cause, count, digits, headline, labelled, list, located, number, place, unit};
-use crate::findings::{Findings, Verdict};
+use crate::report::findings::{Findings, Verdict};
 
 const STYLE: &str = include_str!("style.css");
 

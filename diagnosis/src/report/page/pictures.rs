@@ -6,7 +6,7 @@ mod parity;
 use maud::{Markup, html};
 
 use super::extended;
-use crate::findings::{Binned, Curve, Findings, LARGEST, Mark, Trace};
+use crate::report::findings::{Binned, Curve, Findings, LARGEST, Mark, Trace};
 use crate::report::plot::{Axis, Edge, Plot, Shape};
 use crate::report::words::{digits, labelled, list, unit};
 

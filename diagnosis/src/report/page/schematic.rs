@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::findings::{Findings, Verdict};
+use crate::report::findings::{Findings, Verdict};
 use crate::report::plot::px;
 use crate::report::words::{Part, element, part, place};
 

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::findings::{BaseParameter, Candidate, DataProblem, Findings, Verdict};
+use crate::report::findings::{BaseParameter, Candidate, DataProblem, Findings, Verdict};
 use crate::report::words::{
     capitalised, count, digits, interval, located, number, percent, place, quantity, unit,
 };

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::{HALF, folded};
-use crate::findings::{Coherence, Periodogram, Pictures, Spectrum};
+use crate::report::findings::{Coherence, Periodogram, Pictures, Spectrum};
 use crate::report::plot::{Axis, Plot};
 use crate::report::words::{digits, unit};
 

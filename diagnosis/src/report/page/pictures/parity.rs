@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::{part, unit_or_none};
-use crate::findings::Parity;
+use crate::report::findings::Parity;
 use crate::report::plot::{Axis, Plot};
 use crate::report::words::{digits, number, unit};
 

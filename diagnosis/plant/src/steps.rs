@@ -1,0 +1,114 @@
+//! One-sample predictions along a trajectory, with derivatives: what a Kalman filter needs of a model.
+
+use strut_model::{Bundle, Model};
+
+use super::integrate::{Run, Seeding, direction};
+use super::jet::{Jet, Scalar};
+use super::{DIRECTIONS, Drive, Seed, outputs_of};
+
+/// Follows a model from sample to sample, and says from which state it goes on.
+pub trait Follower {
+    /// The state at a sample, as predicted, before anything is computed from it: it may be replaced.
+    fn state(&mut self, sample: usize, state: &mut [f64]);
+
+    /// The wanted outputs at a sample, and their derivatives by seed, output by output. The state may be corrected.
+    fn outputs(&mut self, sample: usize, values: &[f64], slopes: &[f64], state: &mut [f64]);
+
+    /// The state that follows at the next sample, and its derivatives by seed, state by state.
+    fn advanced(&mut self, sample: usize, state: &[f64], slopes: &[f64]);
+}
+
+/// A model on its way through a record with some seeds at once.
+struct Lane<'a, M: Model, R: Scalar> {
+    run: Run<'a, M, R>,
+    /// Numbers of the seeds.
+    seeds: Vec<usize>,
+    seeding: Seeding<'a>,
+}
+
+/// See [`Dynamics::followed`](super::Dynamics::followed).
+pub(super) fn followed<M: Model>(
+    model: &M,
+    parameters: &[f64],
+    start: &[f64],
+    drive: &Drive,
+    (seeds, wanted): (&[Seed], &[usize]),
+    follower: &mut dyn Follower,
+) {
+    if seeds.is_empty() {
+        let numbers = Bundle::from_fn(|i| parameters[i]);
+        let run = Run::<M, f64>::new(model, parameters, numbers, Bundle::from_fn(|i| start[i]), drive);
+        let lane = Lane { run, seeds: Vec::new(), seeding: Seeding::new(&[], drive) };
+        let input = |_: &Seeding<'_>, (i, sample, share): (usize, usize, f64)| {
+            drive.value(&drive.inputs[i], sample, share)
+        };
+        return follow(vec![lane], start, drive, (0, wanted), follower, |value, _, _| value, input);
+    }
+    let lanes = seeds.chunks(DIRECTIONS).enumerate().map(|(number, chunk)| {
+        let parameter = |i: usize| match chunk.iter().position(|seed| *seed == Seed::Parameter(i)) {
+            Some(index) => Jet { value: parameters[i], slopes: direction(index) },
+            None => Jet::from(parameters[i]),
+        };
+        let run = Run::<M, Jet<DIRECTIONS>>::new(
+            model,
+            parameters,
+            Bundle::from_fn(parameter),
+            Bundle::from_fn(|i| Jet::from(start[i])),
+            drive,
+        );
+        let first = number * DIRECTIONS;
+        Lane { run, seeds: (first..first + chunk.len()).collect(), seeding: Seeding::new(chunk, drive) }
+    });
+    let seeded = |value: f64, state: usize, lane: &[usize]| {
+        let own = lane.iter().position(|seed| seeds[*seed] == Seed::State(state));
+        own.map_or(Jet::from(value), |index| Jet { value, slopes: direction(index) })
+    };
+    let input = |seeding: &Seeding<'_>, (i, sample, share): (usize, usize, f64)| seeding.value(drive, i, sample, share);
+    follow(lanes.collect(), start, drive, (seeds.len(), wanted), follower, seeded, input);
+}
+
+fn follow<M: Model, R: Scalar>(
+    mut lanes: Vec<Lane<'_, M, R>>,
+    start: &[f64],
+    drive: &Drive,
+    (seeds, wanted): (usize, &[usize]),
+    follower: &mut dyn Follower,
+    seeded: impl Fn(f64, usize, &[usize]) -> R,
+    input: impl Fn(&Seeding<'_>, (usize, usize, f64)) -> R,
+) {
+    let rows: Vec<Option<usize>> =
+        (0..outputs_of::<M>()).map(|output| wanted.iter().position(|it| *it == output)).collect();
+    let mut state = start.to_vec();
+    let (mut values, mut slopes) = (vec![0.0; wanted.len()], vec![0.0; wanted.len() * seeds]);
+    let mut advanced = vec![0.0; state.len() * seeds];
+    for sample in 0..drive.len() {
+        follower.state(sample, &mut state);
+        for lane in &mut lanes {
+            lane.run.place(|i| seeded(state[i], i, &lane.seeds));
+            let at = |i: usize, share: f64| input(&lane.seeding, (i, sample, share));
+            lane.run.outputs(sample, at, |output, value| {
+                let Some(row) = rows[output] else { return };
+                values[row] = value.number();
+                for (seed, slope) in lane.seeds.iter().zip(value.slopes()) {
+                    slopes[row * seeds + seed] = *slope;
+                }
+            });
+        }
+        follower.outputs(sample, &values, &slopes, &mut state);
+        if sample + 1 == drive.len() {
+            return;
+        }
+        let mut next = state.clone();
+        for lane in &mut lanes {
+            lane.run.place(|i| seeded(state[i], i, &lane.seeds));
+            lane.run.advanced(sample, |i, share| input(&lane.seeding, (i, sample, share)), |index, value| {
+                next[index] = value.number();
+                for (seed, slope) in lane.seeds.iter().zip(value.slopes()) {
+                    advanced[index * seeds + seed] = *slope;
+                }
+            });
+        }
+        follower.advanced(sample, &next, &advanced);
+        state = next;
+    }
+}

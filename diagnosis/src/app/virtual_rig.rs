@@ -1,0 +1,144 @@
+//! A virtual rig: records of a model with something hidden in it, to try the diagnosis with.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+use strut_model::Declaration;
+
+use crate::dataset::recorded::derivative;
+use crate::plant::{Between, Drive};
+use crate::rig::Rig;
+use crate::screening::rms;
+use crate::signal::random::Random;
+
+/// What is recorded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Experiment {
+    /// Parameters that differ from the rig's, with their values.
+    pub hidden: Vec<(String, f64)>,
+    /// Standard deviation of the noise over the root mean square of each signal.
+    pub noise: f64,
+    /// For phases and noise.
+    pub seed: u64,
+    /// Time between two samples in seconds.
+    pub step: f64,
+    /// Length of a record in seconds.
+    pub length: f64,
+}
+
+/// A record as CSV; `number` tells its excitation: one for each.
+///
+/// # Errors
+/// If the rig has no parameter of a name, or refuses the values.
+pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String, String> {
+    let mut parameters = rig.parameters.clone();
+    for (name, value) in &experiment.hidden {
+        let index = rig.plant.parameter(name).ok_or_else(|| {
+            let names: Vec<&str> = rig.plant.parameters.iter().map(|it| it.name.as_str()).collect();
+            format!("{} has no parameter `{name}`; it has {}", rig.name, names.join(", "))
+        })?;
+        parameters[index] = *value;
+    }
+    let dynamics = rig.plant.prepare(&rig.choices)?;
+    dynamics.check(&parameters)?;
+    let mut random = Random::new(experiment.seed.wrapping_mul(1000).wrapping_add(number));
+    let step = experiment.step;
+    let count = (experiment.length / step) as usize;
+    let mut inputs: Vec<Vec<f64>> = rig
+        .plant
+        .inputs
+        .iter()
+        .map(|declared| match excitation(rig, declared) {
+            Some((amplitude, band)) => {
+                let signal = multisine(count, step, amplitude, band, &mut random);
+                signal.into_iter().map(|value| declared.start + value).collect()
+            }
+            None => vec![declared.start; count],
+        })
+        .collect();
+    for (index, declared) in rig.plant.inputs.iter().enumerate() {
+        if let Some(position) = rig.rate_of(&declared.name) {
+            inputs[index] = derivative(&inputs[position], step);
+        }
+    }
+    let drive = Drive { step, inputs, finer: 1, between: Between::Lines };
+    let outputs = dynamics.outputs(&parameters, &rig.start, &drive);
+    let declared = rig.plant.inputs.iter().chain(&rig.plant.outputs);
+    let signals: Vec<(String, Vec<f64>)> = declared
+        .zip(drive.inputs.iter().chain(&outputs))
+        .filter(|(declared, signal)| {
+            let hidden = declared.name.ends_with("body.position")
+                || (declared.name.ends_with("velocity") && !drives(rig, &declared.name));
+            !hidden && !rig.kind.trivial.contains(&declared.name.as_str()) && rms(signal) > 0.0
+        })
+        .map(|(declared, signal)| {
+            let deviation = experiment.noise * rms(signal);
+            let noisy = signal.iter().map(|value| value + deviation * random.normal()).collect();
+            (format!("{} [{}]", declared.name, declared.unit.symbol), noisy)
+        })
+        .collect();
+    let mut text = String::from("time [s]");
+    for (title, _) in &signals {
+        let _ = write!(text, ",{title}");
+    }
+    text.push('\n');
+    for sample in 0..count {
+        let _ = write!(text, "{:.4}", sample as f64 * step);
+        for (_, signal) in &signals {
+            let _ = write!(text, ",{:.7e}", signal[sample]);
+        }
+        text.push('\n');
+    }
+    Ok(text)
+}
+
+/// Whether a signal is an input of its own, not the rate of another one.
+fn drives(rig: &Rig, name: &str) -> bool {
+    rig.plant.input(name).is_some() && rig.rate_of(name).is_none()
+}
+
+/// Amplitude and frequencies of what drives an input; none if it rests. What a kind does not tell follows from the
+/// unit.
+fn excitation(rig: &Rig, declared: &Declaration) -> Option<(f64, (f64, f64))> {
+    let drives = rig.kind.drives;
+    let idle = drives.iter().any(|it| it.input == declared.name)
+        && rig.driven().is_some_and(|driven| driven.input != declared.name);
+    if idle {
+        return None;
+    }
+    if rig.kind.excitation.is_empty() {
+        return Some(match declared.unit.symbol {
+            "N" => (100.0, (0.5, 18.0)),
+            "V" => (2.0, (0.5, 18.0)),
+            _ => (8e-3, (0.3, 15.0)),
+        });
+    }
+    let excitation = rig.kind.excitation.iter().find(|it| it.input == declared.name)?;
+    Some((excitation.amplitude, excitation.band))
+}
+
+/// Sines at a third of an octave with random phases; large slow, small fast; about `amplitude` in all.
+fn multisine(
+    count: usize,
+    step: f64,
+    amplitude: f64,
+    (low, high): (f64, f64),
+    random: &mut Random,
+) -> Vec<f64> {
+    let mut lines = Vec::new();
+    let mut frequency = low * (1.0 + 0.2 * random.uniform());
+    while frequency < high {
+        lines.push((frequency, amplitude * (low / frequency).sqrt(), TAU * random.uniform()));
+        frequency *= 1.26;
+    }
+    let scale = (lines.iter().map(|(_, a, _)| a * a).sum::<f64>()).sqrt() / amplitude;
+    (0..count)
+        .map(|k| {
+            let t = k as f64 * step;
+            // From rest: the plant starts in its equilibrium.
+            let grown = (t / 0.5).min(1.0);
+            let sum: f64 = lines.iter().map(|(f, a, phase)| a * (TAU * f * t + phase).sin()).sum();
+            grown * grown * (3.0 - 2.0 * grown) * sum / scale
+        })
+        .collect()
+}

@@ -1,0 +1,269 @@
+//! Files of records on a rig's inputs and outputs.
+
+use std::ops::Range;
+use std::path::Path;
+
+use crate::data::check::{Checked, check, lines, noise_floor};
+use crate::data::map::{Map, Wanted, plain};
+use crate::data::{
+    self,
+    uniform::{Uniform, uniform},
+};
+use crate::dataset::recorded::{Measured, Recorded, Source};
+use crate::plant::Between;
+use crate::report::findings::DataProblem;
+use crate::rig::Rig;
+
+/// Samples that a record needs.
+const FEWEST: usize = 100;
+
+/// Share of a signal's samples up to which those that its sensor got wrong are left out, rather than the signal.
+const MOST_LEFT_OUT: f64 = 0.2;
+
+/// A record on a rig, with what is to be said about the data.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// The record; none if it cannot be used.
+    pub recorded: Option<Recorded>,
+    /// What is wrong with the data.
+    pub problems: Vec<DataProblem>,
+}
+
+/// Chooses how a rig is driven by what a record has.
+///
+/// # Errors
+/// If the file cannot be read.
+pub fn choose_drive(rig: &mut Rig, path: &Path, map: &Map) -> Result<(), String> {
+    if rig.kind.drives.is_empty() {
+        return Ok(());
+    }
+    let record = data::read_with(path, map.time.as_ref()).map_err(|error| error.to_string())?;
+    let columns: Vec<String> = record.channels.iter().map(|channel| plain(&channel.name)).collect();
+    rig.drive_by(|name| map.signals.contains_key(name) || columns.contains(&plain(name)))
+}
+
+/// Reads a file and finds the rig's signals in it.
+///
+/// # Errors
+/// If the file cannot be read, or has not the signals that the rig needs: what to do.
+pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
+    let mut record = data::read_with(path, map.time.as_ref()).map_err(|error| error.to_string())?;
+    oppose(rig, &mut record, map);
+    let mapped = map.apply(record, &wanted(rig)).map_err(|error| error.to_string())?;
+    let name = mapped.record.name.clone();
+    missing(rig, &mapped.record, &name, &mapped.unused)?;
+    let Checked { mut problems, unusable } = check(&mapped.record);
+    if !mapped.unused.is_empty() {
+        problems.push(DataProblem {
+            record: name.clone(),
+            signal: mapped.unused.join(", "),
+            text: "no signal of the rig has this name: not used; a map (--map) can tell what it is".into(),
+            fatal: false,
+        });
+    }
+    if problems.iter().any(|problem| problem.fatal) {
+        return Ok(Imported { recorded: None, problems });
+    }
+    let (uniform, resampled) = uniform(&mapped.record).map_err(|error| error.to_string())?;
+    problems.extend(resampled);
+    let drives = |name: &str| rig.plant.input(name).is_some();
+    problems.extend(lines(&mapped.record, drives));
+    let values = |name: &str| {
+        let channel = uniform.channels.iter().find(|channel| channel.name == name);
+        channel.map(|channel| channel.values.clone())
+    };
+    let mut inputs: Vec<Source> = Vec::new();
+    for declared in &rig.plant.inputs {
+        inputs.push(match values(&declared.name) {
+            Some(values) => Source::Measured(values),
+            None => rig
+                .rate_of(&declared.name)
+                .filter(|other| values(&rig.plant.inputs[*other].name).is_some())
+                .map_or(Source::Constant(declared.start), Source::DerivativeOf),
+        });
+    }
+    let measured = rig.plant.outputs.iter().enumerate().filter_map(|(output, declared)| {
+        let mut values = values(&declared.name)?;
+        let noise_floor = noise_floor(&values);
+        let wrong = mapped.record.channels.iter().zip(&unusable).find(|(it, _)| it.name == declared.name);
+        let wrong = wrong.map_or(&[][..], |(_, ranges)| ranges);
+        let left_out = leave_out(&mut values, wrong, &mapped.record.time, &uniform);
+        if left_out > 0 {
+            let enough = left_out as f64 <= MOST_LEFT_OUT * values.len() as f64;
+            let what = if enough { "they are" } else { "the signal is" };
+            problems.push(DataProblem {
+                record: name.clone(),
+                signal: declared.name.clone(),
+                text: format!(
+                    "{left_out} of its {} samples are wrong in this way: {what} not compared with the model",
+                    values.len()
+                ),
+                fatal: false,
+            });
+            if !enough {
+                return None;
+            }
+        }
+        Some(Measured { output, values, noise_floor })
+    });
+    let measured: Vec<Measured> = measured.collect();
+    if measured.is_empty() {
+        problems.push(DataProblem {
+            record: name,
+            signal: "all outputs".into(),
+            text: "no output is left to compare with the model, as too many samples of each are wrong: see what else is \
+                   told of this record, mend the sensors or their ranges, and record again"
+                .into(),
+            fatal: true,
+        });
+        return Ok(Imported { recorded: None, problems });
+    }
+    let sections = sections(&uniform.segments, uniform.step, rig.kind.section);
+    Ok(Imported {
+        recorded: Some(Recorded {
+            name,
+            step: uniform.step,
+            inputs,
+            between: Between::Lines,
+            measured,
+            sections,
+        }),
+        problems,
+    })
+}
+
+/// Takes away the values on the even grid that come from ranges of the file's samples, and tells how many there were.
+fn leave_out(values: &mut [f64], ranges: &[Range<usize>], time: &[f64], grid: &Uniform) -> usize {
+    let mut count = 0;
+    for range in ranges {
+        // Up to the middle between its samples and their neighbours.
+        let edge = |sample: usize| {
+            (sample > 0 && sample < time.len()).then(|| 0.5 * (time[sample - 1] + time[sample]))
+        };
+        let place =
+            |time: f64| (((time - grid.start) / grid.step).ceil().max(0.0) as usize).min(values.len());
+        let (first, last) = (edge(range.start).map_or(0, place), edge(range.end).map_or(values.len(), place));
+        for value in values[first..last].iter_mut().filter(|value| value.is_finite()) {
+            *value = f64::NAN;
+            count += 1;
+        }
+    }
+    count
+}
+
+/// Turns a signal over that is recorded in the sense of another one, unless a map says what it is.
+fn oppose(rig: &Rig, record: &mut data::Record, map: &Map) {
+    let Some((column, signal)) = rig.kind.opposed else { return };
+    let named = |name: &str, other: &str| name.trim().eq_ignore_ascii_case(other);
+    if map.signals.is_empty() && record.channels.iter().any(|channel| named(&channel.name, column)) {
+        for channel in record.channels.iter_mut().filter(|channel| named(&channel.name, signal)) {
+            channel.values.iter_mut().for_each(|value| *value = -*value);
+        }
+    }
+}
+
+/// Every signal of a rig with the names that it may have.
+fn wanted(rig: &Rig) -> Vec<Wanted> {
+    let shows = |name: &String| !rig.kind.trivial.contains(&name.as_str()) && !rig.taken.contains(name);
+    let outputs = rig.plant.outputs.iter().filter(|it| shows(&it.name));
+    let driven = rig.driven();
+    rig.plant
+        .inputs
+        .iter()
+        .chain(outputs)
+        .map(|declared| {
+            let aliases = rig.kind.aliases.iter().filter(|(name, _)| *name == declared.name);
+            let aliases = aliases.flat_map(|(_, aliases)| *aliases);
+            let columns = driven.filter(|it| it.input == declared.name).map_or(&[][..], |it| it.columns);
+            // A column that drives the rig is not what it did, too.
+            let aliases = aliases.filter(|it| !rig.taken.iter().any(|taken| taken == *it));
+            let aliases = aliases.chain(columns);
+            Wanted {
+                name: declared.name.clone(),
+                unit: declared.unit.symbol.into(),
+                aliases: aliases.map(|alias| (*alias).to_owned()).collect(),
+            }
+        })
+        .collect()
+}
+
+/// Refuses a record that does not tell what drove the rig, or nothing of what it did.
+fn missing(rig: &Rig, record: &data::Record, name: &str, unused: &[String]) -> Result<(), String> {
+    let has = |declared: &str| record.channels.iter().any(|channel| channel.name == declared);
+    let hint = if unused.is_empty() {
+        String::new()
+    } else {
+        format!("; the columns {} are not used: name them in a map (--map)", unused.join(", "))
+    };
+    if !rig.plant.inputs.iter().any(|declared| has(&declared.name)) {
+        let inputs: Vec<&str> = rig.plant.inputs.iter().map(|declared| declared.name.as_str()).collect();
+        return Err(format!(
+            "{name}: no column says what drove the rig; one of {} is needed{hint}",
+            inputs.join(", ")
+        ));
+    }
+    if !rig.plant.outputs.iter().any(|declared| has(&declared.name)) {
+        let outputs: Vec<&str> = rig.plant.outputs.iter().map(|declared| declared.name.as_str()).collect();
+        return Err(format!(
+            "{name}: no column says what the rig did; one of {} is needed{hint}",
+            outputs.join(", ")
+        ));
+    }
+    Ok(())
+}
+
+/// Ranges of at most `seconds` and about equal length.
+fn sections(segments: &[Range<usize>], step: f64, seconds: f64) -> Vec<Range<usize>> {
+    let longest = (seconds / step).max(FEWEST as f64);
+    let mut sections = Vec::new();
+    for segment in segments.iter().filter(|segment| segment.len() >= FEWEST) {
+        let parts = (segment.len() as f64 / longest).ceil() as usize;
+        for part in 0..parts {
+            let at = |part: usize| segment.start + segment.len() * part / parts;
+            sections.push(at(part)..at(part + 1));
+        }
+    }
+    sections
+}
+
+/// Keeps the outputs that all records have, so that they can be compared.
+///
+/// # Errors
+/// If there are none.
+pub fn align(records: &mut [Recorded]) -> Result<(), String> {
+    let Some(first) = records.first() else { return Err("there is no record".into()) };
+    let mut common: Vec<usize> = first.measured.iter().map(|measured| measured.output).collect();
+    for record in records.iter() {
+        common.retain(|output| record.measured.iter().any(|measured| measured.output == *output));
+    }
+    if common.is_empty() {
+        return Err("the records have no output in common: give records of the same signals".into());
+    }
+    for record in records.iter_mut() {
+        record.measured.retain(|measured| common.contains(&measured.output));
+        if record.sections.is_empty() {
+            return Err(format!("{}: no stretch of {FEWEST} samples without a gap", record.name));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::{Channel, Record};
+
+    /// Sample 3 of the file is missing, so that its later samples stand one place further on the even grid.
+    #[test]
+    fn wrong_samples_of_a_file_are_left_out_where_they_stand_on_the_even_grid() {
+        let time: Vec<f64> = (0..400).filter(|k| *k != 3).map(|k| 0.01 * f64::from(k)).collect();
+        let values: Vec<f64> = time.iter().map(|t| t.sin()).collect();
+        let channels = vec![Channel { name: "x".into(), unit: "m".into(), values }];
+        let (grid, _) = uniform(&Record { name: String::new(), time: time.clone(), channels }).unwrap();
+        let mut values = grid.channels[0].values.clone();
+        let wrong = [0..1, 9..12, 398..399];
+        assert_eq!(leave_out(&mut values, &wrong, &time, &grid), 5);
+        let left: Vec<usize> = (0..values.len()).filter(|k| values[*k].is_nan()).collect();
+        assert_eq!(left, [0, 10, 11, 12, 399]);
+    }
+}

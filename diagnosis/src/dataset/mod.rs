@@ -1,0 +1,6 @@
+//! A table of columns as a rig's inputs and outputs: import, conditioning, segments.
+
+pub mod conditioning;
+pub mod import;
+pub mod recorded;
+pub mod split;

@@ -1,0 +1,201 @@
+//! A record as a plant sees it: what drives it, what was measured of it.
+
+use std::ops::Range;
+
+use crate::plant::{Between, Drive};
+use crate::signal::distortion::{Correction, Samples};
+use crate::signal::spectral::{FINER, refined};
+
+/// A record on a plant's inputs and outputs, evenly sampled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recorded {
+    /// The file's name.
+    pub name: String,
+    /// Time between two samples in seconds.
+    pub step: f64,
+    /// Where each input comes from.
+    pub inputs: Vec<Source>,
+    /// How the inputs go on between the samples.
+    pub between: Between,
+    /// What was measured.
+    pub measured: Vec<Measured>,
+    /// Ranges of samples that are simulated in one go, each with states of its own at the start.
+    pub sections: Vec<Range<usize>>,
+}
+
+/// Where an input comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Source {
+    /// It was measured.
+    Measured(Vec<f64>),
+    /// It is the time derivative of another input, by its index.
+    DerivativeOf(usize),
+    /// It rests.
+    Constant(f64),
+}
+
+/// A measured output.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// Index among the plant's outputs.
+    pub output: usize,
+    /// Values, NaN where they are missing.
+    pub values: Vec<f64>,
+    /// Root mean square of the measurement's noise.
+    pub noise_floor: f64,
+}
+
+/// Length of the blocks of time over which errors and scores are summed, in seconds: longer than the residuals' memory.
+const BLOCK: f64 = 0.5;
+
+impl Recorded {
+    /// Number of samples in such a block.
+    pub fn block(&self) -> usize {
+        ((BLOCK / self.step).round() as usize).max(4)
+    }
+
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.measured.first().map_or(0, |measured| measured.values.len())
+    }
+
+    /// Whether there are no samples.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// What is left of a measured output's values without the straight line through each section: of a plant that drifts, a
+    /// model has that from the states at the section's start.
+    pub fn bent(&self, row: usize) -> Vec<f64> {
+        let values = &self.measured[row].values;
+        self.sections.iter().flat_map(|section| without_line(&values[section.clone()])).collect()
+    }
+
+    /// Which samples those of a section are.
+    pub fn samples(&self, section: &Range<usize>) -> Samples {
+        Samples { step: self.step, first: section.start }
+    }
+
+    /// How many values of an input there are in a step of what drives the plant: where signals go along curves, a cubic
+    /// through the record's own samples would lose a tenth of what is halfway to half the sampling rate.
+    fn finer(&self) -> usize {
+        match self.between {
+            Between::Lines => 1,
+            Between::Curves => FINER,
+        }
+    }
+
+    /// What drives the plant in a section, the inputs' signals being corrected.
+    pub fn drive(&self, section: &Range<usize>, corrections: &[Correction]) -> Drive {
+        let finer = self.finer();
+        let samples = Samples { step: self.step / finer as f64, first: finer * section.start };
+        let mut inputs: Vec<Vec<f64>> = Vec::with_capacity(self.inputs.len());
+        for (source, correction) in self.inputs.iter().zip(corrections) {
+            let signal = |values: &[f64]| match self.between {
+                Between::Lines => values.to_vec(),
+                Between::Curves => refined(values),
+            };
+            inputs.push(match source {
+                Source::Measured(values) if correction.is_neutral() => signal(&values[section.clone()]),
+                Source::Measured(values) => correction.applied(&signal(&values[section.clone()]), samples),
+                Source::Constant(value) => vec![*value; finer * section.len().saturating_sub(1) + 1],
+                Source::DerivativeOf(_) => Vec::new(),
+            });
+        }
+        for (index, source) in self.inputs.iter().enumerate() {
+            if let Source::DerivativeOf(other) = source {
+                inputs[index] = self.rate(&inputs[*other]);
+            }
+        }
+        Drive { step: self.step, inputs, finer, between: self.between }
+    }
+
+    /// The derivative of an input: as a file's reader takes it, or nearly that of the curve through the samples.
+    fn rate(&self, signal: &[f64]) -> Vec<f64> {
+        let step = self.step / self.finer() as f64;
+        let mut rate = derivative(signal, step);
+        if self.between == Between::Curves {
+            for (rate, near) in rate.iter_mut().skip(3).zip(signal.windows(7)) {
+                let odd = |reach: usize| near[3 + reach] - near[3 - reach];
+                *rate = (45.0 * odd(1) - 9.0 * odd(2) + odd(3)) / (60.0 * step);
+            }
+        }
+        rate
+    }
+
+    /// How the drive changes when one input's signal does.
+    pub fn change(&self, input: usize, change: Vec<f64>) -> Vec<(usize, Vec<f64>)> {
+        let mut changes = Vec::new();
+        for (index, source) in self.inputs.iter().enumerate() {
+            if *source == Source::DerivativeOf(input) {
+                changes.push((index, self.rate(&change)));
+            }
+        }
+        changes.push((input, change));
+        changes
+    }
+}
+
+/// The derivative of an evenly sampled signal by central differences.
+pub fn derivative(signal: &[f64], step: f64) -> Vec<f64> {
+    let last = signal.len().saturating_sub(1);
+    (0..signal.len())
+        .map(|k| {
+            let (before, after) = (k.saturating_sub(1), (k + 1).min(last));
+            (signal[after] - signal[before]) / (step * (after - before).max(1) as f64)
+        })
+        .collect()
+}
+
+/// The known values without the straight line that is nearest to them.
+fn without_line(values: &[f64]) -> Vec<f64> {
+    let known: Vec<(f64, f64)> =
+        (0..).map(f64::from).zip(values.iter().copied()).filter(|(_, value)| value.is_finite()).collect();
+    let n = known.len().max(1) as f64;
+    let mean = |of: &dyn Fn(&(f64, f64)) -> f64| known.iter().map(of).sum::<f64>() / n;
+    let (at, height) = (mean(&|it| it.0), mean(&|it| it.1));
+    let (spread, both) = (mean(&|it| (it.0 - at).powi(2)), mean(&|it| (it.0 - at) * (it.1 - height)));
+    let slope = if spread > 0.0 { both / spread } else { 0.0 };
+    known.into_iter().map(|(time, value)| value - height - slope * (time - at)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_straight_line_has_nothing_bent() {
+        let bent = without_line(&[1.0, f64::NAN, 2.0, 2.5, f64::INFINITY]);
+        assert!(bent.len() == 3 && bent.iter().all(|value| value.abs() < 1e-15), "{bent:?}");
+        assert_eq!(without_line(&[3.0, 4.0, 7.0, 12.0]), [1.0, -1.0, -1.0, 1.0]);
+        assert_eq!((without_line(&[7.0]), without_line(&[f64::NAN])), (vec![0.0], vec![]));
+    }
+
+    /// Of 20 Hz and of 64 Hz, of which differences of the samples alone would lose 0.6 %.
+    #[test]
+    fn a_curves_rate_is_that_of_the_signal() {
+        let step = 2.5e-3;
+        let time = |k: i32| f64::from(k) * step;
+        let rate = |omega: f64, between: Between| {
+            let position: Vec<f64> = (0..80).map(|k| (omega * time(k)).sin()).collect();
+            let inputs = vec![Source::Measured(position), Source::DerivativeOf(0)];
+            let record = Recorded {
+                name: String::new(),
+                step,
+                inputs,
+                between,
+                measured: vec![],
+                sections: std::iter::once(0..80).collect(),
+            };
+            let error = |(k, rate): (i32, &f64)| (rate / omega - (omega * time(k)).cos()).abs();
+            let drive = record.drive(&(0..80), &[Correction::default(); 2]);
+            assert_eq!(drive.len(), 80);
+            let rates = drive.inputs[1].iter().step_by(drive.finer);
+            (0..80).zip(rates).skip(10).take(60).map(error).fold(0.0, f64::max)
+        };
+        for omega in [125.0, 400.0] {
+            assert!(rate(omega, Between::Curves) < 4e-4, "{omega}: {}", rate(omega, Between::Curves));
+        }
+        assert!((0.015..0.018).contains(&rate(125.0, Between::Lines)), "{}", rate(125.0, Between::Lines));
+    }
+}

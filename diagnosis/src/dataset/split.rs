@@ -1,0 +1,92 @@
+//! The records of a diagnosis, and the stretches over which models are compared to them.
+
+use std::ops::Range;
+
+use crate::dataset::recorded::Recorded;
+use crate::diagnosis::{Diagnosis, Options, diagnose};
+use crate::report::findings::DataProblem;
+use crate::rig::Rig;
+
+/// Longest section in seconds of a plant that drifts, or whose phase is soon lost: over a part of it, a model that is far off
+/// may still be told from another.
+const DRIFTING: f64 = 10.0;
+/// So many stretches are made of one.
+const PARTS: usize = 3;
+
+/// What is learnt from and what judges, without the noise of the inputs; and the latter as it was measured.
+pub struct Records {
+    train: Vec<Recorded>,
+    test: Vec<Recorded>,
+    measured: Vec<Recorded>,
+}
+
+impl Records {
+    /// Records as they were measured.
+    pub fn new(train: &[Recorded], measured: Vec<Recorded>) -> Self {
+        let conditioned =
+            |records: &[Recorded]| records.iter().map(Recorded::conditioned).collect::<Vec<_>>();
+        Self { train: conditioned(train), test: conditioned(&measured), measured }
+    }
+
+    /// The same in shorter stretches, each with states of its own at the start; none if the rig's models keep to long ones.
+    pub fn in_parts(&self, rig: &Rig) -> Option<Self> {
+        let cut = |records: &[Recorded]| records.iter().map(in_parts).collect::<Vec<_>>();
+        let drifts = rig.kind.section <= DRIFTING;
+        drifts.then(|| Self { train: cut(&self.train), test: cut(&self.test), measured: cut(&self.measured) })
+    }
+
+    /// What is the matter with the rig.
+    ///
+    /// # Errors
+    /// If the model refuses its parameters or diverges on the records.
+    pub fn diagnosed<'a>(
+        &'a self,
+        rig: &'a Rig,
+        options: Options,
+        progress: &(dyn Fn(&str) + Sync),
+    ) -> Result<Diagnosis<'a>, String> {
+        diagnose(rig, &self.train, &self.test, &self.measured, options, progress)
+    }
+
+    /// That stretches had to be short.
+    pub fn note(&self) -> DataProblem {
+        let longest = self
+            .measured
+            .iter()
+            .flat_map(|it| it.sections.iter().map(move |part| it.step * part.len() as f64));
+        let longest = longest.fold(0.0, f64::max);
+        DataProblem {
+            record: "all".into(),
+            signal: "time".into(),
+            text: format!(
+                "the model loses what was measured so soon that it is compared over stretches of {longest:.2} s: errors are \
+                 those of so long a prediction"
+            ),
+            fatal: false,
+        }
+    }
+}
+
+/// A record with each of its sections in parts.
+fn in_parts(record: &Recorded) -> Recorded {
+    let parts = |section: &Range<usize>| {
+        let (start, length) = (section.start, section.len());
+        (0..PARTS).map(move |part| start + length * part / PARTS..start + length * (part + 1) / PARTS)
+    };
+    let sections = record.sections.iter().flat_map(parts).filter(|part| !part.is_empty()).collect();
+    Recorded { sections, ..record.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plant::Between;
+
+    #[test]
+    fn parts_leave_nothing_out() {
+        let (name, inputs, between, measured) = (String::new(), vec![], Between::Lines, vec![]);
+        let record = Recorded { name, step: 1e-3, inputs, between, measured, sections: vec![0..10, 20..23] };
+        let sections = in_parts(&record).sections;
+        assert_eq!(sections, [0..3, 3..6, 6..10, 20..21, 21..22, 22..23]);
+    }
+}

@@ -1,0 +1,350 @@
+//! Fitting a plant to records: output error, weighted, with every state at the start estimated along.
+
+mod normal;
+mod settling;
+
+use std::ops::Range;
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use crate::dataset::recorded::Recorded;
+use crate::estimation::lsq::{Linear, Problem};
+use crate::plant::{Dynamics, Plant, Signals};
+use crate::signal::distortion::{Correction, Fault};
+
+use normal::Elimination;
+
+/// What the names of states begin with whose values at the start are not estimated: they are forgotten within
+/// milliseconds, or act only after long.
+const FORGOTTEN: &[&str] = &[
+    "hysteresis.",
+    "actuator.",
+    "frame.",
+    "enveloping.",
+    "force_cell.",
+    "spool.follower",
+    "current",
+    "overload",
+    "velocity_loop.command",
+    "velocity_loop.output",
+];
+
+/// How far a state at the start may go in a step on a standard deviation's gain, in its nominal values. What is
+/// forgotten within milliseconds hardly shows: without a bound it would be sent as far as a limiter.
+const FAR: f64 = 3.0;
+
+/// Something that a fit may change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Handle {
+    /// A parameter of the plant, by its index.
+    Parameter(usize),
+    /// A correction of an input's signal, by the input's index.
+    Input(usize, Fault),
+    /// A correction of an output's signal, by the output's index.
+    Output(usize, Fault),
+}
+
+/// Something that a fit changes, within bounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinate {
+    /// What.
+    pub handle: Handle,
+    /// Smallest and largest value.
+    pub bounds: (f64, f64),
+    /// What was known before, as mean and standard deviation.
+    pub prior: Option<(f64, f64)>,
+}
+
+/// A plant's parameters, corrections and states at the start of every section.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// The plant's parameters.
+    pub parameters: Vec<f64>,
+    /// Of each input.
+    pub inputs: Vec<Correction>,
+    /// Of each output.
+    pub outputs: Vec<Correction>,
+    /// States at the start of each section, record after record.
+    pub starts: Vec<Vec<f64>>,
+}
+
+impl Point {
+    /// The value of what can be changed.
+    pub fn get(&self, handle: Handle) -> f64 {
+        match handle {
+            Handle::Parameter(index) => self.parameters[index],
+            Handle::Input(index, fault) => self.inputs[index].get(fault),
+            Handle::Output(index, fault) => self.outputs[index].get(fault),
+        }
+    }
+
+    /// Changes it.
+    pub fn set(&mut self, handle: Handle, value: f64) {
+        match handle {
+            Handle::Parameter(index) => self.parameters[index] = value,
+            Handle::Input(index, fault) => self.inputs[index].set(fault, value),
+            Handle::Output(index, fault) => self.outputs[index].set(fault, value),
+        }
+    }
+}
+
+/// Measured less predicted, for each record and each of its measured outputs.
+pub type Residuals = Vec<Signals>;
+
+/// The normal equations `H d = −g` of a fit's coordinates and, behind them, of the amounts of further changes of its signals.
+#[derive(Clone, Debug)]
+pub struct Normal {
+    /// `H`.
+    pub h: DMatrix<f64>,
+    /// `g`.
+    pub g: DVector<f64>,
+    /// What each block of time adds to `g`, priors aside.
+    pub scores: Vec<DVector<f64>>,
+}
+
+/// Changes of the signals predicted of a section, by its number over all records.
+pub type Changes<'a> = dyn Fn(usize, &Recorded, &Range<usize>) -> Vec<Signals> + 'a;
+
+/// The fit of a plant to records as a least-squares problem.
+pub struct Fit<'a> {
+    /// The model.
+    pub plant: &'a Plant,
+    /// Its equations.
+    pub dynamics: &'a dyn Dynamics,
+    /// What was measured.
+    pub records: &'a [Recorded],
+    /// What may be changed.
+    pub coordinates: Vec<Coordinate>,
+    /// Standard deviation of the residuals of each output.
+    pub sigma: Vec<f64>,
+    /// States whose values at the start are estimated.
+    states: Vec<usize>,
+    ridge: Vec<f64>,
+    bounds: Vec<(f64, f64)>,
+}
+
+/// What linearising a fit leaves behind.
+#[derive(Clone, Debug)]
+pub struct Trace {
+    sections: Vec<Elimination>,
+    /// Gradient of the cost over each block of time.
+    pub scores: Vec<DVector<f64>>,
+}
+
+impl<'a> Fit<'a> {
+    /// A fit.
+    pub fn new(
+        plant: &'a Plant,
+        dynamics: &'a dyn Dynamics,
+        records: &'a [Recorded],
+        coordinates: Vec<Coordinate>,
+        sigma: Vec<f64>,
+    ) -> Self {
+        let bounds = coordinates.iter().map(|coordinate| coordinate.bounds).collect();
+        let forgotten = |name: &str| FORGOTTEN.iter().any(|prefix| name.starts_with(prefix));
+        let states = plant.states.iter().enumerate().filter(|(_, state)| !forgotten(&state.name));
+        let states: Vec<usize> = states.map(|(index, _)| index).collect();
+        let nominal = |state: &usize| plant.states[*state].nominal.unwrap_or(1.0);
+        let ridge = states.iter().map(|state| (FAR * nominal(state)).powi(-2)).collect();
+        Self { plant, dynamics, records, coordinates, sigma, states, ridge, bounds }
+    }
+
+    fn sections(&self) -> Vec<(usize, &'a Recorded, &'a Range<usize>)> {
+        let all = self.records.iter().flat_map(|record| record.sections.iter().map(move |it| (record, it)));
+        all.enumerate().map(|(index, (record, section))| (index, record, section)).collect()
+    }
+
+    /// The measured outputs as predicted in a section.
+    pub fn predicted(
+        &self,
+        point: &Point,
+        start: &[f64],
+        record: &Recorded,
+        section: &Range<usize>,
+    ) -> Signals {
+        let drive = record.drive(section, &point.inputs);
+        let mut outputs = self.dynamics.outputs(&point.parameters, start, &drive);
+        let measured = record.measured.iter();
+        measured
+            .map(|measured| {
+                let signal = std::mem::take(&mut outputs[measured.output]);
+                let correction = &point.outputs[measured.output];
+                if correction.is_neutral() {
+                    signal
+                } else {
+                    correction.applied(&signal, record.samples(section))
+                }
+            })
+            .collect()
+    }
+
+    /// Half the weighted sum of squares of a section.
+    fn section_cost(&self, point: &Point, start: &[f64], record: &Recorded, section: &Range<usize>) -> f64 {
+        let predicted = self.predicted(point, start, record, section);
+        let signals = record.measured.iter().zip(predicted).map(|(measured, signal)| {
+            let weight = self.sigma[measured.output].powi(-2);
+            let values = measured.values[section.clone()].iter();
+            let known = values.zip(signal).filter(|(value, _)| value.is_finite());
+            0.5 * weight * known.map(|(value, y)| (value - y).powi(2)).sum::<f64>()
+        });
+        signals.sum()
+    }
+
+    /// Predicted signals of each record, whole.
+    pub fn predictions(&self, point: &Point) -> Residuals {
+        let sections = self.sections();
+        let parts: Vec<Signals> = sections
+            .par_iter()
+            .map(|(index, record, it)| self.predicted(point, &point.starts[*index], record, it))
+            .collect();
+        let mut results: Residuals = Vec::new();
+        let mut parts = parts.into_iter();
+        for record in self.records {
+            let mut whole = vec![vec![f64::NAN; record.len()]; record.measured.len()];
+            for section in &record.sections {
+                let part = parts.next().unwrap_or_default();
+                for (whole, part) in whole.iter_mut().zip(part) {
+                    whole[section.clone()].copy_from_slice(&part);
+                }
+            }
+            results.push(whole);
+        }
+        results
+    }
+
+    /// Measured less predicted.
+    pub fn residuals(&self, point: &Point) -> Residuals {
+        let mut all = self.predictions(point);
+        for (record, signals) in self.records.iter().zip(&mut all) {
+            for (measured, signal) in record.measured.iter().zip(signals) {
+                for (predicted, value) in signal.iter_mut().zip(&measured.values) {
+                    *predicted = value - *predicted;
+                }
+            }
+        }
+        all
+    }
+
+    /// The normal equations of the coordinates and of the amounts of changes of the predicted signals, without
+    /// the states at the start. The changes are asked for section by section, since they are many, and entries of changes in
+    /// different groups are not computed.
+    pub fn beside(&self, point: &Point, changes: &Changes<'_>, groups: &[Range<usize>]) -> Normal {
+        let own = self.coordinates.len();
+        let all = own + groups.last().map_or(0, |last| last.end);
+        let (mut h, mut g, mut scores) = (DMatrix::zeros(all, all), DVector::zeros(all), Vec::new());
+        for (index, record, section) in self.sections() {
+            let signals = changes(index, record, section);
+            let part = self.section(point, &point.starts[index], record, section, (&signals, groups));
+            h += part.h;
+            g += part.g;
+            scores.extend(part.scores);
+        }
+        for (index, coordinate) in self.coordinates.iter().enumerate() {
+            if let Some((_, deviation)) = coordinate.prior {
+                h[(index, index)] += deviation.powi(-2);
+            }
+        }
+        Normal { h, g, scores }
+    }
+}
+
+/// How much of each change of the predicted signals the residuals contain, beyond what the first `own` coordinates and the
+/// states at the start can do: the normal equations `H a = g` of the amounts, from those of both. Each block's part of `g` has
+/// the sign of `g`.
+pub fn contained(normal: &Normal, own: usize) -> Normal {
+    let Normal { h, g, scores } = normal;
+    let extra = g.len() - own;
+    // At the minimum the coordinates' own gradient is zero, up to what bounds hold.
+    let mut block = h.view((0, 0), (own, own)).into_owned();
+    for index in 0..own {
+        block[(index, index)] =
+            block[(index, index)] * (1.0 + 1e-9) + f64::from(block[(index, index)] == 0.0);
+    }
+    let cross = h.view((0, own), (own, extra)).into_owned();
+    let solved = block.cholesky().map_or_else(|| DMatrix::zeros(own, extra), |it| it.solve(&cross));
+    // The changes' columns in the Jacobian of the residuals are negative.
+    let beyond = |g: &DVector<f64>| -g.rows(own, extra) + solved.tr_mul(&g.rows(0, own));
+    Normal {
+        h: h.view((own, own), (extra, extra)) - cross.tr_mul(&solved),
+        g: beyond(g),
+        scores: scores.iter().map(beyond).collect(),
+    }
+}
+
+/// Half the squared distance of a point from what was known of the coordinates before, in its standard deviations.
+pub fn strain(coordinates: &[Coordinate], point: &Point) -> f64 {
+    let each = coordinates.iter().filter_map(|coordinate| {
+        let (mean, deviation) = coordinate.prior?;
+        Some(0.5 * ((point.get(coordinate.handle) - mean) / deviation).powi(2))
+    });
+    each.sum()
+}
+
+impl Problem for Fit<'_> {
+    type Point = Point;
+    type Trace = Trace;
+
+    fn is_possible(&self, point: &Point) -> bool {
+        self.dynamics.check(&point.parameters).is_ok()
+    }
+
+    fn cost(&self, point: &Point) -> f64 {
+        if !self.is_possible(point) {
+            return f64::INFINITY;
+        }
+        let sections = self.sections();
+        let parts = sections
+            .par_iter()
+            .map(|(index, record, section)| self.section_cost(point, &point.starts[*index], record, section));
+        let parts: Vec<f64> = parts.collect();
+        parts.iter().sum::<f64>() + strain(&self.coordinates, point)
+    }
+
+    fn linearise(&self, point: &Point) -> (Linear, Trace) {
+        let n = self.coordinates.len();
+        let (mut h, mut g) = (DMatrix::zeros(n, n), DVector::zeros(n));
+        let mut trace = Trace { sections: Vec::new(), scores: Vec::new() };
+        // One section at a time: its derivatives are many, and they are what is parallel.
+        for (index, record, section) in self.sections() {
+            let part = self.section(point, &point.starts[index], record, section, (&[], &[]));
+            h += part.h;
+            g += part.g;
+            trace.scores.extend(part.scores);
+            trace.sections.push(part.elimination);
+        }
+        for (index, coordinate) in self.coordinates.iter().enumerate() {
+            if let Some((mean, deviation)) = coordinate.prior {
+                h[(index, index)] += deviation.powi(-2);
+                g[index] += (point.get(coordinate.handle) - mean) * deviation.powi(-2);
+            }
+        }
+        (Linear::by_cholesky(&h, &g), trace)
+    }
+
+    fn coordinates(&self, point: &Point) -> DVector<f64> {
+        DVector::from_iterator(
+            self.coordinates.len(),
+            self.coordinates.iter().map(|coordinate| point.get(coordinate.handle)),
+        )
+    }
+
+    fn moved(&self, point: &Point, trace: &Trace, coordinates: &DVector<f64>) -> Point {
+        let step = coordinates - self.coordinates(point);
+        let mut moved = point.clone();
+        for (coordinate, value) in self.coordinates.iter().zip(coordinates.iter()) {
+            moved.set(coordinate.handle, *value);
+        }
+        for (start, elimination) in moved.starts.iter_mut().zip(&trace.sections) {
+            let change = &elimination.constant + &elimination.linear * &step;
+            for (state, change) in self.states.iter().zip(change.iter()) {
+                start[*state] -= change;
+            }
+        }
+        moved
+    }
+
+    fn bounds(&self) -> &[(f64, f64)] {
+        &self.bounds
+    }
+}

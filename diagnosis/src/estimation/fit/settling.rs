@@ -1,0 +1,57 @@
+//! The states at the start of each section, the parameters being what they are.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use crate::dataset::recorded::Recorded;
+
+use super::{Fit, Point};
+
+/// Steps at most.
+const STEPS: usize = 6;
+/// Halvings of a step that leads uphill.
+const HALVINGS: i32 = 4;
+/// Relative fall of the cost below which they have settled.
+const SETTLED: f64 = 1e-5;
+
+impl Fit<'_> {
+    /// The same point with the states at the start of each section that fit best.
+    pub fn settled(&self, point: Point) -> Point {
+        let (plant, dynamics, records) = (self.plant, self.dynamics, self.records);
+        let bare = Self::new(plant, dynamics, records, Vec::new(), self.sigma.clone());
+        let sections = bare.sections().into_par_iter();
+        let starts = sections.map(|(index, record, section)| {
+            bare.settled_section(&point, point.starts[index].clone(), record, section)
+        });
+        Point { starts: starts.collect(), ..point }
+    }
+
+    /// Gauss and Newton's steps in one section, each as long as it leads downhill.
+    fn settled_section(
+        &self,
+        point: &Point,
+        mut start: Vec<f64>,
+        record: &Recorded,
+        section: &Range<usize>,
+    ) -> Vec<f64> {
+        let mut cost = self.section_cost(point, &start, record, section);
+        for _ in 0..STEPS {
+            let step = self.section(point, &start, record, section, (&[], &[])).elimination.constant;
+            let tried = (0..=HALVINGS).map(|halvings| {
+                let mut moved = start.clone();
+                for (state, change) in self.states.iter().zip(step.iter()) {
+                    moved[*state] -= change * 0.5_f64.powi(halvings);
+                }
+                (self.section_cost(point, &moved, record, section), moved)
+            });
+            let before = cost;
+            let Some(better) = tried.into_iter().find(|(cost, _)| *cost < before) else { break };
+            (cost, start) = better;
+            if before - cost < SETTLED * before {
+                break;
+            }
+        }
+        start
+    }
+}

@@ -1,0 +1,388 @@
+//! What may be the matter: a set of terms that are added to the starting model, and the fit with them.
+
+use strut_model::{Value, unit};
+
+use crate::catalogue::{self, Cause, Element, Part, Scale, Table, Typical};
+use crate::dataset::recorded::{Recorded, Source};
+use crate::estimation::fit::{Coordinate, Fit, Handle, Point, Residuals, Trace};
+use crate::estimation::lsq::{self, Linear, Problem, Stop};
+use crate::plant::Dynamics;
+use crate::rig::Rig;
+use crate::search::Criterion;
+use crate::signal::distortion::{AFTER, Correction, Fault, UNKNOWN};
+
+/// Points of a table without a name.
+pub const POINTS: usize = 11;
+
+/// Standard deviation of a channel's timing in seconds: multiplexers and buses make such delays, and the filters of
+/// accelerometers have such time constants. They are no fault.
+pub const TIMING: f64 = 4e-4;
+
+/// Standard deviations within which a value is that was measured otherwise.
+const SURE: f64 = 3.0;
+/// Standard deviations of a channel's timing within which a signal is in time.
+const IN_TIME: f64 = 2.5;
+
+/// Share of the largest command below which it is not limited.
+const LOWEST: f64 = 0.2;
+
+/// Time over which the velocity at a section's start is guessed from a measured position, in seconds.
+const RATE: f64 = 0.02;
+
+/// What a data sheet says of a parameter: its standard deviation over its value, and the factor within which it is looked
+/// for if it must not be zero.
+const SHEET: (f64, f64) = (1.0, 20.0);
+/// The same of a model's start value, which is of the usual order at best.
+const START: (f64, f64) = (10.0, 1000.0);
+
+/// Something that is added to the starting model.
+#[derive(Clone, Copy, Debug)]
+pub enum Term {
+    /// A cause with a name.
+    Cause(&'static Cause),
+    /// A force without a name.
+    Table(&'static Table),
+    /// What a sensor or an actuator makes of a signal.
+    Fault(Handle),
+    /// A linear response of a sensor without a name, by its output's index.
+    Response(usize),
+}
+
+impl PartialEq for Term {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Cause(a), Self::Cause(b)) => std::ptr::eq(*a, *b),
+            (Self::Table(a), Self::Table(b)) => std::ptr::eq(*a, *b),
+            (Self::Fault(a), Self::Fault(b)) => a == b,
+            (Self::Response(a), Self::Response(b)) => a == b,
+            _ => false,
+        }
+    }
+}
+
+impl Term {
+    /// Whether it makes a signal late.
+    pub fn delays(self) -> bool {
+        match self {
+            Self::Fault(Handle::Input(_, fault) | Handle::Output(_, fault)) => {
+                matches!(fault, Fault::Lag | Fault::Delay)
+            }
+            Self::Response(_) => true,
+            Self::Fault(Handle::Parameter(_)) | Self::Cause(_) | Self::Table(_) => false,
+        }
+    }
+}
+
+/// The world that hypotheses are about.
+#[derive(Clone)]
+pub struct World<'a> {
+    /// The rig.
+    pub rig: &'a Rig,
+    /// The records that are learnt from.
+    pub train: &'a [Recorded],
+    /// The records that judge.
+    pub test: &'a [Recorded],
+    /// Typical magnitudes of each element.
+    pub typical: Vec<(Element, Typical)>,
+    /// What was known of parameters before: index, value, standard deviation.
+    pub known: Vec<(usize, f64, f64)>,
+    /// What of the base fit is not fitted, to see what it is worth.
+    pub held: Vec<Handle>,
+    /// Whether no signal may be later than measurements make any.
+    pub punctual: bool,
+    /// Numbers of the causes that are looked at; none: all.
+    pub only: Vec<String>,
+    /// What decides whether a cause is named.
+    pub criterion: Criterion,
+    /// Number of independent looks at the errors that comparing every cause to them amounts to.
+    pub looks: f64,
+    /// Standard deviation of each output's residuals.
+    pub sigma: Vec<f64>,
+    /// Noise of each measured output, in the order of a record's.
+    pub floor: Vec<f64>,
+}
+
+/// A hypothesis with its parameters fitted.
+#[derive(Clone, Debug)]
+pub struct Fitted {
+    /// What was added to the starting model.
+    pub terms: Vec<Term>,
+    /// The coordinates of the fit.
+    pub coordinates: Vec<Coordinate>,
+    /// Values, with the states at the start of the training sections.
+    pub point: Point,
+    /// The linearisation there.
+    pub linear: Linear,
+    /// What linearising left behind.
+    pub trace: Trace,
+    /// Half the weighted sum of squares on the training data.
+    pub cost: f64,
+    /// Errors on the training data.
+    pub train: Residuals,
+    /// Errors on the held-out data.
+    pub test: Residuals,
+}
+
+impl World<'_> {
+    /// Typical magnitudes of an element.
+    pub fn typical(&self, element: Element) -> Typical {
+        let found = self.typical.iter().find(|(of, _)| *of == element);
+        found.map_or(Typical { force: 1.0, deflection: 1.0, velocity: 1.0 }, |(_, typical)| *typical)
+    }
+
+    /// The point that everything starts from.
+    pub fn origin(&self) -> Point {
+        Point {
+            parameters: self.rig.parameters.clone(),
+            inputs: vec![Correction::default(); self.rig.plant.inputs.len()],
+            outputs: vec![Correction::default(); self.rig.plant.outputs.len()],
+            starts: self.starts(self.train),
+        }
+    }
+
+    /// A first guess of the states at the start of each section: what was measured of them or follows from it,
+    /// otherwise the rig's own.
+    pub fn starts(&self, records: &[Recorded]) -> Vec<Vec<f64>> {
+        let plant = &self.rig.plant;
+        let of = |record: &Recorded, at: usize| {
+            let mut start = self.rig.start.clone();
+            for measured in &record.measured {
+                let (output, value) = (&plant.outputs[measured.output].name, measured.values[at]);
+                if let Some(state) = plant.state(output).filter(|_| value.is_finite()) {
+                    start[state] = value;
+                }
+                // A body that starts at rest may stick, and where nothing but its position is measured, nothing tells how
+                // fast it was.
+                let alone = (record.measured.len() == 1).then_some(output);
+                let rate =
+                    alone.and_then(|it| plant.state(&format!("{}velocity", it.strip_suffix("position")?)));
+                let span = ((RATE / record.step) as usize).max(3);
+                if let (Some(state), Some(later)) = (rate, measured.values.get(at + span))
+                    && later.is_finite()
+                    && value.is_finite()
+                {
+                    start[state] = (later - value) / (span as f64 * record.step);
+                }
+            }
+            start
+        };
+        let sections =
+            records.iter().flat_map(|it| it.sections.iter().map(move |section| (it, section.start)));
+        sections.map(|(record, at)| of(record, at)).collect()
+    }
+
+    /// The settings with the terms.
+    pub fn choices(&self, terms: &[Term]) -> Vec<Value> {
+        let mut choices = self.rig.choices.clone();
+        for term in terms {
+            if let Term::Cause(Cause { setting: Some(setting), .. }) = term
+                && let Some(index) = self.rig.plant.setting(setting)
+            {
+                choices[index] = Value::Boolean(true);
+            }
+        }
+        choices
+    }
+
+    /// The equations with the terms.
+    ///
+    /// # Errors
+    /// The model's own words.
+    pub fn dynamics(&self, terms: &[Term]) -> Result<Box<dyn Dynamics>, String> {
+        self.rig.plant.prepare(&self.choices(terms))
+    }
+
+    /// The fit of some records with the terms.
+    pub fn fit<'b>(
+        &'b self,
+        dynamics: &'b dyn Dynamics,
+        records: &'b [Recorded],
+        coordinates: Vec<Coordinate>,
+    ) -> Fit<'b> {
+        Fit::new(&self.rig.plant, dynamics, records, coordinates, self.sigma.clone())
+    }
+
+    /// Standard deviation of what any measurement does to a signal; none for what would be a fault.
+    pub fn usual(&self, handle: Handle) -> Option<f64> {
+        let filtered = |output: usize| self.rig.plant.outputs[output].name.ends_with("acceleration");
+        match handle {
+            Handle::Output(_, Fault::Delay) => Some(TIMING),
+            Handle::Output(output, Fault::Lag) if filtered(output) => Some(TIMING),
+            _ => None,
+        }
+    }
+
+    /// What is fitted with the terms: base parameters first, then the terms' own, each once.
+    pub fn coordinates(&self, terms: &[Term]) -> Vec<Coordinate> {
+        let plant = &self.rig.plant;
+        let mut coordinates: Vec<Coordinate> = Vec::new();
+        for index in self.rig.base() {
+            let (declared, value) = (&plant.parameters[index], self.rig.parameters[index]);
+            let (low, high) =
+                (declared.min.unwrap_or(f64::NEG_INFINITY), declared.max.unwrap_or(f64::INFINITY));
+            let (deviation, around) = if self.rig.stated[index] { SHEET } else { START };
+            // Near zero, what must not be zero makes equations that nothing can integrate; but there may be no spring.
+            let least = if declared.unit == unit::N_PER_M { low } else { low.max(value / around) };
+            let bounds = if low > 0.0 { (least, high.min(value * around)) } else { (low, high) };
+            let bounds = self.sought(index).map_or(bounds, |(from, to)| (from.min(value), to.max(value)));
+            // However many samples a model that is not quite right has to say otherwise with.
+            let known = self.known.iter().find(|(of, _, _)| *of == index);
+            let bounds = known.map_or(bounds, |(_, mean, deviation)| {
+                let (low, high) = (bounds.0.min(*mean), bounds.1.max(*mean));
+                (low.max(mean - SURE * deviation), high.min(mean + SURE * deviation))
+            });
+            // It is right within a factor where the data do not know better; of what nobody knows it says zero.
+            let sheet = (value != 0.0).then_some((value, deviation * value.abs()));
+            let prior = known.map(|(_, mean, deviation)| (*mean, *deviation)).or(sheet);
+            coordinates.push(Coordinate { handle: Handle::Parameter(index), bounds, prior });
+        }
+        for measured in self.train.first().map_or(&[][..], |record| &record.measured) {
+            for handle in [Fault::Delay, Fault::Lag].map(|fault| Handle::Output(measured.output, fault)) {
+                let bounds = self.fault_bounds(handle);
+                let Some(deviation) = self.usual(handle) else { continue };
+                let most = if self.punctual { IN_TIME * deviation } else { f64::INFINITY };
+                let bounds = (bounds.0.max(-most), bounds.1.min(most));
+                coordinates.push(Coordinate { handle, bounds, prior: Some((0.0, deviation)) });
+            }
+        }
+        coordinates.retain(|coordinate| !self.held.contains(&coordinate.handle));
+        for term in terms {
+            for coordinate in self.own_coordinates(*term) {
+                match coordinates.iter_mut().find(|other| other.handle == coordinate.handle) {
+                    Some(other) => *other = coordinate,
+                    None => coordinates.push(coordinate),
+                }
+            }
+        }
+        coordinates
+    }
+
+    /// The bounds of a velocity that nobody states and that is part of a cause's law: where it would be looked for if the rig did
+    /// not have the cause already. Of friction that turns over in no time at all, no derivative tells anything.
+    fn sought(&self, index: usize) -> Option<(f64, f64)> {
+        if self.rig.stated[index] {
+            return None;
+        }
+        let plant = &self.rig.plant;
+        let mut parts = catalogue::causes(plant).flat_map(|it| it.parts.iter().map(move |part| (it, part)));
+        let own =
+            |part: &Part| part.scale == Scale::VELOCITY && plant.parameter(part.parameter) == Some(index);
+        let (cause, part) = parts.find(|(_, part)| own(part))?;
+        let unit = part.scale.of(&self.typical(cause.element));
+        Some((part.bounds.0 * unit, part.bounds.1 * unit))
+    }
+
+    /// The coordinates that a term brings.
+    pub fn own_coordinates(&self, term: Term) -> Vec<Coordinate> {
+        let plant = &self.rig.plant;
+        match term {
+            Term::Cause(cause) => {
+                let typical = self.typical(cause.element);
+                let parts = cause.parts.iter().filter_map(|part| {
+                    let (index, unit) = (plant.parameter(part.parameter)?, part.scale.of(&typical));
+                    let declared = &plant.parameters[index];
+                    let low = (part.bounds.0 * unit).max(declared.min.unwrap_or(f64::NEG_INFINITY));
+                    let high = (part.bounds.1 * unit).min(declared.max.unwrap_or(f64::INFINITY));
+                    Some(Coordinate { handle: Handle::Parameter(index), bounds: (low, high), prior: None })
+                });
+                parts.collect()
+            }
+            Term::Table(table) => {
+                let typical = table.point.of(&self.typical(table.element));
+                let points =
+                    (1..=POINTS).filter_map(|number| plant.parameter(&format!("{}[{number}]", table.points)));
+                points
+                    .map(|index| Coordinate {
+                        handle: Handle::Parameter(index),
+                        bounds: (-10.0 * typical, 10.0 * typical),
+                        // A ridge: points that nothing reaches stay at zero.
+                        prior: Some((0.0, typical)),
+                    })
+                    .collect()
+            }
+            Term::Fault(handle) => {
+                let drift = match handle {
+                    Handle::Output(output, Fault::Offset) => Some(Handle::Output(output, Fault::Drift)),
+                    _ => None,
+                };
+                let of = |handle| Coordinate { handle, bounds: self.fault_bounds(handle), prior: None };
+                std::iter::once(handle).chain(drift).map(of).collect()
+            }
+            Term::Response(output) => (0..AFTER.len())
+                .map(|point| Coordinate {
+                    handle: Handle::Output(output, Fault::Response(point)),
+                    bounds: (-10.0, 10.0),
+                    // A ridge, as a table has one.
+                    prior: Some((0.0, UNKNOWN)),
+                })
+                .collect(),
+        }
+    }
+
+    /// Largest magnitude of a measured input on the training data.
+    pub fn largest(&self, input: usize) -> f64 {
+        let values = self.train.iter().filter_map(|record| match &record.inputs[input] {
+            Source::Measured(values) => Some(values),
+            Source::DerivativeOf(_) | Source::Constant(_) => None,
+        });
+        values.flatten().filter(|it| it.is_finite()).fold(0.0, |most, it| it.abs().max(most))
+    }
+
+    fn fault_bounds(&self, handle: Handle) -> (f64, f64) {
+        let fault = match handle {
+            Handle::Input(_, fault) | Handle::Output(_, fault) => fault,
+            Handle::Parameter(_) => return (f64::NEG_INFINITY, f64::INFINITY),
+        };
+        match fault {
+            Fault::Gain => (-0.9, 4.0),
+            Fault::Lag => (0.0, 0.2),
+            Fault::Delay => (-0.05, 0.05),
+            Fault::Rate => (-0.02, 0.02),
+            // A limit far below the usual commands would be a gain.
+            Fault::Limit => match handle {
+                Handle::Input(input, _) => (LOWEST * self.largest(input), self.largest(input)),
+                Handle::Output(..) | Handle::Parameter(_) => (0.0, f64::INFINITY),
+            },
+            Fault::Offset | Fault::Drift | Fault::Quadratic | Fault::Cubic | Fault::Response(_) => {
+                (f64::NEG_INFINITY, f64::INFINITY)
+            }
+        }
+    }
+
+    /// Fits a hypothesis from several points and keeps the best.
+    ///
+    /// # Errors
+    /// If the model refuses its settings, or diverges from every point.
+    pub fn fitted(&self, terms: &[Term], starts: &[Point], stop: Stop) -> Result<Fitted, String> {
+        let dynamics = self.dynamics(terms)?;
+        let coordinates = self.coordinates(terms);
+        let fit = self.fit(&*dynamics, self.train, coordinates.clone());
+        let minima = starts.iter().filter(|start| fit.cost(start).is_finite());
+        let minima = minima.map(|start| lsq::minimise(&fit, fit.settled(start.clone()), stop));
+        let best = minima.min_by(|a, b| a.cost.total_cmp(&b.cost));
+        let best = best.ok_or("the simulation diverges from every start")?;
+        let train = fit.residuals(&best.point);
+        let test = self.held_out(&*dynamics, &best.point);
+        Ok(Fitted {
+            terms: terms.to_vec(),
+            coordinates,
+            linear: best.linear,
+            trace: best.trace,
+            cost: best.cost,
+            point: best.point,
+            train,
+            test,
+        })
+    }
+
+    /// The point of the held-out data: the same parameters, states at the start of their own.
+    pub fn held_out_point(&self, dynamics: &dyn Dynamics, point: &Point) -> Point {
+        let point = Point { starts: self.starts(self.test), ..point.clone() };
+        self.fit(dynamics, self.test, Vec::new()).settled(point)
+    }
+
+    fn held_out(&self, dynamics: &dyn Dynamics, point: &Point) -> Residuals {
+        let point = self.held_out_point(dynamics, point);
+        self.fit(dynamics, self.test, Vec::new()).residuals(&point)
+    }
+}

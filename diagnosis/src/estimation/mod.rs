@@ -1,0 +1,8 @@
+//! Estimating parameters: hypotheses, output error, least squares, intervals.
+
+pub mod comparison;
+pub mod fit;
+pub mod held;
+pub mod hypothesis;
+pub mod intervals;
+pub mod lsq;

@@ -1,0 +1,244 @@
+//! Records and candidates through the same filter: what is left is white, and its sums of squares are likelihoods.
+
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+
+use super::filter::{Filter, Passed, Smoothed, smoothed};
+use super::ports::{Entry, Port};
+use super::trajectory::{MEMORY, Setting, Window};
+
+/// Length of the blocks of time over which sums are kept apart, in seconds.
+const BLOCK: f64 = 0.5;
+
+/// How much signal is missing at each port, and how noisy each output is.
+#[derive(Clone, Debug)]
+pub struct Noise {
+    /// Standard deviation of each port's missing signal, in its unit; zero: none is missing there.
+    pub ports: Vec<f64>,
+    /// Variance of each measured output's noise.
+    pub outputs: Vec<f64>,
+}
+
+/// What a candidate changes in the next state and in the outputs, along a trajectory.
+#[derive(Clone, Debug, Default)]
+pub struct Column {
+    /// Sample by sample and state by state; empty: nothing.
+    pub next: Vec<f32>,
+    /// Sample by sample and output by output; empty: nothing.
+    pub outputs: Vec<f32>,
+}
+
+/// Sums over a block of time.
+#[derive(Clone, Debug)]
+pub struct Block {
+    /// Number of the record.
+    pub record: usize,
+    /// First sample in the record.
+    pub sample: usize,
+    /// Products of all columns' innovations over their variances: the record first, then parameters, then candidates.
+    pub normal: DMatrix<f64>,
+    /// Sum of the logarithms of the variances.
+    pub log_variance: f64,
+    /// Number of innovations.
+    pub count: usize,
+}
+
+/// Which of a window's ports are in the filter, and how their signals show.
+struct Entered<'a> {
+    window: &'a Window,
+    /// For each active port: its column among the slopes, or the output that it offsets; and its standard deviation.
+    ports: Vec<(Result<usize, usize>, f64)>,
+}
+
+impl<'a> Entered<'a> {
+    fn new(window: &'a Window, ports: &[Port], noise: &Noise) -> Self {
+        let mut column = window.states;
+        let mut entered = Vec::new();
+        for (port, deviation) in ports.iter().zip(&noise.ports) {
+            let place = match port.entry {
+                Entry::Sensor(row) => Err(row),
+                Entry::Constant(_) | Entry::Input(_) => {
+                    column += 1;
+                    Ok(column - 1)
+                }
+            };
+            if *deviation > 0.0 {
+                entered.push((place, *deviation));
+            }
+        }
+        Self { window, ports: entered }
+    }
+
+    fn width(&self) -> usize {
+        self.window.states + self.ports.len()
+    }
+
+    /// How states and active ports show in an output.
+    fn row(&self, sample: usize, output: usize, h: &mut [f64]) {
+        let (n, width) = (self.window.states, self.window.width);
+        let slopes = &self.window.output_slopes[(sample * self.window.outputs + output) * width..][..width];
+        h[..n].copy_from_slice(&slopes[..n]);
+        for ((place, _), h) in self.ports.iter().zip(&mut h[n..]) {
+            *h = match place {
+                Ok(column) => slopes[*column],
+                Err(row) => f64::from(*row == output),
+            };
+        }
+    }
+
+    /// The transition of states and active ports to the next sample.
+    fn transition(&self, sample: usize, decay: f64, a: &mut [f64]) {
+        let (n, width, own) = (self.window.states, self.window.width, self.width());
+        a.fill(0.0);
+        for state in 0..n {
+            let slopes = &self.window.next_slopes[(sample * n + state) * width..][..width];
+            let row = &mut a[state * own..(state + 1) * own];
+            row[..n].copy_from_slice(&slopes[..n]);
+            for ((place, _), a) in self.ports.iter().zip(&mut row[n..]) {
+                *a = place.map_or(0.0, |column| slopes[column]);
+            }
+        }
+        for port in n..own {
+            a[port * own + port] = decay;
+        }
+    }
+}
+
+impl Setting<'_> {
+    /// Variances of the states at a window's start, then of the active ports.
+    fn variances(&self, entered: &Entered<'_>) -> Vec<f64> {
+        let states = self.active.iter().map(|it| self.nominal[*it].powi(2));
+        states.chain(entered.ports.iter().map(|(_, deviation)| deviation * deviation)).collect()
+    }
+
+    fn driven(&self, entered: &Entered<'_>, decay: f64) -> Vec<f64> {
+        let states = self.active.iter().map(|it| (1e-7 * self.nominal[*it]).powi(2));
+        let ports = entered.ports.iter().map(|(_, deviation)| deviation * deviation * (1.0 - decay * decay));
+        states.chain(ports).collect()
+    }
+
+    /// The record of each window, the change by each parameter, and the candidates through the filter.
+    pub fn innovations(&self, windows: &[Window], noise: &Noise, candidates: &[Vec<Column>]) -> Vec<Block> {
+        let none = Vec::new();
+        let own = |index: usize| candidates.get(index).unwrap_or(&none);
+        let parts = windows.par_iter().enumerate();
+        parts.flat_map(|(index, window)| self.through(window, noise, own(index))).collect()
+    }
+
+    fn through(&self, window: &Window, noise: &Noise, candidates: &[Column]) -> Vec<Block> {
+        let entered = Entered::new(window, self.ports, noise);
+        let (n, m, width, own) = (window.states, window.outputs, window.width, entered.width());
+        let decay = (-window.step / MEMORY).exp();
+        let parameters = self.parameters.len();
+        let columns = 1 + parameters + candidates.len();
+        let mut filter = Filter::new(&self.variances(&entered), columns);
+        let driven = self.driven(&entered, decay);
+        let samples = window.samples.len();
+        let length = ((BLOCK / window.step).round() as usize).max(4);
+        let (mut h, mut a) = (vec![0.0; own], vec![0.0; own * own]);
+        let (mut y, mut input) = (vec![0.0; columns], vec![0.0; own * columns]);
+        let mut rows: Vec<f64> = Vec::new();
+        let mut blocks = Vec::new();
+        let mut log_variance = 0.0;
+        for sample in 0..samples {
+            for output in 0..m {
+                let residual = window.residuals[sample * m + output];
+                if !residual.is_finite() {
+                    continue;
+                }
+                entered.row(sample, output, &mut h);
+                let slopes = &window.output_slopes[(sample * m + output) * width..][..width];
+                y[0] = residual;
+                for (y, slope) in y[1..=parameters].iter_mut().zip(&slopes[width - parameters..]) {
+                    *y = -slope;
+                }
+                for (y, column) in y[1 + parameters..].iter_mut().zip(candidates) {
+                    *y = column.outputs.get(sample * m + output).map_or(0.0, |it| -f64::from(*it));
+                }
+                let update = filter.measure(&h, noise.outputs[output], &mut y);
+                let scale = update.variance.sqrt().recip();
+                rows.extend(y.iter().map(|it| it * scale));
+                log_variance += update.variance.ln();
+            }
+            if (sample + 1) % length == 0 || sample + 1 == samples {
+                let count = rows.len() / columns;
+                let all = DMatrix::from_column_slice(columns, count, &rows);
+                blocks.push(Block {
+                    record: window.record,
+                    sample: window.samples.start + sample - sample % length,
+                    normal: &all * all.transpose(),
+                    log_variance,
+                    count,
+                });
+                rows.clear();
+                log_variance = 0.0;
+            }
+            if sample + 1 == samples {
+                break;
+            }
+            for state in 0..n {
+                let input = &mut input[state * columns..(state + 1) * columns];
+                input[0] = window.defects[sample * n + state];
+                let slopes = &window.next_slopes[(sample * n + state) * width..][..width];
+                input[1..=parameters].copy_from_slice(&slopes[width - parameters..]);
+                for (input, column) in input[1 + parameters..].iter_mut().zip(candidates) {
+                    *input = column.next.get(sample * n + state).map_or(0.0, |it| f64::from(*it));
+                }
+            }
+            entered.transition(sample, decay, &mut a);
+            filter.predict(&a, &input, &driven);
+        }
+        blocks
+    }
+
+    /// The deviation from the trajectory and the missing signals of a window by all its data: states first, then the ports
+    /// that are in the filter. What is known beside, parameters and candidates times their amounts, is taken off.
+    pub fn smoothed(&self, window: &Window, noise: &Noise, known: &[(f64, &Column)], moved: &[f64]) -> Vec<Smoothed> {
+        let entered = Entered::new(window, self.ports, noise);
+        let (n, m, width, own) = (window.states, window.outputs, window.width, entered.width());
+        let decay = (-window.step / MEMORY).exp();
+        let mut filter = Filter::new(&self.variances(&entered), 1);
+        let driven = self.driven(&entered, decay);
+        let samples = window.samples.len();
+        let mut passed = Vec::with_capacity(samples);
+        let parameters = |slopes: &[f64]| -> f64 {
+            slopes[width - self.parameters.len()..].iter().zip(moved).map(|(slope, by)| slope * by).sum()
+        };
+        for sample in 0..samples {
+            let mut at = Passed { x: filter.x.clone(), p: filter.p.clone(), ..Passed::default() };
+            for output in 0..m {
+                let place = sample * m + output;
+                let residual = window.residuals[place];
+                if !residual.is_finite() {
+                    continue;
+                }
+                let mut h = vec![0.0; own];
+                entered.row(sample, output, &mut h);
+                let taken: f64 = known
+                    .iter()
+                    .map(|(amount, column)| amount * column.outputs.get(place).map_or(0.0, |it| f64::from(*it)))
+                    .sum();
+                let mut y = [residual - taken - parameters(&window.output_slopes[place * width..][..width])];
+                let update = filter.measure(&h, noise.outputs[output], &mut y);
+                at.measured.push((h, filter.gain().to_vec(), y[0], update.variance));
+            }
+            if sample + 1 < samples {
+                let mut a = vec![0.0; own * own];
+                entered.transition(sample, decay, &mut a);
+                let mut input = vec![0.0; own];
+                for (state, input) in input[..n].iter_mut().enumerate() {
+                    let place = sample * n + state;
+                    let taken: f64 = known
+                        .iter()
+                        .map(|(amount, column)| amount * column.next.get(place).map_or(0.0, |it| f64::from(*it)))
+                        .sum();
+                    *input = window.defects[place] + taken + parameters(&window.next_slopes[place * width..][..width]);
+                }
+                filter.predict(&a, &input, &driven);
+                at.a = a;
+            }
+            passed.push(at);
+        }
+        smoothed(&passed)
+    }
+}

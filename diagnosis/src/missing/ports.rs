@@ -1,0 +1,89 @@
+//! Places where a signal may be missing: the additive constants that a model declares, its commands, and the offset of
+//! every sensor.
+
+use crate::catalogue::Element;
+use crate::catalogue::naming::is_command;
+use crate::dataset::recorded::{Recorded, Source};
+use crate::plant::Seed;
+use crate::rig::{ElementSignals, Rig};
+
+/// Where a signal may be missing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Port {
+    /// As people call it: `strut`, `guide`, or the name of a signal.
+    pub place: String,
+    /// Unit of the missing signal.
+    pub unit: &'static str,
+    /// The element of the model there; none for a sensor.
+    pub element: Option<Element>,
+    /// What adds the signal.
+    pub entry: Entry,
+}
+
+/// What adds a port's signal to the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Entry {
+    /// A parameter that is an additive constant, by its index.
+    Constant(usize),
+    /// An input, by its index.
+    Input(usize),
+    /// A measured output's offset, by its row among a record's measured outputs.
+    Sensor(usize),
+}
+
+impl Port {
+    /// Every place in a rig with these records.
+    pub fn all(rig: &Rig, record: &Recorded) -> Vec<Self> {
+        let plant = &rig.plant;
+        let mut ports: Vec<Self> = Vec::new();
+        for (index, declared) in plant.parameters.iter().enumerate().filter(|(_, it)| it.port) {
+            let group = declared.name.split_once('.').map(|(group, _)| group);
+            let of_group = |it: &&ElementSignals| group == Some(it.element.name());
+            // A drive has one element, and its constant stands beside it.
+            let alone = rig.kind.elements.first().filter(|_| group.is_none());
+            let element = rig.kind.elements.iter().find(of_group).or(alone).map(|it| it.element);
+            let place = element.map_or(group.unwrap_or(&declared.name), Element::name);
+            ports.push(Self {
+                place: place.to_owned(),
+                unit: declared.unit.symbol,
+                element,
+                entry: Entry::Constant(index),
+            });
+        }
+        for (index, declared) in plant.inputs.iter().enumerate() {
+            if matches!(record.inputs[index], Source::Measured(_)) && is_command(&declared.name) {
+                let element = rig.kind.elements.iter().find(|it| it.element == Element::Actuator);
+                ports.push(Self {
+                    place: declared.name.clone(),
+                    unit: declared.unit.symbol,
+                    element: element.map(|it| it.element),
+                    entry: Entry::Input(index),
+                });
+            }
+        }
+        for (row, measured) in record.measured.iter().enumerate() {
+            let declared = &plant.outputs[measured.output];
+            ports.push(Self {
+                place: declared.name.clone(),
+                unit: declared.unit.symbol,
+                element: None,
+                entry: Entry::Sensor(row),
+            });
+        }
+        ports
+    }
+
+    /// Whether it is a sensor that adds the signal, and not the plant.
+    pub fn is_sensor(&self) -> bool {
+        matches!(self.entry, Entry::Sensor(_))
+    }
+
+    /// What the model's derivative is taken with respect to; none for a sensor.
+    pub fn seed(&self, samples: usize) -> Option<Seed> {
+        match self.entry {
+            Entry::Constant(index) => Some(Seed::Parameter(index)),
+            Entry::Input(index) => Some(Seed::Inputs(vec![(index, vec![1.0; samples])])),
+            Entry::Sensor(_) => None,
+        }
+    }
+}

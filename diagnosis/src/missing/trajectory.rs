@@ -1,0 +1,343 @@
+//! The trajectory that a rig has taken by all its sensors, and the model's one-sample predictions about it.
+
+use std::ops::Range;
+
+use crate::dataset::recorded::{Recorded, Source};
+use crate::estimation::fit::Point;
+use crate::plant::{Drive, Dynamics, Follower, Seed};
+use crate::screening::rms;
+
+use super::filter::{Filter, Passed, Smoothed, smoothed};
+use super::ports::{Entry, Port};
+
+/// Time in which a missing signal forgets what it was, in seconds: it may change as fast as a rig's own motions.
+pub const MEMORY: f64 = 0.3;
+/// Samples over which the states that matter are looked for.
+const LOOK: usize = 400;
+/// Accuracy of a sensor beside its noise, in shares of its signal's root mean square: none is calibrated better.
+const ACCURACY: f64 = 1e-3;
+/// Share of a state's nominal value by which the model's own integration may be wrong in a sample.
+const ROUNDING: f64 = 1e-7;
+
+/// What a smoother has to know of a rig and its records.
+pub struct Setting<'a> {
+    /// The equations.
+    pub dynamics: &'a dyn Dynamics,
+    /// Values of the parameters, and what inputs pass.
+    pub point: &'a Point,
+    /// Where signals may be missing.
+    pub ports: &'a [Port],
+    /// Parameters of which derivatives are wanted, by their indices.
+    pub parameters: &'a [usize],
+    /// Nominal value of each state.
+    pub nominal: &'a [f64],
+    /// States that show in some measured output, directly or by others.
+    pub active: Vec<usize>,
+    /// Size of each port's signal that would be as large as what the sensors show.
+    pub sizes: Vec<f64>,
+    /// Variance of each measured output's noise.
+    pub noise: Vec<f64>,
+}
+
+/// The model's one-sample predictions about a trajectory over a stretch of a record.
+pub struct Window {
+    /// Number of the record.
+    pub record: usize,
+    /// Its samples.
+    pub samples: Range<usize>,
+    /// Time between two samples in seconds.
+    pub step: f64,
+    /// Number of states that matter.
+    pub states: usize,
+    /// Number of measured outputs.
+    pub outputs: usize,
+    /// Number of derivatives: by states, ports of the plant, parameters.
+    pub width: usize,
+    /// States of the model along the trajectory, all of them, sample by sample.
+    pub trajectory: Vec<Vec<f64>>,
+    /// Derivatives of the next states, sample by sample and state by state.
+    pub next_slopes: Vec<f64>,
+    /// Derivatives of the outputs, sample by sample and output by output.
+    pub output_slopes: Vec<f64>,
+    /// Predicted next states less the trajectory's.
+    pub defects: Vec<f64>,
+    /// Measured outputs less predicted ones, not a number where they are missing.
+    pub residuals: Vec<f64>,
+    /// What drives the model.
+    pub drive: Drive,
+}
+
+impl<'a> Setting<'a> {
+    /// Looks which states matter and how large missing signals may be.
+    pub fn new(
+        dynamics: &'a dyn Dynamics,
+        (point, start): (&'a Point, &[f64]),
+        ports: &'a [Port],
+        parameters: &'a [usize],
+        nominal: &'a [f64],
+        records: &[Recorded],
+    ) -> Self {
+        let record = &records[0];
+        let section = &record.sections[0];
+        let drive = record.drive(&(section.start..section.end.min(section.start + LOOK)), &point.inputs);
+        let states = nominal.len();
+        let moving = ports.iter().filter_map(|it| it.seed(drive.inputs[0].len()));
+        let inputs: Vec<usize> =
+            (0..record.inputs.len()).filter(|it| matches!(record.inputs[*it], Source::Measured(_))).collect();
+        let driven =
+            inputs.iter().map(|input| Seed::Inputs(record.change(*input, drive.inputs[*input].clone())));
+        let seeds: Vec<Seed> = (0..states).map(Seed::State).chain(moving).chain(driven).collect();
+        let wanted: Vec<usize> = record.measured.iter().map(|it| it.output).collect();
+        let mut look = Look { width: seeds.len(), next: vec![], outputs: vec![] };
+        dynamics.followed(&point.parameters, start, &drive, (&seeds, &wanted), &mut look);
+        let active = look.active(states);
+        let magnitudes: Vec<f64> = (0..wanted.len()).map(|row| magnitude(records, row)).collect();
+        let noise = (0..wanted.len())
+            .map(|row| {
+                let floor = records.iter().map(|it| it.measured[row].noise_floor).fold(0.0, f64::max);
+                floor.powi(2) + (ACCURACY * magnitudes[row]).powi(2)
+            })
+            .collect();
+        let mut own = states;
+        let sizes = ports
+            .iter()
+            .map(|port| match port.entry {
+                Entry::Sensor(row) => magnitudes[row],
+                _ => {
+                    own += 1;
+                    look.size(own - 1, states, &magnitudes)
+                }
+            })
+            .collect();
+        Self { dynamics, point, ports, parameters, nominal, active, sizes, noise }
+    }
+
+    /// The ports of the plant.
+    fn moving(&self) -> impl Iterator<Item = (usize, &Port)> {
+        self.ports.iter().enumerate().filter(|(_, port)| !port.is_sensor())
+    }
+
+    /// What derivatives are taken of: states, ports, parameters.
+    fn seeds(&self, drive: &Drive) -> Vec<Seed> {
+        let states = self.active.iter().map(|it| Seed::State(*it));
+        let ports = self.moving().filter_map(|(_, port)| port.seed(drive.inputs[0].len()));
+        states.chain(ports).chain(self.parameters.iter().map(|it| Seed::Parameter(*it))).collect()
+    }
+
+    /// The model about the trajectory over some samples of a record; none if the model diverges there.
+    pub fn window(&self, records: &[Recorded], record: usize, samples: Range<usize>, start: &[f64]) -> Option<Window> {
+        let own = &records[record];
+        let drive = own.drive(&samples, &self.point.inputs);
+        let mut seeds = self.seeds(&drive);
+        let wanted: Vec<usize> = own.measured.iter().map(|it| it.output).collect();
+        let (n, moving) = (self.active.len(), self.moving().count());
+        let ports: Vec<f64> = self.moving().map(|(port, _)| self.sizes[port]).collect();
+        let variances = self.active.iter().map(|it| self.nominal[*it].powi(2)).chain(ports.iter().map(|it| it * it));
+        let variances: Vec<f64> = variances.collect();
+        let decay = (-own.step / MEMORY).exp();
+        let driven = (0..n)
+            .map(|it| (ROUNDING * self.nominal[self.active[it]]).powi(2))
+            .chain(ports.iter().map(|it| it * it * (1.0 - decay * decay)));
+        let mut filter = Filter::new(&variances, 1);
+        for (x, state) in filter.x.iter_mut().zip(&self.active) {
+            *x = start[*state];
+        }
+        let mut pass = Pass {
+            filter,
+            n,
+            width: n + moving,
+            decay,
+            active: &self.active,
+            measured: own.measured.iter().map(|it| &it.values[samples.clone()]).collect(),
+            noise: &self.noise,
+            driven: driven.collect(),
+            passed: Vec::with_capacity(samples.len()),
+            whole: Vec::with_capacity(samples.len()),
+        };
+        self.dynamics.followed(&self.point.parameters, start, &drive, (&seeds[..n + moving], &wanted), &mut pass);
+        let (passed, mut trajectory) = (pass.passed, pass.whole);
+        let smooth: Vec<Smoothed> = smoothed(&passed);
+        for (whole, smooth) in trajectory.iter_mut().zip(&smooth) {
+            for (state, value) in self.active.iter().zip(&smooth.x) {
+                whole[*state] = *value;
+            }
+        }
+        if !trajectory.iter().flatten().all(|it| it.is_finite()) {
+            return None;
+        }
+        let seeds = std::mem::take(&mut seeds);
+        let mut about = About {
+            active: &self.active,
+            measured: own.measured.iter().map(|it| &it.values[samples.clone()]).collect(),
+            window: Window {
+                record,
+                samples: samples.clone(),
+                step: own.step,
+                states: n,
+                outputs: wanted.len(),
+                width: seeds.len(),
+                trajectory,
+                next_slopes: Vec::new(),
+                output_slopes: Vec::new(),
+                defects: Vec::new(),
+                residuals: Vec::new(),
+                drive: drive.clone(),
+            },
+        };
+        self.dynamics.followed(&self.point.parameters, start, &drive, (&seeds, &wanted), &mut about);
+        Some(about.window)
+    }
+}
+
+fn magnitude(records: &[Recorded], row: usize) -> f64 {
+    let values: Vec<f64> = records.iter().flat_map(|it: &Recorded| it.measured[row].values.iter().copied()).collect();
+    rms(&values).max(f64::MIN_POSITIVE)
+}
+
+/// Which states matter: the largest derivatives over the first samples.
+struct Look {
+    width: usize,
+    next: Vec<f64>,
+    outputs: Vec<f64>,
+}
+
+impl Look {
+    /// States that reach a measured output, directly or by others.
+    fn active(&self, states: usize) -> Vec<usize> {
+        let mut reaches: Vec<bool> = (0..states)
+            .map(|state| self.outputs.chunks_exact(self.width).any(|row| row[state] > 0.0))
+            .collect();
+        loop {
+            let before = reaches.clone();
+            for (to, row) in self.next.chunks_exact(self.width).enumerate() {
+                for (from, slope) in row[..states].iter().enumerate() {
+                    reaches[from] |= before[to] && *slope > 0.0;
+                }
+            }
+            if reaches == before {
+                return (0..states).filter(|it| reaches[*it]).collect();
+            }
+        }
+    }
+
+    /// The size of a port's signal that moves what the sensors show, or else the states, as far as it moves.
+    fn size(&self, port: usize, states: usize, magnitudes: &[f64]) -> f64 {
+        let shown = self.outputs.chunks_exact(self.width).zip(magnitudes);
+        let shown = shown.filter(|(row, _)| row[port] > 0.0).map(|(row, size)| size / row[port]);
+        let inputs = states..self.width;
+        let driven = self.next.chunks_exact(self.width).filter(|row| row[port] > 0.0);
+        let driven = driven.flat_map(|row| {
+            inputs.clone().filter(|it| *it != port).map(|it| row[it] / row[port]).collect::<Vec<_>>()
+        });
+        let least = shown.fold(f64::INFINITY, f64::min);
+        if least.is_finite() { least } else { driven.fold(0.0, f64::max).max(f64::MIN_POSITIVE) }
+    }
+}
+
+impl Follower for Look {
+    fn state(&mut self, _: usize, _: &mut [f64]) {}
+
+    fn outputs(&mut self, _: usize, _: &[f64], slopes: &[f64], _: &mut [f64]) {
+        larger(&mut self.outputs, slopes);
+    }
+
+    fn advanced(&mut self, _: usize, _: &[f64], slopes: &[f64]) {
+        larger(&mut self.next, slopes);
+    }
+}
+
+fn larger(most: &mut Vec<f64>, slopes: &[f64]) {
+    most.resize(slopes.len(), 0.0);
+    most.iter_mut().zip(slopes).for_each(|(most, slope)| *most = most.max(slope.abs()));
+}
+
+/// An extended Kalman filter on its way through a record, every port's signal being free.
+struct Pass<'a> {
+    filter: Filter,
+    n: usize,
+    width: usize,
+    decay: f64,
+    active: &'a [usize],
+    measured: Vec<&'a [f64]>,
+    noise: &'a [f64],
+    driven: Vec<f64>,
+    passed: Vec<Passed>,
+    whole: Vec<Vec<f64>>,
+}
+
+impl Follower for Pass<'_> {
+    fn state(&mut self, _: usize, state: &mut [f64]) {
+        for (index, x) in self.active.iter().zip(&self.filter.x) {
+            state[*index] = *x;
+        }
+    }
+
+    fn outputs(&mut self, sample: usize, values: &[f64], slopes: &[f64], state: &mut [f64]) {
+        let mut passed = Passed { x: self.filter.x.clone(), p: self.filter.p.clone(), ..Passed::default() };
+        for (row, h) in slopes.chunks_exact(self.width).enumerate() {
+            let measured = self.measured[row][sample];
+            if !measured.is_finite() {
+                continue;
+            }
+            // About the prediction, which is nonlinear in the states and linear in the ports.
+            let own: f64 = h[..self.n].iter().zip(&passed.x).map(|(h, x)| h * x).sum();
+            let mut y = [measured - values[row] + own];
+            let update = self.filter.measure(h, self.noise[row], &mut y);
+            passed.measured.push((h.to_vec(), self.filter.gain().to_vec(), y[0], update.variance));
+        }
+        for (index, x) in self.active.iter().zip(&self.filter.x) {
+            state[*index] = *x;
+        }
+        self.whole.push(state.to_vec());
+        self.passed.push(passed);
+    }
+
+    fn advanced(&mut self, _: usize, next: &[f64], slopes: &[f64]) {
+        let (n, width) = (self.n, self.width);
+        let mut a = vec![0.0; width * width];
+        let mut input = vec![0.0; width];
+        for (row, state) in self.active.iter().enumerate() {
+            let slopes = &slopes[state * width..(state + 1) * width];
+            a[row * width..(row + 1) * width].copy_from_slice(slopes);
+            let own: f64 = slopes[..n].iter().zip(&self.filter.x).map(|(a, x)| a * x).sum();
+            input[row] = next[*state] - own;
+        }
+        for port in n..width {
+            a[port * width + port] = self.decay;
+        }
+        self.filter.predict(&a, &input, &self.driven);
+        if let Some(passed) = self.passed.last_mut() {
+            passed.a = a;
+        }
+    }
+}
+
+/// Linearises about a given trajectory.
+struct About<'a> {
+    active: &'a [usize],
+    measured: Vec<&'a [f64]>,
+    window: Window,
+}
+
+impl Follower for About<'_> {
+    fn state(&mut self, sample: usize, state: &mut [f64]) {
+        for index in self.active {
+            state[*index] = self.window.trajectory[sample][*index];
+        }
+    }
+
+    fn outputs(&mut self, sample: usize, values: &[f64], slopes: &[f64], state: &mut [f64]) {
+        self.window.trajectory[sample].copy_from_slice(state);
+        self.window.output_slopes.extend_from_slice(slopes);
+        let measured = self.measured.iter().map(|it| it[sample]);
+        self.window.residuals.extend(measured.zip(values).map(|(measured, value)| measured - value));
+    }
+
+    fn advanced(&mut self, sample: usize, next: &[f64], slopes: &[f64]) {
+        let width = self.window.width;
+        for index in self.active {
+            self.window.next_slopes.extend_from_slice(&slopes[index * width..(index + 1) * width]);
+            self.window.defects.push(next[*index] - self.window.trajectory[sample + 1][*index]);
+        }
+    }
+}

@@ -1,0 +1,351 @@
+//! Findings from a diagnosis: verdict, words, tables and pictures.
+
+mod pictures;
+mod summary;
+mod unnamed;
+
+use strut_model::Declaration;
+
+use crate::catalogue::naming::{self, name};
+use crate::dataset::recorded::{Recorded, Source};
+use crate::diagnosis::{Diagnosis, phi, root_mean_square};
+use crate::estimation::fit::{Handle, Point, Residuals};
+use crate::estimation::hypothesis::Term;
+use crate::report::findings::{
+    Answer, BaseParameter, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal,
+    SignalCorrection, Start, Verdict,
+};
+use crate::screening::rms;
+use crate::search::{Accepted, has_no_name};
+use crate::signal::distortion::{AFTER, Correction, Fault};
+
+/// Relative change of a base parameter that matters, if it is significant.
+const MISMATCH: f64 = 0.03;
+/// Difference of two excitations, over their magnitude, below which one is a repetition of the other.
+const SAME: f64 = 0.05;
+/// Φ of the best signal on held-out data below which nothing is to be believed.
+const INADEQUATE: f64 = 0.2;
+/// The same below which a model that drifts has lost what was measured: its errors are of what happened long before.
+const LOST: f64 = 0.95;
+
+impl Diagnosis<'_> {
+    /// Whether no signal on held-out data is met so well that anything is to be believed.
+    fn is_inadequate(&self) -> bool {
+        self.best() < INADEQUATE
+    }
+
+    /// Whether no signal on held-out data is met closely over the stretches that it is compared over. Of a model that drifts,
+    /// shorter ones tell more then.
+    pub fn is_lost(&self) -> bool {
+        self.best() < LOST
+    }
+
+    /// Φ of the signal on held-out data that is met best.
+    fn best(&self) -> f64 {
+        self.left().iter().map(unnamed::Left::phi).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Everything that is told.
+    pub fn findings(&self, data_problems: Vec<DataProblem>, seconds: f64) -> Findings {
+        let world = &self.world;
+        let (signals, starts, corrections) = self.signals();
+        let base_parameters = self.base_parameters();
+        let accepted = self.found.accepted.iter().chain(&self.rooted);
+        let named: Vec<&Accepted> = accepted.filter(|it| !has_no_name(it.term)).collect();
+        let mut unnamed = self.found.accepted.iter().find_map(|it| match it.term {
+            Term::Table(table) => Some(self.curve(table)),
+            Term::Response(output) => Some(self.response(output)),
+            Term::Cause(_) | Term::Fault(_) => None,
+        });
+        let mut effects: Vec<Effect> = named.iter().map(|it| self.effect(it)).collect();
+        let mut nearest = Vec::new();
+        let left = self.left();
+        if let Some(first) = named.first()
+            && unnamed.is_none()
+            && self.rooted.is_empty()
+            && unnamed::explains_too_little(&left)
+        {
+            unnamed = Some(self.place(first.term));
+            nearest = std::mem::take(&mut effects);
+        }
+        let sensors = !effects.is_empty() && named.iter().all(|it| name(it.term, &world.rig.plant).sensor);
+        let verdict = if self.is_inadequate() {
+            Verdict::ModelInadequate
+        } else if unnamed.is_some() && (effects.is_empty() || sensors) {
+            // A curve is about the plant, whatever is wrong with the sensors besides.
+            Verdict::Unnamed
+        } else if effects.iter().any(|effect| !effect.ambiguous_with.is_empty()) {
+            Verdict::Ambiguous
+        } else if sensors {
+            Verdict::SensorFault
+        } else if !effects.is_empty() {
+            Verdict::Named
+        } else if base_parameters.iter().any(|it| it.mismatch) {
+            Verdict::ParameterMismatch
+        } else if unnamed::misses_much(&left) {
+            // Something is there, and nothing that was looked for is it.
+            Verdict::ModelInadequate
+        } else {
+            Verdict::NoEffect
+        };
+        let experiment = effects.iter().find_map(|effect| effect.experiment.clone());
+        let mut findings = Findings {
+            format: FORMAT,
+            rig: world.rig.name.clone(),
+            train: world.train.iter().map(|record| record.name.clone()).collect(),
+            test: world.test.iter().map(|record| record.name.clone()).collect(),
+            verdict,
+            summary: String::new(),
+            effects,
+            common: self.found.common.iter().map(|it| self.effect(it)).collect(),
+            base_parameters,
+            pictures: self.pictures(),
+            signals,
+            starts,
+            corrections,
+            unnamed,
+            nearest,
+            experiment,
+            data_problems,
+            candidates: self.candidates(),
+            seconds,
+        };
+        findings.summary = summary::of(&findings);
+        findings
+    }
+
+    fn base_parameters(&self) -> Vec<BaseParameter> {
+        let rig = self.world.rig;
+        let mut list: Vec<BaseParameter> = self
+            .reversed
+            .iter()
+            .map(|handle| BaseParameter {
+                name: format!("{}.sign", naming::handle(*handle, &rig.plant).0.trim_end_matches(".gain")),
+                unit: "1".into(),
+                before: 1.0,
+                after: -1.0,
+                low: -1.0,
+                high: -1.0,
+                mismatch: true,
+            })
+            .collect();
+        let base = rig.base();
+        for interval in &self.intervals {
+            let (after, half) = (interval.value, interval.half);
+            if let Handle::Parameter(index) = interval.handle
+                && base.contains(&index)
+            {
+                let (before, declared) = (rig.parameters[index], &rig.plant.parameters[index]);
+                let change = (after - before).abs();
+                list.push(BaseParameter {
+                    name: declared.name.clone(),
+                    unit: declared.unit.symbol.into(),
+                    before,
+                    after,
+                    low: interval.low(),
+                    high: interval.high(),
+                    mismatch: change > 1.5 * half && change > MISMATCH * before.abs(),
+                });
+            }
+        }
+        list
+    }
+
+    /// All that the extended model has more than the starting model.
+    fn extended_terms(&self) -> Vec<Term> {
+        let hidden = self.rooted.iter().map(|it| it.term);
+        self.found.extended.terms.iter().copied().chain(hidden).collect()
+    }
+
+    /// The point of the held-out records as they were measured, and the errors there.
+    fn measured(&self, terms: &[Term], point: &Point) -> Option<(Point, Residuals)> {
+        let dynamics = self.world.dynamics(terms).ok()?;
+        let fit = self.world.fit(&*dynamics, self.measured, Vec::new());
+        let mut point =
+            Point { starts: self.world.starts(self.measured), ..point.within(&self.world.rig.plant) };
+        // What any master finds with the extended model, which knows nothing of what measuring did to the signals, but for what
+        // is told of: a signal's delay and lag go together.
+        let output = |term: &Term| match term {
+            Term::Fault(Handle::Output(output, Fault::Delay | Fault::Lag)) | Term::Response(output) => {
+                Some(*output)
+            }
+            _ => None,
+        };
+        let told: Vec<usize> = terms.iter().filter_map(output).collect();
+        for handle in self.found.extended.coordinates.iter().map(|it| it.handle) {
+            let kept = output(&Term::Fault(handle)).is_some_and(|it| told.contains(&it));
+            if self.world.usual(handle).is_some() && !kept {
+                point.set(handle, 0.0);
+            }
+        }
+        let settled = fit.settled(point);
+        let residuals = fit.residuals(&settled);
+        Some((settled, residuals))
+    }
+
+    /// What signals pass beside the model that is told.
+    fn corrections(&self, point: &Point) -> Vec<SignalCorrection> {
+        let plant = &self.world.rig.plant;
+        let of = |input: bool| {
+            move |(declared, correction): (&Declaration, &Correction)| {
+                let amounts = Fault::NAMED.map(|fault| (fault.name(), correction.get(fault)));
+                let response = correction.response();
+                let points =
+                    || response.0.iter().zip(AFTER).map(|(more, after)| Answer { after, value: 1.0 + more });
+                let response = if response.is_neutral() { Vec::new() } else { points().collect() };
+                let signal = declared.name.clone();
+                let told = SignalCorrection { signal, input, amounts: amounts.into(), response };
+                (!correction.is_neutral()).then_some(told)
+            }
+        };
+        let inputs = plant.inputs.iter().zip(&point.inputs).filter_map(of(true));
+        inputs.chain(plant.outputs.iter().zip(&point.outputs).filter_map(of(false))).collect()
+    }
+
+    /// The errors of the starting, the fitted and the extended model, where the last one starts, and what signals pass
+    /// beside it.
+    fn signals(&self) -> (Vec<Signal>, Vec<Start>, Vec<SignalCorrection>) {
+        let world = &self.world;
+        let extended = &self.found.extended;
+        let terms = self.extended_terms();
+        let all = (
+            self.measured(&[], &self.before),
+            self.measured(&[], &self.found.base.point),
+            self.measured(&terms, &extended.point),
+        );
+        let (Some((_, before)), Some((_, fitted)), Some((point, after))) = all else {
+            return (Vec::new(), Vec::new(), Vec::new());
+        };
+        let rows = self.measured.first().map_or(0, |record| record.measured.len());
+        let left = self.left();
+        let of = |row: usize| {
+            let first = &self.measured[0].measured[row];
+            let declared = &world.rig.plant.outputs[first.output];
+            let all = |residuals: &Residuals| -> Vec<f64> {
+                residuals.iter().flat_map(|record| record[row].iter().copied()).collect()
+            };
+            let measured: Vec<f64> =
+                self.measured.iter().flat_map(|it| it.measured[row].values.iter().copied()).collect();
+            let (before, fitted, after) = (all(&before), all(&fitted), all(&after));
+            Signal {
+                name: declared.name.clone(),
+                unit: declared.unit.symbol.into(),
+                phi_before: phi(&before, &measured),
+                phi_fitted: phi(&fitted, &measured),
+                phi_after: phi(&after, &measured),
+                phi_quiet: left[row].phi(),
+                rms_before: root_mean_square(&before),
+                rms_fitted: root_mean_square(&fitted),
+                rms_after: root_mean_square(&after),
+                noise_floor: first.noise_floor,
+                repeatability: repeatability(self.measured, row),
+            }
+        };
+        let names = || world.rig.plant.states.iter().map(|state| state.name.clone());
+        let sections =
+            self.measured.iter().flat_map(|record| record.sections.iter().map(move |it| (record, it)));
+        let starts = sections.zip(&point.starts).map(|((record, section), states)| Start {
+            record: record.name.clone(),
+            time: section.start as f64 * record.step,
+            end: section.end as f64 * record.step,
+            states: names().zip(states.iter().copied()).collect(),
+        });
+        ((0..rows).map(of).collect(), starts.collect(), self.corrections(&point))
+    }
+
+    fn effect(&self, accepted: &Accepted) -> Effect {
+        let plant = &self.world.rig.plant;
+        let words = name(accepted.term, plant);
+        let own = self.world.own_coordinates(accepted.term);
+        let parameters = self.intervals.iter().filter(|it| own.iter().any(|own| own.handle == it.handle));
+        let parameters = parameters.map(|it| {
+            let (point, ends) = (&self.found.extended.point, [it.value, it.low(), it.high()]);
+            let held = match it.handle {
+                Handle::Input(input, fault) => point.holds(plant, input, fault),
+                _ => None,
+            };
+            let (handle, ends) = match held {
+                Some(held) => {
+                    let before = point.parameters[held.parameter];
+                    (Handle::Parameter(held.parameter), ends.map(|end| held.with(before, end)))
+                }
+                None => (it.handle, ends),
+            };
+            let ((name, unit), [value, low, high]) = (naming::handle(handle, plant), ends);
+            EffectParameter { name, value, unit, low, high }
+        });
+        let rivals: Vec<naming::Name> = accepted.rivals.iter().map(|term| name(*term, plant)).collect();
+        Effect {
+            id: words.id,
+            element: words.element,
+            name: words.name,
+            equation: words.equation,
+            parameters: parameters.collect(),
+            evidence: accepted.evidence,
+            experiment: rivals.first().map(|rival| match words.experiment == rival.experiment {
+                true => words.experiment.clone(),
+                false => format!("{}; or {}", words.experiment, rival.experiment),
+            }),
+            ambiguous_with: rivals.iter().map(naming::Name::short).collect(),
+        }
+    }
+
+    fn candidates(&self) -> Vec<Candidate> {
+        let plant = &self.world.rig.plant;
+        let among = |all: &[Accepted], term: Term| all.iter().any(|it| it.term == term);
+        let screened = self.found.screened.iter().map(|it| {
+            let words = name(it.term, plant);
+            let own = self.world.own_coordinates(it.term);
+            let tried = self.found.tried.iter().find(|tried| tried.term == it.term);
+            let outcome = match tried {
+                _ if among(&self.found.accepted, it.term) => "accepted".into(),
+                _ if among(&self.found.common, it.term) => {
+                    "fitted along: every rig has a little of it".into()
+                }
+                None => "not seen in what the model misses".into(),
+                Some(tried) => match (&tried.fitted, tried.evidence.refusal()) {
+                    (Err(error), _) => error.clone(),
+                    (Ok(_), Some(refusal)) => refusal,
+                    (Ok(_), None) => "another cause explains it better, or is much larger".into(),
+                },
+            };
+            Candidate {
+                id: words.id,
+                element: words.element,
+                name: words.name,
+                fitted: tried.is_some_and(|tried| tried.fitted.is_ok()),
+                evidence: tried.map(|tried| tried.evidence),
+                detectable: Some(it.detectable).filter(|size| size.is_finite()),
+                unit: own.first().map_or_else(String::new, |it| naming::handle(it.handle, plant).1),
+                outcome,
+            }
+        });
+        screened.collect()
+    }
+}
+
+/// Root mean square of the difference of the first two records with the same excitation, over √2: no model can do
+/// better than a repetition does.
+fn repeatability(records: &[Recorded], row: usize) -> Option<f64> {
+    let pairs = records
+        .iter()
+        .enumerate()
+        .flat_map(|(index, one)| records[..index].iter().map(move |two| (one, two)));
+    let (one, two) = pairs.into_iter().find(|(one, two)| same_excitation(one, two))?;
+    let values = one.measured[row].values.iter().zip(&two.measured[row].values);
+    let differences: Vec<f64> = values.map(|(one, two)| one - two).collect();
+    Some(root_mean_square(&differences) / 2.0_f64.sqrt())
+}
+
+/// Whether every measured input is the same but for noise.
+fn same_excitation(one: &Recorded, two: &Recorded) -> bool {
+    one.len() == two.len()
+        && (one.step - two.step).abs() < 1e-6 * one.step
+        && one.inputs.iter().zip(&two.inputs).all(|(one, two)| match (one, two) {
+            (Source::Measured(one), Source::Measured(two)) => {
+                let differences: Vec<f64> = one.iter().zip(two).map(|(one, two)| one - two).collect();
+                rms(&differences) < SAME * rms(one)
+            }
+            _ => true,
+        })
+}

@@ -1,0 +1,123 @@
+//! The extended model: a parameter set, an SSV and an FMU.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use strut_model::Value;
+
+use crate::catalogue::naming;
+use crate::diagnosis::Diagnosis;
+use crate::estimation::fit::Handle;
+use crate::report::file::replace;
+use crate::rig::Rig;
+
+/// Name of the FMU.
+pub const NAME: &str = "extended";
+
+impl Diagnosis<'_> {
+    /// The extended model's parameter set, as `build-fmu --parameters` takes it.
+    pub fn parameter_set(&self) -> String {
+        let rig = self.world.rig;
+        let extended = &self.found.extended;
+        let point = extended.point.within(&rig.plant);
+        let choices = self.world.choices(&extended.terms);
+        let mut text = format!(
+            "fmu = \"{NAME}\"\nmodel = \"{}\"\ntitle = \"{} as a diagnosis has extended it\"\nsource = \"diagnosis\"\n\n\
+             [values]\n",
+            rig.plant.name, rig.fmu
+        );
+        for (index, declared) in rig.plant.parameters.iter().enumerate() {
+            let value = point.parameters[index];
+            let own = extended.coordinates.iter().any(|it| it.handle == Handle::Parameter(index));
+            let fitted = own || value != extended.point.parameters[index];
+            if fitted || value != declared.start {
+                let source = if fitted { "fitted to the records" } else { "starting model" };
+                let unit = declared.unit.symbol;
+                let (low, high) = (declared.min.unwrap_or(f64::MIN), declared.max.unwrap_or(f64::MAX));
+                let value = value.clamp(low, high);
+                let _ = writeln!(
+                    text,
+                    "\"{}\" = {{ value = {value:?}, unit = \"{unit}\", source = \"{source}\" }}",
+                    declared.name
+                );
+            }
+        }
+        for (declared, start) in rig.plant.states.iter().zip(&rig.start) {
+            if *start != declared.start {
+                let (name, unit) = (&declared.name, declared.unit.symbol);
+                let _ = writeln!(
+                    text,
+                    "\"{name}\" = {{ value = {start:?}, unit = \"{unit}\", source = \"starting model\" }}"
+                );
+            }
+        }
+        for (declaration, choice) in rig.plant.settings.iter().zip(&choices) {
+            let value = match (choice, declaration.kind) {
+                (Value::Boolean(flag), _) => flag.to_string(),
+                (Value::Integer(item), strut_model::SettingKind::Choice(enumeration)) => {
+                    format!("\"{}\"", enumeration.items[*item as usize - 1].0)
+                }
+                (Value::Integer(number), _) => number.to_string(),
+                (Value::Text(text), _) => format!("{text:?}"),
+                (Value::Real(number), _) => format!("{number:?}"),
+            };
+            let _ = writeln!(
+                text,
+                "\"{}\" = {{ value = {value}, source = \"starting model\" }}",
+                declaration.name
+            );
+        }
+        let signals: Vec<String> = extended
+            .coordinates
+            .iter()
+            .filter(|it| !matches!(it.handle, Handle::Parameter(_)) && point.get(it.handle) != 0.0)
+            .map(|it| {
+                let (name, unit) = naming::handle(it.handle, &rig.plant);
+                format!("# {name} = {:?} {unit}\n", point.get(it.handle))
+            })
+            .collect();
+        if !signals.is_empty() {
+            let _ = write!(
+                text,
+                "\n# What signals pass on their way into the model and out of it, the timing of the channels included:\n{}",
+                signals.concat()
+            );
+        }
+        text
+    }
+
+    /// The fitted values as a parameter set of SSP 1.0, for the starting model's FMU.
+    pub fn ssv(&self) -> String {
+        let rig: &Rig = self.world.rig;
+        let point = self.found.extended.point.within(&rig.plant);
+        let mut text = String::from(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ssv:ParameterSet version=\"1.0\" name=\"extended\" \
+             xmlns:ssv=\"http://ssp-standard.org/SSP1/SystemStructureParameterValues\">\n  <ssv:Parameters>\n",
+        );
+        for (index, declared) in rig.plant.parameters.iter().enumerate() {
+            let value = point.parameters[index];
+            if value != rig.parameters[index] {
+                let _ = writeln!(
+                    text,
+                    "    <ssv:Parameter name=\"{}\"><ssv:Real value=\"{value:?}\"/></ssv:Parameter>",
+                    declared.name
+                );
+            }
+        }
+        text.push_str("  </ssv:Parameters>\n</ssv:ParameterSet>\n");
+        text
+    }
+
+    /// Writes `extended.toml` and `extended.ssv`, and `extended.fmu` if asked for.
+    ///
+    /// # Errors
+    /// If a file cannot be written or the FMU cannot be built.
+    pub fn write_extended(&self, folder: &Path, fmu: bool) -> Result<(), String> {
+        let set = folder.join("extended.toml");
+        let files = [(set.clone(), self.parameter_set()), (folder.join("extended.ssv"), self.ssv())];
+        for (path, text) in files {
+            replace(&path, &text).map_err(|error| format!("cannot write `{}`: {error}", path.display()))?;
+        }
+        if fmu { build_fmu::pack(&build_fmu::strut(), &set, folder) } else { Ok(()) }
+    }
+}
