@@ -25,6 +25,8 @@ pub struct Declaration {
     pub fixed: bool,
     /// A state that is an output as well.
     pub output: bool,
+    /// An additive constant at which the diagnosis looks for a missing signal.
+    pub port: bool,
 }
 
 /// Collects declarations and prefixes the names of groups.
@@ -197,14 +199,23 @@ mod tests {
         /// Damping rate
         #[var(unit = N_S_PER_M)]
         damping: R,
+        /// Force offset
+        #[var(unit = N, port)]
+        preload: R,
     }
 
     #[test]
     fn a_flattened_group_stands_among_the_others() {
         let [all, own] = [Declarations::of::<More<f64>>(), Declarations::of::<Element<f64>>()];
         assert_eq!((&all[..6], all[6].name.as_str()), (&own[..], "damping"));
-        let more: More<f64> = from_slice(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+        let more: More<f64> = from_slice(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
         assert_eq!((more.element.coulomb.velocity, more.damping), (3.0, 7.0));
+    }
+
+    #[test]
+    fn only_the_flagged_variable_is_a_port() {
+        let ports: Vec<_> = Declarations::of::<More<f64>>().into_iter().filter(|it| it.port).collect();
+        assert_eq!(ports.iter().map(|it| it.name.as_str()).collect::<Vec<_>>(), ["preload"]);
     }
 
     #[test]

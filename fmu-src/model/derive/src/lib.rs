@@ -12,8 +12,9 @@ use syn::{Attribute, DeriveInput, Expr, ExprLit, Lit, Meta, parse_macro_input};
 ///
 /// A field of the struct's type parameter is a variable and carries `#[var(...)]` with `unit` (a
 /// constant of `strut_model::unit` or any expression of type `Unit`) and, optional, `start` (0),
-/// `min`, `max`, `nominal`, `fixed` (a parameter that is fixed at initialisation) and `output` (a
-/// state that is an output as well). An array of them is declared alike, with one start for all or an
+/// `min`, `max`, `nominal`, `fixed` (a parameter that is fixed at initialisation), `output` (a
+/// state that is an output as well) and `port` (a parameter that is an additive constant at which the
+/// diagnosis looks for a missing signal). An array of them is declared alike, with one start for all or an
 /// array of starts; its variables are named `field[1]`, `field[2]` and so on. A field of another type is
 /// a group: its variables are named `field.variable`, or `variable` if it carries `#[var(flatten)]`.
 #[proc_macro_derive(Variables, attributes(var))]

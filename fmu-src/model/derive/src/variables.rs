@@ -14,6 +14,7 @@ struct Var {
     nominal: Option<Expr>,
     fixed: bool,
     output: bool,
+    port: bool,
 }
 
 pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
@@ -35,7 +36,7 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
         let text = ident.unraw().to_string();
         let doc = crate::doc(&field.attrs, ident)?;
         if is_scalar(&field.ty, scalar) {
-            let Var { unit, start, min, max, nominal, fixed, output } = parse(field, ident)?;
+            let Var { unit, start, min, max, nominal, fixed, output, port } = parse(field, ident)?;
             let (min, max, nominal) = (option(min), option(max), option(nominal));
             count.push(quote!(1));
             gather.push(quote!(#ident: next()));
@@ -43,10 +44,10 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
             combine.push(quote!(#ident: f(&self.#ident, others.map(|it| &it.#ident))));
             declare.push(quote!(declarations.variable(::strut_model::Declaration {
                 name: #text.into(), doc: #doc.into(), unit: #unit, start: #start,
-                min: #min, max: #max, nominal: #nominal, fixed: #fixed, output: #output,
+                min: #min, max: #max, nominal: #nominal, fixed: #fixed, output: #output, port: #port,
             });));
         } else if let Some(length) = array_length(&field.ty, scalar) {
-            let Var { unit, start, min, max, nominal, fixed, output } = parse(field, ident)?;
+            let Var { unit, start, min, max, nominal, fixed, output, port } = parse(field, ident)?;
             let (min, max, nominal) = (option(min), option(max), option(nominal));
             // One start for all, or one for each.
             let start = match start {
@@ -63,7 +64,7 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
                 declarations.variable(::strut_model::Declaration {
                     name: format!("{}[{}]", #text, index + 1), doc: format!("{}, {}", #doc, index + 1),
                     unit: #unit, start: #start, min: #min, max: #max, nominal: #nominal, fixed: #fixed,
-                    output: #output,
+                    output: #output, port: #port,
                 });
             }));
         } else {
@@ -127,6 +128,7 @@ fn parse(field: &Field, ident: &Ident) -> syn::Result<Var> {
         nominal: None,
         fixed: false,
         output: false,
+        port: false,
     };
     attribute.parse_nested_meta(|meta| {
         let key = meta.path.require_ident()?.to_string();
@@ -138,9 +140,10 @@ fn parse(field: &Field, ident: &Ident) -> syn::Result<Var> {
             "nominal" => var.nominal = Some(meta.value()?.parse()?),
             "fixed" => var.fixed = true,
             "output" => var.output = true,
+            "port" => var.port = true,
             other => {
                 return Err(meta.error(format!(
-                    "unknown `{other}`; a variable has unit, start, min, max, nominal, fixed, output"
+                    "unknown `{other}`; a variable has unit, start, min, max, nominal, fixed, output, port"
                 )));
             }
         }

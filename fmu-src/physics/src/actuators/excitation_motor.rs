@@ -56,7 +56,7 @@ pub struct Parameters<R> {
     /// Springs that carry the static load of the rig (3)
     pub base_spring: BaseSpring<R>,
     /// Static load that the springs leave to the motor, positive downwards
-    #[var(unit = N, start = 0.0)]
+    #[var(unit = N, start = 0.0, port)]
     pub constant_load: R,
     /// Force of one ampere, and voltage that is induced at one metre per second
     #[var(unit = N_PER_A, start = 93.0, min = 1e-6)]

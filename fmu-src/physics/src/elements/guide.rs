@@ -5,7 +5,7 @@ use strut_model::{Real, Variables};
 use crate::effects::{Coulomb, VelocityCurve, switched_on};
 
 /// The vertical guide of a body: a force that resists its absolute velocity, TUM 4.3.3 and eq. 12; damping and
-/// unnamed force after the catalogue of diagnosis, 15, 16 and G.
+/// unnamed force after the catalogue of diagnosis, 15, 16 and G; a constant force as a port of diagnosis.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Guide<R> {
     /// Friction
@@ -13,6 +13,9 @@ pub struct Guide<R> {
     /// Damping rate
     #[var(unit = N_S_PER_M, start = 0.0, min = 0.0)]
     pub damping: R,
+    /// Constant force between body and ground, opposing upward motion
+    #[var(unit = N, start = 0.0, port)]
+    pub preload: R,
     /// Unnamed force
     pub curve: VelocityCurve<R>,
 }
@@ -24,36 +27,39 @@ impl<R: Real> Guide<R> {
         if further.vanishes() {
             return self.coulomb.added_to(other, velocity);
         }
-        let passive = || other() + self.damping * velocity + self.curve.force(velocity);
+        let passive = || other() + self.damping * velocity + self.curve.force(velocity) + self.preload;
         self.coulomb.added_to(passive, velocity)
     }
 
     /// How many effects are on beside Coulomb friction.
     pub fn further_effects(&self) -> R {
-        switched_on([self.damping, self.curve.scale])
+        switched_on([self.damping, self.curve.scale, self.preload])
     }
 }
 
-/// The vertical guide of a wheel (catalogue of diagnosis, 15 and 17).
+/// The vertical guide of a wheel (catalogue of diagnosis, 15 and 17), with a constant force as a port of diagnosis.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct WheelGuide<R> {
     /// Damping rate
     #[var(unit = N_S_PER_M, start = 0.0, min = 0.0)]
     pub damping: R,
+    /// Constant force between wheel and ground, opposing upward motion
+    #[var(unit = N, start = 0.0, port)]
+    pub preload: R,
     /// Friction
     pub coulomb: Coulomb<R>,
 }
 
 impl<R: Real> WheelGuide<R> {
-    /// The force that resists the wheel's absolute velocity.
+    /// The force that resists the wheel's absolute velocity, and the constant one.
     #[inline]
     pub fn resistance(&self, velocity: R) -> R {
-        self.coulomb.added_to(|| self.damping * velocity, velocity)
+        self.coulomb.added_to(|| self.damping * velocity + self.preload, velocity)
     }
 
     /// How many effects are on.
     pub fn further_effects(&self) -> R {
-        switched_on([self.damping, self.coulomb.force])
+        switched_on([self.damping, self.preload, self.coulomb.force])
     }
 }
 
@@ -69,7 +75,20 @@ mod tests {
             velocity_range: 0.5,
             over_velocity: std::array::from_fn(|i| 8.0 * (i as f64 - (POINTS / 2) as f64)),
         };
-        Guide { coulomb: Coulomb { force: 20.0, velocity: 0.008 }, damping, curve }
+        Guide { coulomb: Coulomb { force: 20.0, velocity: 0.008 }, damping, preload: 0.0, curve }
+    }
+
+    fn wheel_guide(damping: f64, force: f64) -> WheelGuide<f64> {
+        WheelGuide { damping, preload: 0.0, coulomb: Coulomb { force, velocity: 0.008 } }
+    }
+
+    #[test]
+    fn a_preload_is_added_whatever_the_velocity() {
+        let (body, wheel) = (Guide { preload: 7.0, ..guide(0.0, 0.0) }, wheel_guide(0.0, 0.0));
+        let wheel = WheelGuide { preload: -3.0, ..wheel };
+        assert_eq!((body.further_effects(), wheel.further_effects()), (1.0, 1.0));
+        assert_eq!(body.added_to(|| 5.0, 0.0, 1.0), 12.0);
+        assert_eq!([-1.0, 0.0, 1.0].map(|v| wheel.resistance(v)), [-3.0; 3]);
     }
 
     proptest! {
@@ -93,14 +112,14 @@ mod tests {
 
         #[test]
         fn the_wheel_s_guide_is_odd_and_takes_energy(v in -5.0..5.0_f64) {
-            let guide = WheelGuide { damping: 50.0, coulomb: Coulomb { force: 20.0, velocity: 0.008 } };
+            let guide = wheel_guide(50.0, 20.0);
             prop_assert!(guide.resistance(v) * v >= 0.0);
             prop_assert_eq!(guide.resistance(-v), -guide.resistance(v));
         }
 
         #[test]
         fn the_wheel_s_guide_is_absent_without_damping_and_friction(v in -5.0..5.0_f64) {
-            let guide = WheelGuide { damping: 0.0, coulomb: Coulomb { force: 0.0, velocity: 0.008 } };
+            let guide = wheel_guide(0.0, 0.0);
             prop_assert_eq!((guide.resistance(v), guide.further_effects()), (0.0, 0.0));
         }
     }

@@ -40,7 +40,7 @@ pub struct Strut<R> {
     /// Stops
     pub stop: Stop<R>,
     /// Constant force that pulls body and wheel together
-    #[var(unit = N, start = 0.0)]
+    #[var(unit = N, start = 0.0, port)]
     pub preload: R,
     /// Linkage between wheel and strut
     pub linkage: Linkage<R>,

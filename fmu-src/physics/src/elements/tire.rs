@@ -18,6 +18,9 @@ pub struct Tire<R> {
     /// Damping rate (d_w, B_us, b_1)
     #[var(unit = N_S_PER_M, start = 50.0, min = 0.0)]
     pub damping: R,
+    /// Constant force that pushes wheel and road apart
+    #[var(unit = N, start = 0.0, port)]
+    pub preload: R,
     /// Friction
     pub coulomb: Coulomb<R>,
     /// Unnamed force
@@ -45,16 +48,16 @@ impl<R: Real> Load<R> {
 
 impl<R: Real> Tire<R> {
     /// The force that presses on the road, less the static load, while the tyre cannot leave it; `further` is zero
-    /// if there is no unnamed force.
+    /// if there is neither preload nor unnamed force.
     #[inline]
     pub fn force(&self, compression: R, velocity: R, further: R) -> R {
         let named = self.named(compression, velocity);
-        if further.vanishes() { named } else { named + self.curve.force(compression) }
+        if further.vanishes() { named } else { named + self.curve.force(compression) + self.preload }
     }
 
     /// How many effects are on beside the quadratic rate and Coulomb friction.
     pub fn further_effects(&self) -> R {
-        switched_on([self.curve.scale])
+        switched_on([self.curve.scale, self.preload])
     }
 
     #[inline]
@@ -116,6 +119,7 @@ mod tests {
             stiffness: 152_140.0,
             quadratic,
             damping: 50.0,
+            preload: 0.0,
             coulomb: Coulomb { force: friction, velocity: 0.008 },
             curve: CompressionCurve::none(),
         }
@@ -126,6 +130,13 @@ mod tests {
         let load = tire(4_075_400.0, 0.0).load(94.38 + 23.92);
         assert!((load.static_load - 1160.127).abs() < 1e-3);
         assert!((load.lift_off_deflection - 10.682e-3).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_preload_presses_on_the_road() {
+        let loaded = Tire { preload: 10.0, ..tire(0.0, 0.0) };
+        assert_eq!(loaded.further_effects(), 1.0);
+        assert_eq!(loaded.force(0.0, 0.0, loaded.further_effects()), 10.0);
     }
 
     proptest! {

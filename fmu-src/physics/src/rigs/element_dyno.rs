@@ -96,16 +96,16 @@ impl Model for ElementDyno {
                 source: "TUM 4.3.1",
             },
             Equation {
-                text: "strut: F = -(k x + d (v + alpha (sqrt(v^2 + eps^2) - eps)) + F_c tanh(v/v_0))",
-                source: "TUM eq. 12, 14; asymmetry derived from Table 9",
+                text: "strut: F = -(k x + d (v + alpha (sqrt(v^2 + eps^2) - eps)) + F_c tanh(v/v_0) + F_p)",
+                source: "TUM eq. 12, 14; asymmetry derived from Table 9; F_p: port of diagnosis",
             },
             Equation {
                 text: "further effects of the strut and its memory: as in QuarterCar",
                 source: "catalogue of diagnosis: 02-14, 32, G",
             },
             Equation {
-                text: "tyre: F = k_t c + q c^2 + d_t c' + F_t tanh(c'/v_0) + s f(c), c = -x, F >= -F_0",
-                source: "TUM eq. 5, 4.3.2, Table 7; curve: catalogue of diagnosis: G",
+                text: "tyre: F = k_t c + q c^2 + d_t c' + F_t tanh(c'/v_0) + s f(c) + F_0t, c = -x, F >= -F_0",
+                source: "TUM eq. 5, 4.3.2, Table 7; curve: catalogue of diagnosis: G; F_0t: port of diagnosis",
             },
         ],
         notes: &[
@@ -119,7 +119,8 @@ impl Model for ElementDyno {
              Table 7; counted from static equilibrium the tyre's rate is 149693 N/m there and 152186 N/m, as the text \
              has it, 0.316 mm further in.",
             "Effects beyond TUM's are off at their start values; further_effects counts the ones that are on. A tyre has \
-             none of the strut's memory. A positive preload pulls the ends together and shows as a negative force.",
+             none of the strut's memory. A positive strut.preload pulls the ends together and shows as a negative force. \
+             A positive tire.preload presses on the plate and shows as a positive force.",
             "A tyre that has left the plate comes back at the deflection at which its spring carries nothing.",
         ],
         experiment: Experiment {
@@ -332,6 +333,18 @@ mod tests {
         assert!((dyno.get("force") - (shed - 110.0)).abs() < 1e-4, "{}", dyno.get("force"));
         dyno.step(0.2);
         assert!((dyno.get("force") + 110.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_preload_shows_as_the_element_s_own_force() {
+        for (set, port, expected) in
+            [("TumStrutDyno", "strut.preload", -10.0), ("TumTireDyno", "tire.preload", 10.0)]
+        {
+            let mut loaded = Dyno::published(set).start(port, 10.0).initialized();
+            let mut neutral = Dyno::published(set).initialized();
+            let change = force(&mut loaded, 2e-3, 0.1) - force(&mut neutral, 2e-3, 0.1);
+            assert!((change - expected).abs() < 1e-9, "{port}: {change}");
+        }
     }
 
     #[test]

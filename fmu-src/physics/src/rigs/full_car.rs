@@ -159,13 +159,13 @@ impl Model for FullCar {
                 source: "Ajala eq. 49",
             },
             Equation {
-                text: "F_strut,i = k x + d (v + alpha (sqrt(v^2 + eps^2) - eps)) + F_c tanh(v/v_0) +- k_bar (x_left \
-                    - x_right), x = z_i - z_u,i, v = x'",
-                source: "TUM eq. 12, 14; anti-roll bar: linear torsion spring",
+                text: "F_strut,i = k x + d (v + alpha (sqrt(v^2 + eps^2) - eps)) + F_c tanh(v/v_0) + F_p +- k_bar \
+                    (x_left - x_right), x = z_i - z_u,i, v = x'",
+                source: "TUM eq. 12, 14; anti-roll bar: linear torsion spring; F_p: port of diagnosis",
             },
             Equation {
-                text: "F_tire,i = k_t c + q c^2 + d_t c' + F_t tanh(c'/v_0), c = z_r,i - z_u,i",
-                source: "TUM eq. 5, 4.3.2, Table 7",
+                text: "F_tire,i = k_t c + q c^2 + d_t c' + F_t tanh(c'/v_0) + F_0t, c = z_r,i - z_u,i",
+                source: "TUM eq. 5, 4.3.2, Table 7; F_0t: port of diagnosis",
             },
             Equation {
                 text: "with lift-off: F_tire,i >= -F_0,i, and F_tire,i = -F_0,i for c <= c_l, F_0,fl = m g l_r \

@@ -42,7 +42,7 @@ pub struct Parameters<R> {
     /// Spring to the ground
     pub ground_spring: GroundSpring<R>,
     /// Static load, positive against positive positions
-    #[var(unit = N, start = 0.0)]
+    #[var(unit = N, start = 0.0, port)]
     pub constant_load: R,
     /// Amplifier
     pub amplifier: Amplifier<R>,
@@ -203,6 +203,13 @@ mod tests {
         drive.step(0.5);
         assert!((drive.get("position") - 0.5 * 2.0 * 0.25).abs() < 1e-9);
         assert_eq!(drive.get("acceleration"), 2.0);
+    }
+
+    #[test]
+    fn a_constant_load_holds_the_carriage_back() {
+        let mut drive = Bare::new().start("constant_load", 10.0).initialized();
+        // 10 N on 20 kg.
+        assert_eq!(drive.get("acceleration"), -0.5);
     }
 
     #[test]

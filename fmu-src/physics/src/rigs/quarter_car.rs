@@ -175,13 +175,13 @@ impl Model for QuarterCar {
                 source: "catalogue of diagnosis: 12, 13",
             },
             Equation {
-                text: "F_guide = F_g tanh(z_s'/v_0) + d_g z_s' + s f(z_s'), F_wheel_guide = F_w tanh(z_u'/v_0) + d_w \
-                    z_u'",
-                source: "TUM eq. 12; damping, curve and wheel: catalogue of diagnosis: 15-17, G",
+                text: "F_guide = F_g tanh(z_s'/v_0) + d_g z_s' + s f(z_s') + F_0g, F_wheel_guide = F_w tanh(z_u'/v_0) + d_w \
+                    z_u' + F_0w",
+                source: "TUM eq. 12; damping, curve and wheel: catalogue of diagnosis: 15-17, G; F_0g, F_0w: ports of diagnosis",
             },
             Equation {
-                text: "F_tire = k_t c + q c^2 + d_t c' + F_t tanh(c'/v_0) + s f(c), c = z_r - z_u",
-                source: "TUM eq. 5, 4.3.2, Table 7; curve: catalogue of diagnosis: G",
+                text: "F_tire = k_t c + q c^2 + d_t c' + F_t tanh(c'/v_0) + s f(c) + F_0t, c = z_r - z_u",
+                source: "TUM eq. 5, 4.3.2, Table 7; curve: catalogue of diagnosis: G; F_0t: port of diagnosis",
             },
             Equation {
                 text: "F_act = R(S(k T(D(u))) + s f(k T(D(u)))): delay D (1 - t s/2 + t^2 s^2/12)/(1 + t s/2 + t^2 \
@@ -234,7 +234,7 @@ impl Model for QuarterCar {
              within 1 % of the limit: u ((u^2 + 1e-4)/(1 + 1e-4))^((n - 1)/2).",
             "A stiff Maxwell branch, a mount much stiffer than 1e6 N/m or steep presliding friction make the equations \
              stiff: solver.method = Rosenbrock is then the faster one.",
-            "Static equilibrium is that without preload and unnamed forces.",
+            "Static equilibrium is that without preloads and unnamed forces.",
             "At lift-off the tyre's damping ends and at landing it begins at once, as in any point contact.",
         ],
         experiment: Experiment {

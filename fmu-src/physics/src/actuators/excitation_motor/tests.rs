@@ -147,6 +147,13 @@ fn the_offset_carries_the_constant_load() {
 }
 
 #[test]
+fn a_constant_load_pulls_the_rod_down() {
+    let mut motor = motor(Drive::Voltage).start("constant_load", 8.0).initialized();
+    // 8 N on 16 kg.
+    assert_eq!(motor.get("acceleration"), -0.5);
+}
+
+#[test]
 fn a_wheel_that_presses_moves_the_plate_down_until_the_loop_has_answered() {
     let mut motor = motor(Drive::Position).initialized();
     let course = motor.follow("wheel.force", |_| 200.0, 1e-3, 2000, |m| (m.get("position"), m.get("force")));

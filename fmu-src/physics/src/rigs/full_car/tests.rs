@@ -148,6 +148,23 @@ const MODES: [(f64, [f64; 7]); 4] = [
 ];
 
 #[test]
+fn constant_forces_act_on_both_corners_of_their_axle() {
+    let changes = |put: fn(&mut Parameters<f64>)| {
+        let mut loaded = declared();
+        put(&mut loaded);
+        evaluate(CAR, &loaded, [0.0; 14], [0.0; 12]).1
+    };
+    let output = changes(|p| p.strut.rear.preload = 10.0);
+    // Both rear corners are pulled down by 10 N, 1.35 m behind the centre.
+    assert!((output.heave.acceleration + 20.0 / 1400.0).abs() < 1e-12);
+    assert!((output.pitch.acceleration + 2.0 * 1.35 * 10.0 / 2300.0).abs() < 1e-12);
+    assert_eq!(output.wheel.to_array().map(|wheel| wheel.acceleration), [0.0, 0.0, 0.25, 0.25]);
+    let output = changes(|p| p.tire.front.preload = 10.0);
+    assert_eq!(output.wheel.to_array().map(|wheel| wheel.acceleration), [0.25, 0.25, 0.0, 0.0]);
+    assert_eq!(output.wheel.to_array().map(|wheel| wheel.force), [10.0, 10.0, 0.0, 0.0]);
+}
+
+#[test]
 fn the_undamped_modes_are_those_of_the_stiffness_matrix() {
     let mut p = lopsided();
     for damping in [

@@ -55,7 +55,8 @@ impl<R: Real> WheelTire<R> {
     #[inline]
     fn element(&self) -> Tire<R> {
         let Self { stiffness, quadratic, damping, coulomb } = *self;
-        Tire { stiffness, quadratic, damping, coulomb, curve: CompressionCurve::none() }
+        let preload = R::from(0.0);
+        Tire { stiffness, quadratic, damping, preload, coulomb, curve: CompressionCurve::none() }
     }
 }
 

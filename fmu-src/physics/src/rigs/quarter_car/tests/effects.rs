@@ -25,6 +25,7 @@ fn every_effect() -> Parameters<f64> {
     (p.strut.curve.scale, p.strut.curve.over_velocity[7]) = (1.0, 15.0);
     (p.guide.damping, p.guide.curve.scale, p.guide.curve.over_velocity[4]) = (30.0, 1.0, -5.0);
     (p.wheel_guide.damping, p.wheel_guide.coulomb.force) = (20.0, 10.0);
+    (p.guide.preload, p.wheel_guide.preload, p.tire.preload) = (6.0, -4.0, 9.0);
     (p.tire.curve.scale, p.tire.curve.over_deflection[6]) = (1.0, 25.0);
     (p.hysteresis.presliding.force, p.hysteresis.presliding.exponent) = (60.0, 1.5);
     p.hysteresis.maxwell.stiffness = 2e4;
@@ -81,6 +82,30 @@ fn guides_act_on_their_own_mass_alone() {
     (p.wheel_guide.damping, p.wheel_guide.coulomb.force) = (40.0, 8.0);
     assert!((acceleration(&p).0 - neutral.0).abs() < 1e-12);
     assert!((acceleration(&p).1 - (neutral.1 + (40.0 * 0.3 + 8.0) / 20.0)).abs() < 1e-9);
+}
+
+#[test]
+fn constant_forces_act_where_their_equations_say() {
+    // In motion and in contact, 100 kg above 20 kg.
+    let x = [0.001, 0.2, 0.002, -0.3];
+    let p = parameters(100.0, 20.0, 8400.0, 707.0, 150e3);
+    let signals = |p: &Parameters<f64>| {
+        let (_, output) = evaluate(CAR, p, x, [0.0; 3]);
+        [output.body.acceleration, output.wheel.acceleration, output.wheel.force]
+    };
+    let with: [(fn(&mut Parameters<f64>), [f64; 3]); 4] = [
+        (|p| p.strut.preload = 10.0, [-0.1, 0.5, 0.0]),
+        (|p| p.guide.preload = 10.0, [-0.1, 0.0, 0.0]),
+        (|p| p.wheel_guide.preload = 10.0, [0.0, -0.5, 0.0]),
+        (|p| p.tire.preload = 10.0, [0.0, 0.5, 10.0]),
+    ];
+    for (put, expected) in with {
+        let mut loaded = p;
+        put(&mut loaded);
+        for ((found, neutral), change) in signals(&loaded).into_iter().zip(signals(&p)).zip(expected) {
+            assert!((found - neutral - change).abs() < 1e-10, "{found} {neutral} {change}");
+        }
+    }
 }
 
 #[test]
