@@ -262,6 +262,9 @@ pub struct Present {
     pub signal: String,
     /// Over which variable it acts, if it has no number.
     pub variable: String,
+    /// What it depends on, if it has no number: each of these [words](crate::catalogue::WORDS) tells it rightly.
+    #[serde(default)]
+    pub depends_on: Vec<String>,
     /// Its parameters.
     pub parameters: Vec<Value>,
     /// What it changes of the signals over what the clutter changes; none without clutter.

@@ -20,12 +20,20 @@ const FURTHER: [&str; 5] = ["18", "22", "26", "26s", "03b"];
 /// Effects of a quarter car with a servo valve.
 const WITH_VALVE: [&str; 6] = ["01", "26v", "28", "28h", "29", "30"];
 
-/// What is the matter with a sensor and has no number.
-const UNNAMED_OF_SENSORS: [(&str, &str); 4] = [
+/// Effects in no catalogue, of the quarter car's parts.
+const UNNAMED: [&str; 12] = ["U1", "U2", "U3", "U4", "U7", "U8", "U9", "U10", "U11", "U12", "U14", "U15"];
+
+/// The same of a strut on a dyno.
+const UNNAMED_ON_DYNO: [&str; 2] = ["U8", "U12"];
+
+/// Effects in no catalogue, of sensors.
+const UNNAMED_OF_SENSORS: [(&str, &str); 6] = [
     ("U5", "body.acceleration"),
     ("U5", "wheel.force"),
     ("U6", "body.acceleration"),
     ("U6", "suspension.deflection"),
+    ("U13", "body.acceleration"),
+    ("U13", "wheel.acceleration"),
 ];
 
 /// Effects of a quarter car under a regulator.
@@ -114,6 +122,11 @@ pub fn compact() -> Vec<Case> {
         plant: Plant::RegulatedQuarter,
         ..standard("regulated-16", vec![Hidden::new("16")], 43)
     });
+    // In no catalogue: an inertia, a hidden state, a time.
+    for (seed, id) in [(46, "U7"), (47, "U9"), (48, "U10"), (49, "U11")] {
+        all.push(standard(format!("unnamed-{id}"), vec![Hidden::new(id)], seed));
+    }
+    all.push(standard("unnamed-U13", vec![Hidden::at("U13", "body.acceleration")], 50));
     all
 }
 
@@ -143,7 +156,7 @@ fn full_of(seed: u64) -> Vec<Case> {
         all.push(standard(format!("sensor-{id}-wheel.force-{seed}"), cell, seed));
     }
     all.push(standard(format!("sensor-42-{seed}"), vec![Hidden::at("42", "road.position")], seed));
-    for id in ["U1", "U2", "U3", "U4"] {
+    for id in UNNAMED {
         all.push(standard(format!("unnamed-{id}-{seed}"), vec![Hidden::new(id)], seed));
     }
     for (id, signal) in UNNAMED_OF_SENSORS {
@@ -164,6 +177,10 @@ fn full_of(seed: u64) -> Vec<Case> {
     }
     conditions(seed, &mut all);
     for id in ON_DYNO {
+        let case = standard(format!("dyno-{id}-{seed}"), vec![Hidden::new(id)], seed);
+        all.push(Case { plant: Plant::StrutDyno, ..case });
+    }
+    for id in UNNAMED_ON_DYNO {
         let case = standard(format!("dyno-{id}-{seed}"), vec![Hidden::new(id)], seed);
         all.push(Case { plant: Plant::StrutDyno, ..case });
     }
@@ -303,7 +320,8 @@ mod tests {
             sensor-34/23 sensor-33/27 sensor-36/28 sensor-40/30 single-26/31 dyno-01/29 servo-28/32 \
             single-26s/39 servo-28h/40 sensor-41h/41 none/24 none-cluttered/25 mismatch/26 drive-02g/33 \
             drive-16/34 drive-27/35 drive-16-33g/36 common-07/1007 behind-18/1012 behind-36/1012 \
-            behind-35/1014 resized-02g/1014 noisy-01/1014 driven-U1/1017 answering-U6/1018 servo-26v/44 pump-30p/45 single-03b/42 regulated-16/43";
+            behind-35/1014 resized-02g/1014 noisy-01/1014 driven-U1/1017 answering-U6/1018 servo-26v/44 pump-30p/45 single-03b/42 regulated-16/43 \
+            unnamed-U7/46 unnamed-U9/47 unnamed-U10/48 unnamed-U11/49 unnamed-U13/50";
         assert_eq!(names.collect::<Vec<_>>().join(" "), expected);
     }
 }

@@ -118,7 +118,7 @@ fn limit_pull(case: &Case, plain: &Rig, excitation: &mut Excitation, lifting: bo
     let load = car.load();
     // Several times, as the relation is not linear: a wheel in the air flies far.
     for _ in 0..8 {
-        let motion = plain.run(&excitation.road, &excitation.command, case.reach());
+        let motion = plain.run(&excitation.road, &excitation.command, case.reach(), excitation.name);
         let pull = motion.road.iter().zip(&motion.wheel).fold(0.0_f64, |most, (z, w)| most.max(w - z));
         let share = pull * car.tire_stiffness / load;
         let factor = match () {
@@ -134,7 +134,7 @@ fn limit_pull(case: &Case, plain: &Rig, excitation: &mut Excitation, lifting: bo
 fn keep_contact(case: &Case, plain: &Rig, excitation: &mut Excitation) {
     let (_, load) = plain.sas.rest();
     for _ in 0..8 {
-        let motion = plain.run(&excitation.road, &excitation.command, case.reach());
+        let motion = plain.run(&excitation.road, &excitation.command, case.reach(), excitation.name);
         let least = motion.tire_force.iter().fold(load, |least, force| least.min(*force));
         let share = 1.0 - least / load;
         if share <= 0.8 {
