@@ -1,3 +1,5 @@
+mod unmodelled;
+
 use super::*;
 use crate::case::{Case, Oracle, Value};
 
