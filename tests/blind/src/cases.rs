@@ -42,6 +42,9 @@ const REGULATED: [&str; 6] = ["01", "07", "12", "16", "23", "25"];
 /// Effects of a linear drive.
 const OF_DRIVE: [&str; 4] = ["02g", "16", "27", "33g"];
 
+/// Effects of a mass on a spring, in a catalogue and in none.
+const OF_MASS: [&str; 3] = ["16m", "U16", "U9m"];
+
 /// Effects of a pump actuator.
 const OF_PUMP: [&str; 6] = ["30p", "32a", "32b", "32c", "23", "25"];
 
@@ -127,6 +130,9 @@ pub fn compact() -> Vec<Case> {
         all.push(standard(format!("unnamed-{id}"), vec![Hidden::new(id)], seed));
     }
     all.push(standard("unnamed-U13", vec![Hidden::at("U13", "body.acceleration")], 50));
+    all.push(guided(standard("mass-none", vec![], 51)));
+    all.push(guided(standard("mass-16m", vec![Hidden::new("16m")], 52)));
+    all.push(guided(standard("mass-U16", vec![Hidden::new("U16")], 53)));
     all
 }
 
@@ -207,6 +213,13 @@ fn other_rigs(seed: u64, all: &mut Vec<Case>) {
     for id in [&["none"][..], &OF_DRIVE].concat() {
         all.push(driven(standard(format!("drive-{id}-{seed}"), hidden(id), seed)));
     }
+    for id in [&["none"][..], &OF_MASS].concat() {
+        all.push(guided(standard(format!("mass-{id}-{seed}"), hidden(id), seed)));
+        let slow = Case { rate: 100.0, ..standard(format!("mass-rate-100-{id}-{seed}"), hidden(id), seed) };
+        all.push(guided(slow));
+    }
+    let loose = vec![Hidden::at("U13", "acceleration")];
+    all.push(guided(standard(format!("mass-U13-{seed}"), loose, seed)));
     // A damper without a spring to speak of makes force of the motion's noise, so that the scale must be as fine here.
     let yielding = Hidden::new("32h");
     let offset = Hidden::at("33", "force");
@@ -243,6 +256,11 @@ fn other_rigs(seed: u64, all: &mut Vec<Case>) {
 /// The same of a drive, whose scale tells positions more finely than an accelerometer accelerations.
 fn driven(case: Case) -> Case {
     Case { plant: Plant::LinearDrive, noise_db: Some(60.0), ..case }
+}
+
+/// The same of a mass on a spring, whose position is measured as finely.
+fn guided(case: Case) -> Case {
+    Case { plant: Plant::GuidedMass, noise_db: Some(60.0), ..case }
 }
 
 /// The effect of that number, or nothing.
@@ -321,7 +339,7 @@ mod tests {
             single-26s/39 servo-28h/40 sensor-41h/41 none/24 none-cluttered/25 mismatch/26 drive-02g/33 \
             drive-16/34 drive-27/35 drive-16-33g/36 common-07/1007 behind-18/1012 behind-36/1012 \
             behind-35/1014 resized-02g/1014 noisy-01/1014 driven-U1/1017 answering-U6/1018 servo-26v/44 pump-30p/45 single-03b/42 regulated-16/43 \
-            unnamed-U7/46 unnamed-U9/47 unnamed-U10/48 unnamed-U11/49 unnamed-U13/50";
+            unnamed-U7/46 unnamed-U9/47 unnamed-U10/48 unnamed-U11/49 unnamed-U13/50 mass-none/51 mass-16m/52 mass-U16/53";
         assert_eq!(names.collect::<Vec<_>>().join(" "), expected);
     }
 }

@@ -41,7 +41,7 @@ pub struct Rig {
     plant: Plant,
     /// The moving parts; of a dyno only the strut and its contacts count.
     pub car: Car,
-    /// The moving parts of a linear drive.
+    /// The moving parts of a linear drive, or of a mass on a spring.
     pub drive: Drive,
     /// A pump actuator.
     pub pump: Pump,
@@ -109,6 +109,7 @@ impl Rig {
         let drive = Drive {
             mass: of("moving_mass"),
             damping: of("guide.damping"),
+            spring: [of("ground_spring.stiffness"), 0.0],
             control: Loop::for_mass(of("moving_mass")),
             ..Drive::default()
         };
@@ -121,7 +122,7 @@ impl Rig {
     /// Adds the small effects that no model knows, `level` times.
     pub fn clutter_plant(&mut self, level: f64, random: &mut Random) {
         match self.plant {
-            Plant::LinearDrive => {
+            Plant::LinearDrive | Plant::GuidedMass => {
                 self.drive.cable = Some((level * random.between(20.0, 60.0), random.between(0.05, 0.15)));
                 let share = level * random.between(0.003, 0.008);
                 self.drive.ripple = Some((share, random.between(0.02, 0.05), random.phase()));
@@ -153,11 +154,12 @@ impl Rig {
     }
 
     /// What the parts do under an excitation: of a car the road and its command, of a dyno the motion of its end, of
-    /// a drive the position that it shall follow, of a pump actuator its piston's velocity and its torque, of a semi-active rig the
+    /// a drive the position that it shall follow, of a mass on a spring its force, of a pump actuator its piston's velocity and its torque, of a semi-active rig the
     /// eccentric and its brake. What happens in time does so at the times of a record.
     pub fn run(&self, road: &Profile, command: &Profile, duration: f64, record: &str) -> Motion {
         match self.plant {
             Plant::LinearDrive => self.drive.run(road, duration),
+            Plant::GuidedMass => self.drive.pushed(road, duration),
             Plant::PumpDyno => self.pump.run(road, command, duration),
             Plant::SasRig => self.sas.run(road, command, duration),
             Plant::StrutDyno | Plant::MrDyno => {

@@ -33,7 +33,7 @@ pub struct Frame {
 
 impl Frame {
     /// The acceleration of its mass that is `y` m above its place on the body and rises over it by `rate` m/s.
-    pub(super) fn acceleration(&self, y: f64, rate: f64) -> f64 {
+    pub(crate) fn acceleration(&self, y: f64, rate: f64) -> f64 {
         let omega = TAU * self.frequency;
         -omega * (omega * y + 2.0 * self.damping_ratio * rate)
     }

@@ -196,4 +196,28 @@ pub(super) static ENTRIES: &[Entry] = &[
             ],
         )
     },
+    Entry {
+        variable: "deflection",
+        depends_on: &["deflection"],
+        ..entry(
+            "U16",
+            "cubic spring from a mass to the ground",
+            Place::Guide,
+            &[drawn("spring.cubic", "N/m3", (2e6, 8e6), ZERO, (0.0, 1e8))],
+        )
+    },
+    Entry {
+        variable: "memory",
+        depends_on: &["memory", "acceleration"],
+        ..entry(
+            "U9m",
+            "absorber on a mass",
+            Place::Guide,
+            &[
+                drawn("absorber.mass", "kg", (0.5, 1.5), ZERO, (0.0, 4.0)),
+                drawn("absorber.frequency", "Hz", (2.0, 9.0), SHAPE, ANY),
+                drawn("absorber.damping_ratio", "1", (0.02, 0.2), SHAPE, ANY),
+            ],
+        )
+    },
 ];

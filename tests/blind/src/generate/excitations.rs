@@ -10,7 +10,7 @@ use crate::rig::Rig;
 pub(super) struct Excitation {
     /// Its name in the file's.
     pub(super) name: &'static str,
-    /// The road, the motion of a dyno's end, what a drive shall follow, or the lift of an eccentric, in m; the velocity of a pump
+    /// The road, the motion of a dyno's end, what a drive shall follow, the force on a mass in N, or the lift of an eccentric, in m; the velocity of a pump
     /// actuator's piston, in m/s.
     pub(super) road: Profile,
     /// What the actuator is commanded; a brake's rate beyond its drag, in N m s/rad.
@@ -78,6 +78,14 @@ pub(super) fn excitations(case: &Case, plain: &Rig) -> (Vec<Excitation>, Vec<Exc
                 ("sweep", sweep(time, 1.0, 4e-3), braked(steps(random, time, 1.0, half))),
             ]
         }
+        // Up to 3 cm, at the resonance more.
+        Plant::GuidedMass => [
+            ("multisine", multisine(random, time, 0.3, 120.0), still()),
+            ("prbs", prbs(random, time, 0.04, 50.0), still()),
+            ("bumps", bumps(random, time, 150.0), still()),
+            ("road", road(random, time, 120.0), still()),
+            ("sweep", sweep(time, 0.0, 40.0), still()),
+        ],
         Plant::LinearDrive => [
             ("multisine", multisine(random, time, 1.6, 0.10), still()),
             ("triangle", triangle(time, 5.0, 0.10).plus(&multisine(random, time, 1.6, 0.01)), still()),

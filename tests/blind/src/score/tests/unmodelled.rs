@@ -181,8 +181,8 @@ fn an_absorber_may_be_named_by_its_law() {
 
 #[test]
 fn the_only_mass_feels_a_force_from_wherever_it_comes() {
-    let mut truth = hidden("U9", "");
-    truth.case.plant = Plant::LinearDrive;
+    let mut truth = hidden("U9m", "");
+    truth.case.plant = Plant::GuidedMass;
     for place in ["guide", "force", "ground_spring"] {
         assert_eq!(judged(&truth, place, &["memory"]), RIGHT, "{place}");
     }
