@@ -34,17 +34,16 @@ impl Bursts {
 
     /// Spans between which `1/rate` seconds pass on average, at random.
     pub fn new(random: &mut Random, duration: f64, rate: f64) -> Self {
-        let mut all = vec![];
-        let mut end = STANDSTILL;
-        while rate > 0.0 {
-            let start = end - (1.0 - random.unit()).ln() / rate;
-            end = start + random.log_between(Self::LENGTHS.0, Self::LENGTHS.1);
-            if start >= duration {
-                break;
-            }
-            all.push([start, end]);
+        if rate <= 0.0 {
+            return Self::default();
         }
-        Self(all)
+        let mut next = |end: f64| {
+            let start = end - (1.0 - random.unit()).ln() / rate;
+            [start, start + random.log_between(Self::LENGTHS.0, Self::LENGTHS.1)]
+        };
+        let first = next(STANDSTILL);
+        let all = std::iter::successors(Some(first), |[_, end]| Some(next(*end)));
+        Self(all.take_while(|[start, _]| *start < duration).collect())
     }
 
     /// Whether a time in s is in one of them.

@@ -186,7 +186,7 @@ fn each_record_finds_other_times() {
         })
         .collect();
     let apart = |phase: &f64| (phase - phases[0]).sin().abs();
-    assert!(phases.iter().filter(|phase| apart(phase) > 0.2).count() >= 3, "{phases:?}");
+    assert!(phases.iter().filter(|phase| apart(phase) > 0.2).count() >= 2, "{phases:?}");
     assert_eq!(uneven.train, made("U11").train);
 }
 

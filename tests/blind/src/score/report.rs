@@ -152,7 +152,7 @@ impl Unmodelled {
 /// What a text names: `deflection and velocity` names two things. Of a signal its quantity counts: `suspension.deflection` is a
 /// deflection, as any position is, and an input that acts through an actuator is a command.
 pub fn words(text: &str) -> impl Iterator<Item = &str> {
-    let parts = text.split(" and ").flat_map(|part| part.split(|c: char| c == ',' || c == '+'));
+    let parts = text.split(" and ").flat_map(|part| part.split([',', '+']));
     let parts = parts.map(str::trim).filter(|part| !part.is_empty());
     parts.map(|part| {
         if part == "force" || ACTUATORS.iter().any(|prefix| part.starts_with(prefix)) {
