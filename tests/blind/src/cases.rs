@@ -23,7 +23,23 @@ const WITH_VALVE: [&str; 6] = ["01", "26v", "28", "28h", "29", "30"];
 /// Effects in no catalogue, of the quarter car's parts.
 const UNNAMED: [&str; 12] = ["U1", "U2", "U3", "U4", "U7", "U8", "U9", "U10", "U11", "U12", "U14", "U15"];
 
-/// The same of a strut on a dyno.
+/// The same in other quarter cars, and without a force cell.
+const UNNAMED_ELSEWHERE: [(&str, Plant, Sensors, &str); 9] = [
+    ("published", Plant::PublishedQuarter, Sensors::Full, "U7"),
+    ("published", Plant::PublishedQuarter, Sensors::Full, "U9"),
+    ("published", Plant::PublishedQuarter, Sensors::Full, "U12"),
+    ("regulated", Plant::RegulatedQuarter, Sensors::Full, "U10"),
+    ("regulated", Plant::RegulatedQuarter, Sensors::Full, "U14"),
+    ("servo", Plant::ServoQuarter, Sensors::Full, "U7"),
+    ("servo", Plant::ServoQuarter, Sensors::Full, "U14"),
+    ("no-force-cell", Plant::LinearQuarter, Sensors::NoForceCell, "U9"),
+    ("no-force-cell", Plant::LinearQuarter, Sensors::NoForceCell, "U11"),
+];
+
+/// An effect with a number beside one without.
+const MIXED: [[&str; 2]; 2] = [["01", "U9"], ["04", "U14"]];
+
+/// Effects in no catalogue, of a strut on a dyno.
 const UNNAMED_ON_DYNO: [&str; 2] = ["U8", "U12"];
 
 /// Effects in no catalogue, of sensors.
@@ -167,6 +183,14 @@ fn full_of(seed: u64) -> Vec<Case> {
     }
     for (id, signal) in UNNAMED_OF_SENSORS {
         all.push(standard(format!("unnamed-{id}-{signal}-{seed}"), vec![Hidden::at(id, signal)], seed));
+    }
+    for (name, plant, sensors, id) in UNNAMED_ELSEWHERE {
+        let case = standard(format!("{name}-{id}-{seed}"), vec![Hidden::new(id)], seed);
+        all.push(Case { plant, sensors, ..case });
+    }
+    for mixed in MIXED {
+        let effects = mixed.map(Hidden::new).to_vec();
+        all.push(standard(format!("mixed-{}-{}-{seed}", mixed[0], mixed[1]), effects, seed));
     }
     for pair in PAIRS {
         let effects = pair.map(Hidden::new).to_vec();

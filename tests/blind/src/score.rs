@@ -126,7 +126,8 @@ pub fn score(truth: &Truth, report: &str) -> Result<Score, String> {
     let outcome = outcome(&report, &told, effects);
     let found = first.as_ref().filter(|_| !effects.is_empty());
     let at_place = |spot: &Spot| {
-        effects.iter().any(|it| if unmodelled::is_hidden(it) { spot.is_like(it) } else { spot.is_of(it) })
+        let hidden = |it: &Present| unmodelled::is_hidden(it) && spot.is_like(it);
+        effects.iter().any(|it| if out_of_catalogue { hidden(it) } else { spot.is_of(it) })
     };
     // Beside a name for what the clutter brings, what has none counts.
     let unmodelled = Spot::unmodelled(&report, truth).filter(|_| out_of_catalogue);

@@ -54,12 +54,6 @@ impl Report {
         report.unmodelled.sort_by(|one, other| share(other).total_cmp(&share(one)));
         Ok(report)
     }
-
-    /// Whether it says that nothing is hidden: at most, a parameter has another value.
-    pub fn is_calm(&self) -> bool {
-        let calm = ["no_effect", "parameter_mismatch"].contains(&self.verdict.as_str());
-        calm && self.effects.is_empty() && self.unmodelled.is_empty()
-    }
 }
 
 /// A cause that was named.

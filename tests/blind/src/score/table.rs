@@ -47,7 +47,7 @@ pub fn markdown(scores: &[Score]) -> String {
     row("first name right", "≥ 95 %", &mut single().filter_map(|score| score.first_right));
     row("false alarms without clutter", "≤ 1 %", &mut without(false).map(alarm));
     row("false alarms with clutter", "≤ 5 %", &mut without(true).map(alarm));
-    let pairs = scores.iter().filter(|score| score.effects == 2);
+    let pairs = scores.iter().filter(|score| score.effects == 2 && !score.out_of_catalogue);
     row("pairs: exact set", "≥ 80 %", &mut pairs.map(good));
     let wrong = |outcome: Outcome| outcome == Outcome::WrongName;
     row("out of catalogue: falsely named", "≤ 5 %", &mut unnamed().map(|score| wrong(score.outcome)));

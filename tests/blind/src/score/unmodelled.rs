@@ -1,7 +1,7 @@
 //! Causes that are in no catalogue: what a report has to say of them.
 
 use super::report::{Named, Report, words};
-use super::{Interval, Outcome};
+use super::{Interval, Outcome, is_named};
 use crate::case::Present;
 use crate::catalogue::{Place, number};
 
@@ -15,13 +15,19 @@ pub(super) fn is_hidden(effect: &Present) -> bool {
 
 /// How a report came out of which these effects count, where one that is there is in no catalogue.
 pub(super) fn outcome(report: &Report, told: &[&Named], effects: &[Present]) -> Outcome {
-    let known = |named: &&&Named| effects.iter().any(|effect| is_known_law(effect, named));
-    match told.iter().filter(known).count() {
-        0 if told.is_empty() && report.is_calm() => Outcome::Missed,
-        0 if told.is_empty() && report.unmodelled.is_empty() && !says_something(report) => Outcome::Missed,
-        0 if told.is_empty() => Outcome::Unnamed,
-        known if known == told.len() => Outcome::Correct,
-        _ => Outcome::WrongName,
+    let right = |effect: &Present, named: &Named| {
+        if is_hidden(effect) { is_known_law(effect, named) } else { is_named(effect, named) }
+    };
+    if told.iter().any(|named| !effects.iter().any(|effect| right(effect, named))) {
+        return Outcome::WrongName;
+    }
+    if effects.iter().all(|effect| told.iter().any(|named| right(effect, named))) {
+        return if report.unmodelled.is_empty() { Outcome::Correct } else { Outcome::TooMany };
+    }
+    match told.is_empty() {
+        _ if !report.unmodelled.is_empty() || says_something(report) => Outcome::Unnamed,
+        true => Outcome::Missed,
+        false => Outcome::TooFew,
     }
 }
 

@@ -215,3 +215,25 @@ fn the_page_tells_of_causes_out_of_the_catalogue() {
     assert!(text.contains("| U14 | 2 | 0 | 1 | 1 | 1 |"), "{text}");
     assert!(text.contains("| U8 | 2 | 1 | 0 | 1 | 0 |"), "{text}");
 }
+
+/// Of a friction and an absorber, the one has a name and the other has none.
+#[test]
+fn beside_an_effect_with_a_number() {
+    let mut truth = hidden("U9", "");
+    truth.effects.push(super::truth(&[FRICTION]).effects.remove(0));
+    let of = |names: &[(&str, &str, &[&str])], causes: &[(&str, &[&str], Option<f64>)]| {
+        let mut text: serde_json::Value = serde_json::from_str(&report("unmodelled", causes)).unwrap();
+        let named: serde_json::Value = serde_json::from_str(&named(names)).unwrap();
+        text["effects"] = named["effects"].clone();
+        text["verdict"] = if causes.is_empty() { "identified" } else { "unmodelled" }.into();
+        let score = score(&truth, &text.to_string()).unwrap();
+        (score.outcome, score.location_right)
+    };
+    let (friction, other): ((_, _, &[&str]), (_, _, &[&str])) = (("01", "strut", &[]), ("16", "guide", &[]));
+    let absorber: [(&str, &[&str], _); 1] = [("guide", &["memory"], None)];
+    assert_eq!(of(&[friction], &absorber), (Outcome::Unnamed, Some(true)));
+    assert_eq!(of(&[], &absorber), (Outcome::Unnamed, Some(true)));
+    assert_eq!(of(&[friction], &[]), (Outcome::TooFew, Some(false)));
+    assert_eq!(of(&[other], &absorber), (Outcome::WrongName, Some(true)));
+    assert_eq!(of(&[friction, other], &absorber).0, Outcome::WrongName);
+}
