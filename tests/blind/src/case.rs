@@ -265,7 +265,7 @@ pub struct Present {
     pub signal: String,
     /// Over which variable it acts, if it has no number.
     pub variable: String,
-    /// What it depends on, if it has no number: each of these [words](crate::catalogue::WORDS) tells it rightly.
+    /// What it depends on, if it has no number. Each of these [words](crate::catalogue::WORDS) counts as right.
     #[serde(default)]
     pub depends_on: Vec<String>,
     /// Its parameters.

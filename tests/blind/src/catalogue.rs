@@ -96,7 +96,7 @@ pub struct Entry {
     pub place: Place,
     /// Over which variable an unnamed effect acts; empty if it has a number.
     pub variable: &'static str,
-    /// What an unnamed effect depends on, in the words of [`WORDS`]: each of them tells it rightly, the first one best.
+    /// What an effect without a number depends on, in [`WORDS`]. Each one counts as right; the first describes it best.
     pub depends_on: &'static [&'static str],
     /// Its parameters.
     pub parameters: &'static [Drawn],
@@ -124,8 +124,8 @@ const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 const ZERO: Role = Role::From(0.0);
 const SHAPE: Role = Role::Shape;
 
-/// What an effect without a number can depend on: a difference of accelerations, what was before (with a time constant or a
-/// frequency of its own), when something happens, the time itself, where or how fast something is, what is commanded.
+/// What an effect without a number can depend on. `memory` is a hidden state with a time constant or a frequency of its own,
+/// `bursts` are present only now and then, `time` is periodic or drifts, `deflection` is any position.
 pub const WORDS: [&str; 7] =
     ["acceleration", "memory", "bursts", "time", "deflection", "velocity", "command"];
 

@@ -47,15 +47,15 @@ pub struct Rig {
     pub pump: Pump,
     /// The arms of a semi-active rig.
     pub sas: Sas,
-    /// What happens in time.
+    /// Effects of time alone.
     pub timed: Timed,
-    /// Of the times at which it happens, which differ from record to record.
+    /// Seed of their phases and bursts, which differ from record to record.
     pub seed: u64,
     /// Of each signal.
     pub sensors: BTreeMap<String, Sensor>,
 }
 
-/// What happens in time, whatever the rig does; zero is nothing.
+/// Effects of time alone; zero is none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Timed {
     /// Share by which the tyre's stiffness changes, and turns of the wheel a second.
@@ -173,7 +173,7 @@ impl Rig {
         }
     }
 
-    /// The car with what happens in time in a record.
+    /// The car with the effects of time in a record.
     fn timed(&self, duration: f64, record: &str) -> Car {
         let random = |what: &str| Random::new(self.seed, &format!("{what} in {record}"));
         let turning = |what: &str, size: f64, frequency: f64| {

@@ -1,4 +1,4 @@
-//! What happens in time, whatever the rig does: parts that turn, and bursts. Where a record finds them is a matter of the record.
+//! Effects of time alone: parts that turn, and bursts. Each record finds them at other times.
 
 use std::f64::consts::TAU;
 

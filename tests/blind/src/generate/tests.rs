@@ -165,7 +165,7 @@ fn what_cannot_be_hidden_is_refused() {
     assert!(refused(&Case { rate: 333.0, ..short(vec![]) }).contains("divides"));
 }
 
-/// What happens in time has other phases and bursts in each record, and the same ones whenever the record is made.
+/// Phases and bursts differ between records, and repeat if a record is made again.
 #[test]
 fn each_record_finds_other_times() {
     let made = |id: &str| clean(Plant::LinearQuarter, vec![Hidden::new(id)]);

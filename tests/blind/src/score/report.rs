@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use super::spot::ACTUATORS;
 
-/// What of `report.json` is judged, of format 1 and 2; other fields are ignored.
+/// The fields of `report.json` that are judged, in formats 1 and 2. Other fields are ignored.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Report {
     /// `no_effect`, `parameter_mismatch`, `identified`, `ambiguous`, `unmodelled`, `sensor_fault`, `model_inadequate` or `bad_data`.
@@ -21,7 +21,7 @@ pub struct Report {
     /// A cause without a name, in format 1.
     #[serde(default)]
     pub unnamed: Option<Unnamed>,
-    /// Causes that no effect of the catalogue accounts for, the largest first; that of format 1, too.
+    /// Causes that no effect of the catalogue accounts for, the largest first. [`Report::read`] adds that of format 1.
     #[serde(default)]
     pub unmodelled: Vec<Unmodelled>,
     /// What is wrong with the data.
@@ -143,8 +143,8 @@ impl Unmodelled {
     }
 }
 
-/// What a text names: `deflection and velocity` names two things. Of a signal its quantity counts: `suspension.deflection` is a
-/// deflection, as any position is, and an input that acts through an actuator is a command.
+/// The words in a text: `deflection and velocity` has two. A signal's name stands for its quantity: a position is a deflection, and
+/// the input of an actuator is a command.
 pub fn words(text: &str) -> impl Iterator<Item = &str> {
     let parts = text.split(" and ").flat_map(|part| part.split([',', '+']));
     let parts = parts.map(str::trim).filter(|part| !part.is_empty());

@@ -71,8 +71,7 @@ impl<'a> Spot<'a> {
         }
     }
 
-    /// Whether it is where no record could tell the effect from one that is where it says. For causes without a number: those with
-    /// one are told by their laws.
+    /// Whether no record can tell this place from the effect's. For causes in no catalogue.
     pub(super) fn is_like(&self, effect: &Present) -> bool {
         let place = self.place;
         let begins = |names: &[&str]| names.iter().any(|name| place.starts_with(name));

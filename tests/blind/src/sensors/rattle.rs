@@ -1,5 +1,5 @@
-//! An accelerometer whose screw is loose: dry friction carries it along, until that is too little; then it slides through its
-//! clearance and rings at the end of it.
+//! An accelerometer with a loose screw. Dry friction carries it along; beyond that it slides through its clearance and rings at the
+//! stop.
 
 use std::f64::consts::TAU;
 
@@ -8,11 +8,11 @@ use crate::car::RATE;
 /// A sensor with clearance in its mounting.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rattle {
-    /// Clearance to each side, in m; without it the sensor is fast.
+    /// Clearance to each side, in m; zero is a tight screw.
     pub gap: f64,
     /// Acceleration up to which friction carries the sensor along, in m/s².
     pub friction: f64,
-    /// Natural frequency of the sensor on the end of its clearance, in Hz.
+    /// Natural frequency of the sensor at the stop, in Hz.
     pub frequency: f64,
     /// Damping there, over the critical one.
     pub damping_ratio: f64,
@@ -22,7 +22,7 @@ impl Rattle {
     /// Steps of its motion in one of the rig's.
     const FINER: usize = 4;
 
-    /// The acceleration at the end of the clearance, at a place in it in m and a velocity in m/s; an end pushes and never pulls.
+    /// Acceleration by the stops at a place in the clearance in m and a velocity in m/s. A stop pushes and never pulls.
     fn pushed(&self, place: f64, velocity: f64) -> f64 {
         let omega = TAU * self.frequency;
         let beyond = place - place.clamp(-self.gap, self.gap);
@@ -33,7 +33,7 @@ impl Rattle {
         if push * beyond > 0.0 { -push } else { 0.0 }
     }
 
-    /// What the sensor feels where it sits on something that has this acceleration.
+    /// The acceleration of the sensor on a seat with this acceleration, both in m/s².
     pub fn felt(&self, acceleration: &[f64]) -> Vec<f64> {
         if self.gap <= 0.0 {
             return acceleration.to_vec();
@@ -79,7 +79,7 @@ mod tests {
     }
 
     /// From rest at the one end, 2 m/s² less the friction's 0.5 take it through 0.2 mm to 24.5 mm/s; half a period of ringing
-    /// later it turns, felt with up to ω v.
+    /// later it turns, with up to ω v.
     #[test]
     fn it_rings_at_the_end_of_its_clearance() {
         let mut seat = vec![2.0; 4000];
@@ -93,7 +93,7 @@ mod tests {
         assert!((first as f64 - time).abs() < 20.0, "after {first} steps for {time}");
     }
 
-    /// It goes where its seat goes, but for its clearance: what it feels is its seat's acceleration and short bursts.
+    /// It stays within its clearance; it feels its seat's acceleration and short bursts.
     #[test]
     fn it_stays_with_its_seat() {
         let (seat, felt) = (sine(3.0), LOOSE.felt(&sine(3.0)));
