@@ -1,12 +1,16 @@
 //! The quarter vehicle on its rig, integrated at 20 kHz.
 
+mod parts;
+
 use std::collections::BTreeMap;
-use std::f64::consts::TAU;
 
 use crate::excitation::Profile;
-use crate::friction::{Contact, settle};
+use crate::friction::{Contact, Inertia, settle};
 use crate::servo::Servo;
-use crate::strut::{Inner, Strut};
+use crate::strut::{BRANCHES, INNER, Inner, Strut};
+use crate::timed::{Bursts, Turning};
+
+pub use parts::{Actuator, Crosstalk, Frame, Regulator};
 
 /// Steps per second of all plants.
 pub const RATE: f64 = 20_000.0;
@@ -23,6 +27,8 @@ pub struct Car {
     pub unsprung_mass: f64,
     /// Between them.
     pub strut: Strut,
+    /// Inertance of an inerter between them, in kg.
+    pub inertance: f64,
     /// Viscous friction of the body's guide, in N s/m.
     pub guide_damping: f64,
     /// Viscous friction of the wheel's guide, in N s/m.
@@ -47,76 +53,14 @@ pub struct Car {
     pub servo: Option<Servo>,
     /// What commands a force besides, of what the car does.
     pub regulator: Option<Regulator>,
-}
-
-/// A state feedback: it runs at 1 kHz and holds its force meanwhile.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Regulator {
-    /// Force against the strut's deflection in N/m, the body's velocity in N s/m, the tyre's deflection in N/m and the wheel's
-    /// velocity in N s/m.
-    pub gains: [f64; 4],
-}
-
-impl Regulator {
-    /// Steps of the integration in one of its own.
-    const HELD: usize = 20;
-
-    fn force(&self, [body, body_velocity, wheel, wheel_velocity]: [f64; 4], road: f64) -> f64 {
-        let state = [body - wheel, body_velocity, wheel - road, wheel_velocity];
-        -self.gains.iter().zip(state).map(|(gain, x)| gain * x).sum::<f64>()
-    }
-}
-
-/// A mode of the frame: a mass on a spring and a damper on the body, beside the sprung mass.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
-    /// In kg.
-    pub mass: f64,
-    /// Of the mass on the body held fast, in Hz.
-    pub frequency: f64,
-    /// Damping over the critical one.
-    pub damping_ratio: f64,
-}
-
-impl Frame {
-    /// The acceleration of its mass that is `y` m above its place on the body and rises over it by `rate` m/s.
-    fn acceleration(&self, y: f64, rate: f64) -> f64 {
-        let omega = TAU * self.frequency;
-        -omega * (omega * y + 2.0 * self.damping_ratio * rate)
-    }
-}
-
-/// From the commanded force to the one that acts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Actuator {
-    /// In s, exact.
-    pub delay: f64,
-    /// Time constant in s; zero is none.
-    pub lag: f64,
-    /// Force for a commanded newton.
-    pub gain: f64,
-    /// Largest force to each side, in N.
-    pub limit: f64,
-    /// Largest rate at which the force changes, in N/s.
-    pub slew: f64,
-}
-
-impl Actuator {
-    /// The force that it makes of a command in N, before its lag.
-    pub fn made_of(&self, command: f64) -> f64 {
-        (self.gain * command).clamp(-self.limit, self.limit)
-    }
-
-    /// The force `after` seconds later than it was `before`, on its way to what is made of the command.
-    fn reached(&self, before: f64, made: f64, after: f64) -> f64 {
-        made.clamp(before - self.slew * after, before + self.slew * after)
-    }
-}
-
-impl Default for Actuator {
-    fn default() -> Self {
-        Self { delay: 0.0, lag: 0.0, gain: 1.0, limit: f64::INFINITY, slew: f64::INFINITY }
-    }
+    /// When the actuator makes no force of its command.
+    pub dropouts: Bursts,
+    /// A second path of the commanded force.
+    pub crosstalk: Option<Crosstalk>,
+    /// By which share the tyre's stiffness changes as the wheel turns.
+    pub uneven_tire: Option<Turning>,
+    /// Force on the body of a part that turns out of balance, in N.
+    pub imbalance: Option<Turning>,
 }
 
 /// What a rig did, every 1/[`RATE`] seconds.
@@ -149,8 +93,11 @@ pub struct Motion {
 }
 
 /// Positions and velocities of body and wheel, hidden states of the strut, force of the actuator; position and
-/// velocity of the frame's mass, the road as the tyre smooths it, the cylinder's pressure, the valve's spool.
-type State = [f64; 14];
+/// velocity of the frame's mass, the road as the tyre smooths it, the cylinder's pressure, the valve's spool; the strut's memory.
+type State = [f64; 10 + INNER];
+
+/// Hidden states of the strut but for its memory.
+const NEAR: usize = INNER - BRANCHES;
 
 /// What acts from outside at one instant.
 #[derive(Clone, Copy)]
@@ -162,35 +109,45 @@ struct Outside<'a> {
     friction: &'a [f64],
     /// Where the valve's opening was left at the step's beginning, in m.
     opening: f64,
+    /// What has come through a second path, in N.
+    crosstalk: f64,
 }
 
 impl Car {
+    fn inertia(&self) -> Inertia {
+        Inertia { masses: [self.sprung_mass, self.unsprung_mass], inertance: self.inertance }
+    }
+
     /// What presses on the road at rest, in N.
     pub fn load(&self) -> f64 {
         let frame = self.frame.map_or(0.0, |frame| frame.mass);
         (self.sprung_mass + self.unsprung_mass + frame) * GRAVITY
     }
 
-    /// Dynamic force that presses on the road; the tyre cannot pull unless it is glued.
-    fn tire_force(&self, compression: f64, velocity: f64) -> f64 {
+    /// Dynamic force that presses on the road; the tyre cannot pull unless it is glued. A tyre that is stiffer by a share `more`
+    /// carries its static load by that share more, too.
+    fn tire_force(&self, compression: f64, velocity: f64, more: f64) -> f64 {
         let spring = compression * (self.tire_stiffness + self.tire_quadratic * compression);
-        if self.tire_is_glued {
-            return spring + self.tire_damping * velocity;
-        }
         let load = self.load();
+        let uneven = more * (load + spring);
+        if self.tire_is_glued {
+            return spring + uneven + self.tire_damping * velocity;
+        }
         // Beyond its vertex the parabola turns up again: there the tyre is long in the air.
         let turned =
             self.tire_quadratic > 0.0 && compression < -self.tire_stiffness / (2.0 * self.tire_quadratic);
         if turned || spring <= -load {
             return -load;
         }
-        (spring + self.tire_damping * velocity).max(-load)
+        (spring + uneven + self.tire_damping * velocity).max(-load)
     }
 
     fn rates(&self, state: &State, outside: Outside<'_>) -> (State, f64) {
-        let [body, body_velocity, wheel, wheel_velocity, a, b, c, d, lagged, ..] = *state;
-        let [.., frame, frame_velocity, smoothed, pressure, spool] = *state;
-        let inner: Inner = [a, b, c, d];
+        let [body, body_velocity, wheel, wheel_velocity, _, _, _, _, lagged, ..] = *state;
+        let [frame, frame_velocity, smoothed, pressure, spool] = std::array::from_fn(|i| state[9 + i]);
+        let mut inner: Inner = [0.0; INNER];
+        inner[..NEAR].copy_from_slice(&state[4..8]);
+        inner[NEAR..].copy_from_slice(&state[14..]);
         let (x, v) = (body - wheel, body_velocity - wheel_velocity);
         // The lever turns deflection into the strut's own length, and its force back (virtual work).
         let lever = 1.0 + self.strut.linkage * x;
@@ -210,8 +167,10 @@ impl Car {
         } else {
             (outside.road, 0.0)
         };
-        let tire = self.tire_force(ground.0 - wheel, ground.1 - wheel_velocity);
+        let more = self.uneven_tire.map_or(0.0, |it| it.at(outside.time));
+        let tire = self.tire_force(ground.0 - wheel, ground.1 - wheel_velocity, more);
         let mut on_body = -pulling - self.guide_damping * body_velocity;
+        on_body += outside.crosstalk + self.imbalance.map_or(0.0, |it| it.at(outside.time));
         let mut on_wheel = pulling + tire - self.wheel_guide_damping * wheel_velocity;
         let frame_rate = self.frame.map_or(0.0, |it| {
             let rate = it.acceleration(frame - body, frame_velocity - body_velocity);
@@ -222,22 +181,27 @@ impl Car {
             on_body -= contact.along[0] * force;
             on_wheel -= contact.along[1] * force;
         }
-        let [ra, rb, rc, rd] = inner_rates;
-        let (body_rate, wheel_rate) = (on_body / self.sprung_mass, on_wheel / self.unsprung_mass);
-        let car = [body_velocity, body_rate, wheel_velocity, wheel_rate, ra, rb, rc, rd, lag_rate];
-        let further = [frame_velocity, frame_rate, smoothed_rate, pressure_rate, spool_rate];
-        let mut rates = [0.0; 14];
-        rates[..9].copy_from_slice(&car);
-        rates[9..].copy_from_slice(&further);
+        let [body_rate, wheel_rate] = self.inertia().accelerations([on_body, on_wheel]);
+        let mut rates = [0.0; 10 + INNER];
+        rates[..4].copy_from_slice(&[body_velocity, body_rate, wheel_velocity, wheel_rate]);
+        rates[4..8].copy_from_slice(&inner_rates[..NEAR]);
+        rates[8..14].copy_from_slice(&[
+            lag_rate,
+            frame_velocity,
+            frame_rate,
+            smoothed_rate,
+            pressure_rate,
+            spool_rate,
+        ]);
+        rates[14..].copy_from_slice(&inner_rates[NEAR..]);
         (rates, tire)
     }
 
     /// Runs for `duration` seconds from `start`: positions and velocities of body and wheel.
     pub fn run(&self, road: &Profile, force: &Profile, duration: f64, start: [f64; 4]) -> Motion {
         let step = 1.0 / RATE;
-        let masses = [self.sprung_mass, self.unsprung_mass];
         let count = (duration * RATE).round() as usize + 1;
-        let mut state: State = [0.0; 14];
+        let mut state: State = [0.0; 10 + INNER];
         state[..4].copy_from_slice(&start);
         // The frame's mass moves with the body.
         state[9..11].copy_from_slice(&start[..2]);
@@ -260,11 +224,18 @@ impl Car {
                 }
                 (_, last) => last.copied().unwrap_or_default(),
             });
-            let made = |time: f64| self.actuator.made_of(command(&regulated, time - self.actuator.delay));
+            let made = |time: f64| {
+                let made = self.actuator.made_of(command(&regulated, time - self.actuator.delay));
+                if self.dropouts.cover(time) { 0.0 } else { made }
+            };
             let reached = |before: f64, time: f64| self.actuator.reached(before, made(time), 0.5 * step);
             let beginning = reached(halfway, time);
             halfway = reached(beginning, time + 0.5 * step);
-            let outside = |time: f64, road, made, friction| Outside { time, road, made, friction, opening };
+            let outside = |time: f64, road, made, friction| {
+                let second = |path: Crosstalk| path.gain * command(&regulated, time - path.delay);
+                let crosstalk = self.crosstalk.map_or(0.0, second);
+                Outside { time, road, made, friction, opening, crosstalk }
+            };
             let (first, tire) = self.rates(&state, outside(time, now, beginning, &friction));
             motion.push(&state, &first, now, command(&regulated, time), tire);
 
@@ -283,7 +254,8 @@ impl Car {
             }
             if !self.contacts.is_empty() {
                 let mut velocities = [state[1], state[3]];
-                settle(&self.contacts, &mut friction, [state[0], state[2]], &mut velocities, masses, step);
+                let (positions, inertia) = ([state[0], state[2]], self.inertia());
+                settle(&self.contacts, &mut friction, positions, &mut velocities, inertia, step);
                 // The correction acted during the step, on average for half of it.
                 state[0] += 0.5 * step * (velocities[0] - state[1]);
                 state[2] += 0.5 * step * (velocities[1] - state[3]);

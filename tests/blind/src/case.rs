@@ -25,6 +25,8 @@ pub enum Plant {
     MrDyno,
     /// A carriage whose motor follows a position in closed loop; the motor's force is measured.
     LinearDrive,
+    /// A mass on a guide and a spring to the ground, pushed by a force; position and acceleration are measured.
+    GuidedMass,
     /// A pump actuator on a dyno: its piston is moved, its motor's torque commanded (Ajala).
     PumpDyno,
     /// Two arms on a pivot with a spring and a brake between them, on an eccentric (Kogut).
@@ -55,6 +57,7 @@ impl Plant {
             Self::ServoQuarter => "quarter car with a servo valve",
             Self::MrDyno => "magnetorheological damper on a dyno",
             Self::LinearDrive => "linear drive in closed loop",
+            Self::GuidedMass => "mass on a spring",
             Self::PumpDyno => "pump actuator on a dyno",
             Self::SasRig => "semi-active rig",
         }
@@ -262,6 +265,9 @@ pub struct Present {
     pub signal: String,
     /// Over which variable it acts, if it has no number.
     pub variable: String,
+    /// What it depends on, if it has no number. Each of these [words](crate::catalogue::WORDS) counts as right.
+    #[serde(default)]
+    pub depends_on: Vec<String>,
     /// Its parameters.
     pub parameters: Vec<Value>,
     /// What it changes of the signals over what the clutter changes; none without clutter.

@@ -20,12 +20,36 @@ const FURTHER: [&str; 5] = ["18", "22", "26", "26s", "03b"];
 /// Effects of a quarter car with a servo valve.
 const WITH_VALVE: [&str; 6] = ["01", "26v", "28", "28h", "29", "30"];
 
-/// What is the matter with a sensor and has no number.
-const UNNAMED_OF_SENSORS: [(&str, &str); 4] = [
+/// Effects in no catalogue, of the quarter car's parts.
+const UNNAMED: [&str; 12] = ["U1", "U2", "U3", "U4", "U7", "U8", "U9", "U10", "U11", "U12", "U14", "U15"];
+
+/// The same in other quarter cars, and without a force cell.
+const UNNAMED_ELSEWHERE: [(&str, Plant, Sensors, &str); 9] = [
+    ("published", Plant::PublishedQuarter, Sensors::Full, "U7"),
+    ("published", Plant::PublishedQuarter, Sensors::Full, "U9"),
+    ("published", Plant::PublishedQuarter, Sensors::Full, "U12"),
+    ("regulated", Plant::RegulatedQuarter, Sensors::Full, "U10"),
+    ("regulated", Plant::RegulatedQuarter, Sensors::Full, "U14"),
+    ("servo", Plant::ServoQuarter, Sensors::Full, "U7"),
+    ("servo", Plant::ServoQuarter, Sensors::Full, "U14"),
+    ("no-force-cell", Plant::LinearQuarter, Sensors::NoForceCell, "U9"),
+    ("no-force-cell", Plant::LinearQuarter, Sensors::NoForceCell, "U11"),
+];
+
+/// An effect with a number beside one without.
+const MIXED: [[&str; 2]; 2] = [["01", "U9"], ["04", "U14"]];
+
+/// Effects in no catalogue, of a strut on a dyno.
+const UNNAMED_ON_DYNO: [&str; 2] = ["U8", "U12"];
+
+/// Effects in no catalogue, of sensors.
+const UNNAMED_OF_SENSORS: [(&str, &str); 6] = [
     ("U5", "body.acceleration"),
     ("U5", "wheel.force"),
     ("U6", "body.acceleration"),
     ("U6", "suspension.deflection"),
+    ("U13", "body.acceleration"),
+    ("U13", "wheel.acceleration"),
 ];
 
 /// Effects of a quarter car under a regulator.
@@ -33,6 +57,9 @@ const REGULATED: [&str; 6] = ["01", "07", "12", "16", "23", "25"];
 
 /// Effects of a linear drive.
 const OF_DRIVE: [&str; 4] = ["02g", "16", "27", "33g"];
+
+/// Effects of a mass on a spring, in a catalogue and in none.
+const OF_MASS: [&str; 3] = ["16m", "U16", "U9m"];
 
 /// Effects of a pump actuator.
 const OF_PUMP: [&str; 6] = ["30p", "32a", "32b", "32c", "23", "25"];
@@ -114,6 +141,14 @@ pub fn compact() -> Vec<Case> {
         plant: Plant::RegulatedQuarter,
         ..standard("regulated-16", vec![Hidden::new("16")], 43)
     });
+    // In no catalogue: an inertia, a hidden state, a time.
+    for (seed, id) in [(46, "U7"), (47, "U9"), (48, "U10"), (49, "U11")] {
+        all.push(standard(format!("unnamed-{id}"), vec![Hidden::new(id)], seed));
+    }
+    all.push(standard("unnamed-U13", vec![Hidden::at("U13", "body.acceleration")], 50));
+    all.push(guided(standard("mass-none", vec![], 51)));
+    all.push(guided(standard("mass-16m", vec![Hidden::new("16m")], 52)));
+    all.push(guided(standard("mass-U16", vec![Hidden::new("U16")], 53)));
     all
 }
 
@@ -143,11 +178,19 @@ fn full_of(seed: u64) -> Vec<Case> {
         all.push(standard(format!("sensor-{id}-wheel.force-{seed}"), cell, seed));
     }
     all.push(standard(format!("sensor-42-{seed}"), vec![Hidden::at("42", "road.position")], seed));
-    for id in ["U1", "U2", "U3", "U4"] {
+    for id in UNNAMED {
         all.push(standard(format!("unnamed-{id}-{seed}"), vec![Hidden::new(id)], seed));
     }
     for (id, signal) in UNNAMED_OF_SENSORS {
         all.push(standard(format!("unnamed-{id}-{signal}-{seed}"), vec![Hidden::at(id, signal)], seed));
+    }
+    for (name, plant, sensors, id) in UNNAMED_ELSEWHERE {
+        let case = standard(format!("{name}-{id}-{seed}"), vec![Hidden::new(id)], seed);
+        all.push(Case { plant, sensors, ..case });
+    }
+    for mixed in MIXED {
+        let effects = mixed.map(Hidden::new).to_vec();
+        all.push(standard(format!("mixed-{}-{}-{seed}", mixed[0], mixed[1]), effects, seed));
     }
     for pair in PAIRS {
         let effects = pair.map(Hidden::new).to_vec();
@@ -164,6 +207,10 @@ fn full_of(seed: u64) -> Vec<Case> {
     }
     conditions(seed, &mut all);
     for id in ON_DYNO {
+        let case = standard(format!("dyno-{id}-{seed}"), vec![Hidden::new(id)], seed);
+        all.push(Case { plant: Plant::StrutDyno, ..case });
+    }
+    for id in UNNAMED_ON_DYNO {
         let case = standard(format!("dyno-{id}-{seed}"), vec![Hidden::new(id)], seed);
         all.push(Case { plant: Plant::StrutDyno, ..case });
     }
@@ -190,6 +237,13 @@ fn other_rigs(seed: u64, all: &mut Vec<Case>) {
     for id in [&["none"][..], &OF_DRIVE].concat() {
         all.push(driven(standard(format!("drive-{id}-{seed}"), hidden(id), seed)));
     }
+    for id in [&["none"][..], &OF_MASS].concat() {
+        all.push(guided(standard(format!("mass-{id}-{seed}"), hidden(id), seed)));
+        let slow = Case { rate: 100.0, ..standard(format!("mass-rate-100-{id}-{seed}"), hidden(id), seed) };
+        all.push(guided(slow));
+    }
+    let loose = vec![Hidden::at("U13", "acceleration")];
+    all.push(guided(standard(format!("mass-U13-{seed}"), loose, seed)));
     // A damper without a spring to speak of makes force of the motion's noise, so that the scale must be as fine here.
     let yielding = Hidden::new("32h");
     let offset = Hidden::at("33", "force");
@@ -226,6 +280,11 @@ fn other_rigs(seed: u64, all: &mut Vec<Case>) {
 /// The same of a drive, whose scale tells positions more finely than an accelerometer accelerations.
 fn driven(case: Case) -> Case {
     Case { plant: Plant::LinearDrive, noise_db: Some(60.0), ..case }
+}
+
+/// The same of a mass on a spring, whose position is measured as finely.
+fn guided(case: Case) -> Case {
+    Case { plant: Plant::GuidedMass, noise_db: Some(60.0), ..case }
 }
 
 /// The effect of that number, or nothing.
@@ -303,7 +362,8 @@ mod tests {
             sensor-34/23 sensor-33/27 sensor-36/28 sensor-40/30 single-26/31 dyno-01/29 servo-28/32 \
             single-26s/39 servo-28h/40 sensor-41h/41 none/24 none-cluttered/25 mismatch/26 drive-02g/33 \
             drive-16/34 drive-27/35 drive-16-33g/36 common-07/1007 behind-18/1012 behind-36/1012 \
-            behind-35/1014 resized-02g/1014 noisy-01/1014 driven-U1/1017 answering-U6/1018 servo-26v/44 pump-30p/45 single-03b/42 regulated-16/43";
+            behind-35/1014 resized-02g/1014 noisy-01/1014 driven-U1/1017 answering-U6/1018 servo-26v/44 pump-30p/45 single-03b/42 regulated-16/43 \
+            unnamed-U7/46 unnamed-U9/47 unnamed-U10/48 unnamed-U11/49 unnamed-U13/50 mass-none/51 mass-16m/52 mass-U16/53";
         assert_eq!(names.collect::<Vec<_>>().join(" "), expected);
     }
 }

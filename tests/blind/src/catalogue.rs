@@ -96,6 +96,8 @@ pub struct Entry {
     pub place: Place,
     /// Over which variable an unnamed effect acts; empty if it has a number.
     pub variable: &'static str,
+    /// What an effect without a number depends on, in [`WORDS`]. Each one counts as right; the first describes it best.
+    pub depends_on: &'static [&'static str],
     /// Its parameters.
     pub parameters: &'static [Drawn],
 }
@@ -115,12 +117,17 @@ const fn of(scale: Scale, drawn: Drawn) -> Drawn {
 }
 
 const fn entry(id: &'static str, name: &'static str, place: Place, parameters: &'static [Drawn]) -> Entry {
-    Entry { id, name, place, variable: "", parameters }
+    Entry { id, name, place, variable: "", depends_on: &[], parameters }
 }
 
 const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 const ZERO: Role = Role::From(0.0);
 const SHAPE: Role = Role::Shape;
+
+/// What an effect without a number can depend on. `memory` is a hidden state with a time constant or a frequency of its own,
+/// `bursts` are present only now and then, `time` is periodic or drifts, `deflection` is any position.
+pub const WORDS: [&str; 7] =
+    ["acceleration", "memory", "bursts", "time", "deflection", "velocity", "command"];
 
 /// How much faster than it should a sensor's clock may run, as a share.
 pub const RATE_ERROR: f64 = 0.01;
@@ -201,6 +208,14 @@ mod tests {
                 let (low, high) = drawn.bounds;
                 assert!((low..=high).contains(&drawn.sized(value, 1.0)), "{} {}", entry.id, drawn.name);
             }
+        }
+    }
+
+    #[test]
+    fn what_has_no_number_depends_on_something() {
+        for entry in entries() {
+            assert_eq!(entry.id.starts_with('U'), !entry.depends_on.is_empty(), "{}", entry.id);
+            assert!(entry.depends_on.iter().all(|word| WORDS.contains(word)), "{}", entry.id);
         }
     }
 

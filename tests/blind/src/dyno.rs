@@ -3,13 +3,13 @@
 use crate::car::{Motion, RATE};
 use crate::excitation::Profile;
 use crate::friction::Limit;
-use crate::strut::{Inner, Strut};
+use crate::strut::{INNER, Inner, Strut};
 
 /// Runs for `duration` seconds. The motion is the [`Motion::road`], the force that pushes the end up the
 /// [`Motion::tire_force`]; nothing else moves.
 pub fn run(strut: &Strut, friction: &[Limit], profile: &Profile, duration: f64) -> Motion {
     let step = 1.0 / RATE;
-    let mut inner: Inner = [0.0; 4];
+    let mut inner: Inner = [0.0; INNER];
     let mut rubbing = vec![0.0; friction.len()];
     let mut motion = Motion::default();
     for k in 0..=(duration * RATE).round() as usize {

@@ -109,7 +109,7 @@ fn straight(knots: &[f64], place: f64) -> f64 {
 }
 
 /// From 0 to 1 in half a second, without a corner.
-fn fade_in(t: f64) -> f64 {
+pub(crate) fn fade_in(t: f64) -> f64 {
     if t < 0.5 { 0.5 - 0.5 * (TAU * t).cos() } else { 1.0 }
 }
 

@@ -45,6 +45,7 @@ fn start(made: &Generated) -> String {
         Plant::MrDyno => ("BlindMrDyno", "ElementDyno", "start", element),
         Plant::ServoQuarter => ("BlindServoSuspension", "ServoSuspension", "Konieczny", ""),
         Plant::LinearDrive => ("BlindLinearDrive", "LinearDrive", "start", ""),
+        Plant::GuidedMass => ("BlindGuidedMass", "LinearDrive", "start", ""),
         Plant::PumpDyno => ("BlindPumpActuator", "PumpHydraulicActuator", "Ajala", ""),
         Plant::SasRig => (
             "BlindSasRig",

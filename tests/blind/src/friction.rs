@@ -63,6 +63,35 @@ impl Contact {
     }
 }
 
+/// Two masses in kg, and the inertance in kg of an inerter between them: its force is so many times the difference of their
+/// accelerations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inertia {
+    /// In kg.
+    pub masses: [f64; 2],
+    /// In kg.
+    pub inertance: f64,
+}
+
+impl Inertia {
+    /// The accelerations in m/s² under two forces in N; the changes of velocity under two impulses.
+    pub fn accelerations(&self, forces: [f64; 2]) -> [f64; 2] {
+        let ([one, other], between) = (self.masses, self.inertance);
+        if between == 0.0 {
+            return [forces[0] / one, forces[1] / other];
+        }
+        let determinant = one * other + between * (one + other);
+        let both = between * (forces[0] + forces[1]);
+        [(other * forces[0] + both) / determinant, (one * forces[1] + both) / determinant]
+    }
+}
+
+impl From<[f64; 2]> for Inertia {
+    fn from(masses: [f64; 2]) -> Self {
+        Self { masses, inertance: 0.0 }
+    }
+}
+
 /// Corrects the contacts' forces and the velocities at the end of a step of `step` seconds.
 ///
 /// `forces` resist the sliding velocity; the step was done with them.
@@ -71,19 +100,21 @@ pub fn settle(
     forces: &mut [f64],
     positions: [f64; 2],
     velocities: &mut [f64; 2],
-    masses: [f64; 2],
+    inertia: impl Into<Inertia>,
     step: f64,
 ) {
+    let inertia = inertia.into();
     for _ in 0..60 {
         let mut change = 0.0_f64;
         for (contact, force) in contacts.iter().zip(forces.iter_mut()) {
             let sliding = contact.seen(*velocities);
-            let mobility = contact.along[0].powi(2) / masses[0] + contact.along[1].powi(2) / masses[1];
+            let mobility = contact.seen(inertia.accelerations(contact.along));
             let limit = contact.limit.at(contact.seen(positions), sliding);
             let corrected = (*force + sliding / (step * mobility)).clamp(-limit, limit);
             let impulse = (corrected - *force) * step;
-            for (velocity, (along, mass)) in velocities.iter_mut().zip(contact.along.iter().zip(masses)) {
-                *velocity -= impulse * along / mass;
+            let changes = inertia.accelerations(contact.along.map(|along| impulse * along));
+            for (velocity, change) in velocities.iter_mut().zip(changes) {
+                *velocity -= change;
             }
             change = change.max((corrected - *force).abs());
             *force = corrected;
@@ -122,6 +153,20 @@ mod tests {
         assert_eq!(forces, [50.0]);
         assert!((velocities[0] - (0.3 - 50.0 * STEP / 94.0)).abs() < 1e-12);
         assert!((velocities[1] - (-0.1 + 50.0 * STEP / 24.0)).abs() < 1e-12);
+    }
+
+    /// A contact with an inerter beside it stops both masses as one without, and no momentum is lost.
+    #[test]
+    fn an_inerter_couples_what_friction_does() {
+        let inertia = Inertia { masses: MASSES, inertance: 10.0 };
+        let [body, wheel] = inertia.accelerations([940.0, 240.0]);
+        assert!((94.0 * body + 24.0 * wheel - 1180.0).abs() < 1e-9);
+        assert!((94.0 * body + 10.0 * (body - wheel) - 940.0).abs() < 1e-9);
+        let contacts = [Contact { along: [1.0, -1.0], limit: Limit::Coulomb(1e6) }];
+        let (mut forces, mut velocities) = ([0.0], [0.3, -0.1]);
+        settle(&contacts, &mut forces, [0.0; 2], &mut velocities, inertia, STEP);
+        let common = (94.0 * 0.3 - 24.0 * 0.1) / 118.0;
+        assert!(velocities.iter().all(|v| (v - common).abs() < 1e-9), "{velocities:?}");
     }
 
     #[test]

@@ -23,7 +23,8 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
     check(case)?;
     let start = start(case.plant);
     let base = true_base(&start, case.nominal_off, &mut Random::new(case.seed, "base"));
-    let plain = Rig::new(case.plant, &base);
+    let mut plain = Rig::new(case.plant, &base);
+    plain.seed = case.seed;
     let (train, test) = excitations(case, &plain);
     let (mut rig, mut oracle) = (plain.clone(), plain.clone());
     let sizing = Sizing::new(case, &plain, &base, &train);
@@ -42,7 +43,7 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
         effects.push(present);
     }
     let run = |all: &[Excitation]| -> Vec<Motion> {
-        all.iter().map(|it| rig.run(&it.road, &it.command, case.reach())).collect()
+        all.iter().map(|it| rig.run(&it.road, &it.command, case.reach(), it.name)).collect()
     };
     let motions = run(&train);
     let added = |x: f64| cluttered.spring(x) - plain.car.strut.spring(x);
@@ -129,7 +130,7 @@ fn name(purpose: &str, excitation: &Excitation) -> String {
 
 /// What a rig shows.
 fn foreseen(case: &Case, rig: &Rig, excitation: &Excitation) -> Columns {
-    let motion = rig.run(&excitation.road, &excitation.command, case.reach());
+    let motion = rig.run(&excitation.road, &excitation.command, case.reach(), excitation.name);
     rig.measured(case, &motion, "oracle")
 }
 

@@ -24,6 +24,7 @@ pub mod score;
 pub mod sensors;
 pub mod servo;
 pub mod strut;
+pub mod timed;
 
 pub use case::{Case, Generated, Hidden, Plant, Sensors, Table, Truth};
 pub use generate::generate;

@@ -5,6 +5,7 @@ mod published;
 mod signals;
 
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 
 use crate::car::{Actuator, Car, Motion, Regulator};
 use crate::case::{Case, Plant, Sensors, Value};
@@ -18,6 +19,7 @@ use crate::sas::Sas;
 use crate::sensors::Sensor;
 use crate::servo::Servo;
 use crate::strut::Strut;
+use crate::timed::{Bursts, Turning};
 
 pub use published::{is_uncertain, start, true_base};
 pub use signals::{signals, true_signal};
@@ -39,14 +41,29 @@ pub struct Rig {
     plant: Plant,
     /// The moving parts; of a dyno only the strut and its contacts count.
     pub car: Car,
-    /// The moving parts of a linear drive.
+    /// The moving parts of a linear drive, or of a mass on a spring.
     pub drive: Drive,
     /// A pump actuator.
     pub pump: Pump,
     /// The arms of a semi-active rig.
     pub sas: Sas,
+    /// Effects of time alone.
+    pub timed: Timed,
+    /// Seed of their phases and bursts, which differ from record to record.
+    pub seed: u64,
     /// Of each signal.
     pub sensors: BTreeMap<String, Sensor>,
+}
+
+/// Effects of time alone; zero is none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Timed {
+    /// Share by which the tyre's stiffness changes, and turns of the wheel a second.
+    pub uneven_tire: (f64, f64),
+    /// Mass in kg times its distance from the axis in m of a part on the body that turns, and its turns a second.
+    pub imbalance: (f64, f64),
+    /// Drop-outs of the actuator a second.
+    pub dropout_rate: f64,
 }
 
 impl Rig {
@@ -92,18 +109,20 @@ impl Rig {
         let drive = Drive {
             mass: of("moving_mass"),
             damping: of("guide.damping"),
+            spring: [of("ground_spring.stiffness"), 0.0],
             control: Loop::for_mass(of("moving_mass")),
             ..Drive::default()
         };
         let sensors = signals(plant, Sensors::Full).into_iter();
         let sensors = sensors.map(|(name, _)| (name.to_owned(), Sensor::default())).collect();
-        Self { plant, car, drive, pump: Pump::new(of), sas: Sas::new(of), sensors }
+        let (pump, sas, timed) = (Pump::new(of), Sas::new(of), Timed::default());
+        Self { plant, car, drive, pump, sas, timed, seed: 0, sensors }
     }
 
     /// Adds the small effects that no model knows, `level` times.
     pub fn clutter_plant(&mut self, level: f64, random: &mut Random) {
         match self.plant {
-            Plant::LinearDrive => {
+            Plant::LinearDrive | Plant::GuidedMass => {
                 self.drive.cable = Some((level * random.between(20.0, 60.0), random.between(0.05, 0.15)));
                 let share = level * random.between(0.003, 0.008);
                 self.drive.ripple = Some((share, random.between(0.02, 0.05), random.phase()));
@@ -129,17 +148,18 @@ impl Rig {
         for (name, sensor) in &mut self.sensors {
             sensor.skew += level * random.sign() * random.between(1e-4, 4e-4);
             if name.ends_with("acceleration") {
-                sensor.bandwidth = level / (std::f64::consts::TAU * 200.0);
+                sensor.bandwidth = level / (TAU * 200.0);
             }
         }
     }
 
     /// What the parts do under an excitation: of a car the road and its command, of a dyno the motion of its end, of
-    /// a drive the position that it shall follow, of a pump actuator its piston's velocity and its torque, of a semi-active rig the
-    /// eccentric and its brake.
-    pub fn run(&self, road: &Profile, command: &Profile, duration: f64) -> Motion {
+    /// a drive the position that it shall follow, of a mass on a spring its force, of a pump actuator its piston's velocity and its torque, of a semi-active rig the
+    /// eccentric and its brake. What happens in time does so at the times of a record.
+    pub fn run(&self, road: &Profile, command: &Profile, duration: f64, record: &str) -> Motion {
         match self.plant {
             Plant::LinearDrive => self.drive.run(road, duration),
+            Plant::GuidedMass => self.drive.pushed(road, duration),
             Plant::PumpDyno => self.pump.run(road, command, duration),
             Plant::SasRig => self.sas.run(road, command, duration),
             Plant::StrutDyno | Plant::MrDyno => {
@@ -149,7 +169,24 @@ impl Rig {
             Plant::LinearQuarter
             | Plant::RegulatedQuarter
             | Plant::PublishedQuarter
-            | Plant::ServoQuarter => self.car.run(road, command, duration, [0.0; 4]),
+            | Plant::ServoQuarter => self.timed(duration, record).run(road, command, duration, [0.0; 4]),
+        }
+    }
+
+    /// The car with the effects of time in a record.
+    fn timed(&self, duration: f64, record: &str) -> Car {
+        let random = |what: &str| Random::new(self.seed, &format!("{what} in {record}"));
+        let turning = |what: &str, size: f64, frequency: f64| {
+            (size != 0.0).then(|| Turning { size, frequency, phase: random(what).phase() })
+        };
+        let Timed { uneven_tire, imbalance, dropout_rate } = self.timed;
+        // The centrifugal force of a part that turns.
+        let force = imbalance.0 * (TAU * imbalance.1).powi(2);
+        Car {
+            uneven_tire: turning("wheel", uneven_tire.0, uneven_tire.1),
+            imbalance: turning("imbalance", force, imbalance.1),
+            dropouts: Bursts::new(&mut random("drop-outs"), duration, dropout_rate),
+            ..self.car.clone()
         }
     }
 

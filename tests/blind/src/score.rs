@@ -6,6 +6,7 @@ mod spot;
 mod table;
 #[cfg(test)]
 mod tests;
+mod unmodelled;
 
 use std::collections::BTreeSet;
 
@@ -15,7 +16,7 @@ use crate::catalogue::{Place, number};
 use spot::Spot;
 
 pub use breakdown::breakdown;
-pub use report::{Fitted, Interval, Named, Problem, Report, Signal, Unnamed};
+pub use report::{Fitted, Interval, Named, Problem, Report, Signal, Unmodelled, Unnamed, words};
 pub use table::{confusion, markdown, wilson};
 
 /// How a case came out.
@@ -70,8 +71,10 @@ pub struct Score {
     pub first_right: Option<bool>,
     /// Whether the first cause is at the right place.
     pub location_right: Option<bool>,
-    /// Whether the variable of an unnamed cause is right.
+    /// Whether what an unmodelled cause depends on is right; none if the report has none.
     pub variable_right: Option<bool>,
+    /// Whether its frequency is right; none if it has none, or the report tells none.
+    pub frequency_right: Option<bool>,
     /// Whether a sensor was told from the plant; none if nothing was found or is there.
     pub sensor_or_plant: Option<bool>,
     /// How many 95 % intervals of rightly named effects cover the truth, of how many.
@@ -95,24 +98,46 @@ pub struct Gain {
     pub exact: f64,
 }
 
+impl Score {
+    /// Whether the first cause is at the right place.
+    fn is_at_place(&self) -> bool {
+        self.location_right == Some(true)
+    }
+
+    /// Whether what an unmodelled cause depends on is right.
+    fn is_over_variable(&self) -> bool {
+        self.variable_right == Some(true)
+    }
+}
+
 /// Judges a report.
 ///
 /// # Errors
 /// If it is no report.
 pub fn score(truth: &Truth, report: &str) -> Result<Score, String> {
-    let report: Report = serde_json::from_str(report)
+    let report = Report::read(report)
         .map_err(|error| format!("case {}: report.json is not a report: {error}", truth.case.name))?;
     let effects = &truth.effects;
-    let out_of_catalogue = effects.iter().any(|effect| effect.id.starts_with('U'));
+    let out_of_catalogue = effects.iter().any(unmodelled::is_hidden);
     let first = Spot::of(&report, truth);
     let told: Vec<&Named> = report.effects.iter().collect();
     let own: Vec<&Named> = told.iter().copied().filter(|named| !is_clutter(named, truth)).collect();
     let beside_clutter = outcome(&report, &own, effects);
     let outcome = outcome(&report, &told, effects);
     let found = first.as_ref().filter(|_| !effects.is_empty());
+    let at_place = |spot: &Spot| {
+        let hidden = |it: &Present| unmodelled::is_hidden(it) && spot.is_like(it);
+        effects.iter().any(|it| if out_of_catalogue { hidden(it) } else { spot.is_of(it) })
+    };
+    // Beside a name for what the clutter brings, what has none counts.
+    let unmodelled = Spot::unmodelled(&report, truth).filter(|_| out_of_catalogue);
+    let located = unmodelled
+        .as_ref()
+        .or(found)
+        .map(at_place)
+        .or(unmodelled::is_problem(&report, effects).then_some(true));
     let sensors: Vec<bool> = effects.iter().map(|effect| effect.place == Place::Sensor).collect();
     let said_sensor = report.verdict == "sensor_fault" || first.as_ref().is_some_and(Spot::is_sensor);
-    let variable = report.unnamed.as_ref().filter(|_| out_of_catalogue).map(|unnamed| &unnamed.variable);
     Ok(Score {
         case: truth.case.name.clone(),
         plant: truth.case.plant,
@@ -130,9 +155,12 @@ pub fn score(truth: &Truth, report: &str) -> Result<Score, String> {
             report.effects.first().is_some_and(right)
                 || effects.iter().any(|e| is_known_otherwise(e, &report))
         }),
-        location_right: found.map(|spot| effects.iter().any(|effect| spot.is_of(effect))),
-        variable_right: variable.map(|name| effects.iter().any(|effect| effect.variable == *name)),
-        sensor_or_plant: found.map(|_| sensors.contains(&said_sensor)),
+        location_right: located,
+        variable_right: out_of_catalogue.then(|| unmodelled::variable_right(&report, effects)).flatten(),
+        frequency_right: out_of_catalogue.then(|| unmodelled::frequency_right(&report, effects)).flatten(),
+        // A place that is like the effect's may be a signal where that is none.
+        sensor_or_plant: found
+            .map(|_| sensors.contains(&said_sensor) || out_of_catalogue && located == Some(true)),
         covered: coverage(&report, effects),
         base_covered: if outcome == Outcome::Correct { base_coverage(&report, truth) } else { (0, 0) },
         gained: (!effects.is_empty() && !out_of_catalogue && truth.oracle != Oracle::default())
@@ -201,17 +229,14 @@ fn is_meant(effect: &Present, text: &str) -> bool {
 
 /// How a report came out of which these effects count.
 fn outcome(report: &Report, told: &[&Named], effects: &[Present]) -> Outcome {
-    let nothing = told.is_empty() && report.unnamed.is_none();
+    let unmodelled = !report.unmodelled.is_empty();
     if effects.is_empty() {
-        let calm = nothing && ["no_effect", "parameter_mismatch"].contains(&report.verdict.as_str());
-        return if calm { Outcome::Correct } else { Outcome::FalseAlarm };
+        let calm = ["no_effect", "parameter_mismatch"].contains(&report.verdict.as_str());
+        let nothing = calm && told.is_empty() && !unmodelled;
+        return if nothing { Outcome::Correct } else { Outcome::FalseAlarm };
     }
-    if effects.iter().any(|effect| effect.id.starts_with('U')) {
-        return match (told.is_empty(), nothing) {
-            (_, true) => Outcome::Missed,
-            (true, _) => Outcome::Unnamed,
-            (false, _) => Outcome::WrongName,
-        };
+    if effects.iter().any(unmodelled::is_hidden) {
+        return unmodelled::outcome(report, told, effects);
     }
     // The largest set from which one of the present effects had to be chosen; none if it is not there at all.
     let choice = |effect: &Present| {
@@ -229,9 +254,9 @@ fn outcome(report: &Report, told: &[&Named], effects: &[Present]) -> Outcome {
     };
     // What is wrong with one measured input, its gain and its delay, say, is one effect.
     let number = told.iter().map(|named| (&named.id, &named.element)).collect::<BTreeSet<_>>().len();
-    let strangers = report.unnamed.is_some() || !told.iter().all(|named| belongs(named));
+    let strangers = unmodelled || !told.iter().all(|named| belongs(named));
     match choices.iter().max() {
-        None if report.unnamed.is_some() && told.is_empty() => Outcome::Unnamed,
+        None if unmodelled && told.is_empty() => Outcome::Unnamed,
         None if told.is_empty() => Outcome::Missed,
         None => Outcome::WrongName,
         Some(_) if strangers && choices.len() < effects.len() => Outcome::WrongName,

@@ -1,13 +1,19 @@
 //! From the true signal to what the record shows.
 
+mod rattle;
+
 use std::f64::consts::{PI, TAU};
 
 use crate::car::RATE;
 use crate::random::Random;
 
+pub use rattle::Rattle;
+
 /// What a sensor does to its signal; by default nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sensor {
+    /// What is loose about its mounting, of an accelerometer.
+    pub rattle: Option<Rattle>,
     /// First-order time constant, in s.
     pub lag: f64,
     /// A second one, of the clutter, in s.
@@ -47,6 +53,7 @@ pub struct Sensor {
 impl Default for Sensor {
     fn default() -> Self {
         Self {
+            rattle: None,
             lag: 0.0,
             bandwidth: 0.0,
             resonance: None,
@@ -70,6 +77,8 @@ impl Default for Sensor {
 impl Sensor {
     /// The samples that it shows of `signal`, which has [`RATE`] samples a second, at `rate` a second.
     pub fn measure(&self, signal: &[f64], rate: f64, random: &mut Random) -> Vec<f64> {
+        let seated = self.rattle.map(|rattle| rattle.felt(signal));
+        let signal = seated.as_deref().unwrap_or(signal);
         let ringing = resonating(&dragged(signal, self.hysteresis), self.resonance);
         let passed = high_passed(&ringing, self.high_pass);
         let slow = delayed(&lagged(&lagged(&passed, self.lag), self.bandwidth), self.skew);

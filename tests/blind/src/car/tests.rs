@@ -3,6 +3,7 @@ use std::f64::consts::TAU;
 use super::*;
 use crate::excitation::STANDSTILL;
 use crate::friction::Limit;
+use crate::random::Random;
 
 fn linear() -> Car {
     Car {
@@ -243,4 +244,91 @@ fn a_regulator_does_what_its_gains_say() {
     let again = linear().run(&Profile::still(), &command, 1.0, start);
     let apart = motion.body.iter().zip(&again.body).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
     assert!(apart < 1e-5, "{apart} m");
+}
+
+/// What moves the body besides its strut, in N.
+fn on_body(motion: &Motion, k: usize) -> f64 {
+    let (x, v) = (motion.body[k] - motion.wheel[k], motion.body_velocity[k] - motion.wheel_velocity[k]);
+    94.38 * motion.body_acceleration[k] + 8400.0 * x + 707.0 * v
+}
+
+fn pushed() -> Profile {
+    Profile::new(2.0, |t| 100.0 * (TAU * 3.0 * t).sin())
+}
+
+fn rough() -> Profile {
+    Profile::new(2.0, |t| 5e-3 * (TAU * 4.0 * t).sin())
+}
+
+/// Its force is 8 kg times the difference of the accelerations, and it stores ½ b v² without a loss.
+#[test]
+fn an_inerter_resists_a_difference_of_accelerations() {
+    let car = Car { inertance: 8.0, ..linear() };
+    let motion = car.run(&rough(), &Profile::still(), 2.0, [0.0; 4]);
+    for k in 0..motion.body.len() {
+        let force = 8.0 * (motion.wheel_acceleration[k] - motion.body_acceleration[k]);
+        assert!((on_body(&motion, k) - force).abs() < 1e-9);
+        let momentum = 94.38 * motion.body_acceleration[k] + 23.92 * motion.wheel_acceleration[k];
+        assert!((momentum - motion.tire_force[k]).abs() < 1e-9);
+    }
+    let motion = free(&Car { inertance: 8.0, ..undamped() }, 5.0, [0.004, 0.0, -0.003, 0.0]);
+    let stored = |k: usize| {
+        let v = motion.body_velocity[k] - motion.wheel_velocity[k];
+        energy(&motion, k) + 0.5 * 8.0 * v * v
+    };
+    assert!((stored(motion.body.len() - 1) / stored(0) - 1.0).abs() < 1e-8);
+}
+
+#[test]
+fn an_actuator_that_drops_out_makes_no_force_meanwhile() {
+    let dropouts = Bursts::new(&mut Random::new(1, "test"), 2.0, 4.0);
+    assert!(dropouts.total() > 0.05);
+    let car = Car { dropouts: dropouts.clone(), ..linear() };
+    let motion = car.run(&Profile::still(), &pushed(), 2.0, [0.0; 4]);
+    let mut lost = 0;
+    for k in 0..motion.body.len() {
+        let dropped = dropouts.cover(k as f64 / RATE);
+        let due = if dropped { 0.0 } else { motion.command[k] };
+        // A burst begins and ends within a step.
+        let missing = (on_body(&motion, k) - due).abs() > 1e-9;
+        lost += usize::from(missing);
+        assert!(!missing || dropped != dropouts.cover((k as f64 - 1.0) / RATE), "at {k}");
+    }
+    assert!(lost < 20, "{lost}");
+}
+
+/// A tyre of 2 % more stiffness carries 2 % more of the load, 23.2 N of 1160 N, and of its dynamic force.
+#[test]
+fn an_uneven_tyre_shakes_a_rig_on_an_even_road() {
+    let turning = Turning { size: 0.02, frequency: 5.0, phase: 0.0 };
+    let car = Car { uneven_tire: Some(turning), tire_damping: 0.0, ..linear() };
+    let motion = car.run(&Profile::still(), &Profile::still(), 4.0, [0.0; 4]);
+    let load = 118.3 * GRAVITY;
+    for (k, force) in motion.tire_force.iter().enumerate() {
+        let share = turning.at(k as f64 / RATE);
+        let due = (1.0 + share) * (load - 152_140.0 * motion.wheel[k]) - load;
+        assert!((force - due).abs() < 1e-9, "{force} N for {due} N");
+    }
+    assert_eq!(motion.wheel[9_999], 0.0);
+    let (real, imaginary) = line(&motion.tire_force, 5.0, 10.0);
+    // 23.2 N/(1 + k_t/D), where D is the stiffness in N/m with which wheel and body resist at 5 Hz.
+    assert!((real.hypot(imaginary) / 5.681 - 1.0).abs() < 0.02, "{} N", real.hypot(imaginary));
+    let absent = Car { uneven_tire: Some(Turning { size: 0.0, ..turning }), ..linear() };
+    let both = [absent, linear()].map(|car| car.run(&rough(), &Profile::still(), 2.0, [0.0; 4]).body);
+    assert_eq!(both[0], both[1]);
+}
+
+#[test]
+fn a_part_out_of_balance_and_a_second_path_push_the_body_alone() {
+    let imbalance = Turning { size: 12.0, frequency: 9.0, phase: 1.0 };
+    let crosstalk = Crosstalk { gain: -0.2, delay: 0.02 };
+    let car = Car { imbalance: Some(imbalance), crosstalk: Some(crosstalk), ..linear() };
+    let motion = car.run(&Profile::still(), &pushed(), 2.0, [0.0; 4]);
+    for k in 400..motion.body.len() {
+        let force = on_body(&motion, k) - motion.command[k];
+        let due = imbalance.at(k as f64 / RATE) - 0.2 * motion.command[k - 400];
+        assert!((force - due).abs() < 1e-9, "{force} N for {due} N");
+        let momentum = 94.38 * motion.body_acceleration[k] + 23.92 * motion.wheel_acceleration[k];
+        assert!((momentum - motion.tire_force[k] - due).abs() < 1e-9);
+    }
 }

@@ -1,4 +1,4 @@
-//! What can be hidden in a linear drive.
+//! What can be hidden in a linear drive, and in a mass on a spring.
 
 use super::{ANY, Entry, Place, Role, SHAPE, ZERO, drawn, entry};
 
@@ -28,5 +28,11 @@ pub(super) static ENTRIES: &[Entry] = &[
         "constant load of the drive",
         Place::Guide,
         &[drawn("constant_load", "N", (10.0, 30.0), Role::Signed, (-150.0, 150.0))],
+    ),
+    entry(
+        "16m",
+        "friction of the guide of a mass",
+        Place::Guide,
+        &[drawn("guide.coulomb.force", "N", (3.0, 10.0), ZERO, (0.0, 40.0))],
     ),
 ];

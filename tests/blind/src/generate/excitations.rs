@@ -10,7 +10,7 @@ use crate::rig::Rig;
 pub(super) struct Excitation {
     /// Its name in the file's.
     pub(super) name: &'static str,
-    /// The road, the motion of a dyno's end, what a drive shall follow, or the lift of an eccentric, in m; the velocity of a pump
+    /// The road, the motion of a dyno's end, what a drive shall follow, the force on a mass in N, or the lift of an eccentric, in m; the velocity of a pump
     /// actuator's piston, in m/s.
     pub(super) road: Profile,
     /// What the actuator is commanded; a brake's rate beyond its drag, in N m s/rad.
@@ -78,6 +78,14 @@ pub(super) fn excitations(case: &Case, plain: &Rig) -> (Vec<Excitation>, Vec<Exc
                 ("sweep", sweep(time, 1.0, 4e-3), braked(steps(random, time, 1.0, half))),
             ]
         }
+        // Up to 3 cm, at the resonance more.
+        Plant::GuidedMass => [
+            ("multisine", multisine(random, time, 0.3, 120.0), still()),
+            ("prbs", prbs(random, time, 0.04, 50.0), still()),
+            ("bumps", bumps(random, time, 150.0), still()),
+            ("road", road(random, time, 120.0), still()),
+            ("sweep", sweep(time, 0.0, 40.0), still()),
+        ],
         Plant::LinearDrive => [
             ("multisine", multisine(random, time, 1.6, 0.10), still()),
             ("triangle", triangle(time, 5.0, 0.10).plus(&multisine(random, time, 1.6, 0.01)), still()),
@@ -118,7 +126,7 @@ fn limit_pull(case: &Case, plain: &Rig, excitation: &mut Excitation, lifting: bo
     let load = car.load();
     // Several times, as the relation is not linear: a wheel in the air flies far.
     for _ in 0..8 {
-        let motion = plain.run(&excitation.road, &excitation.command, case.reach());
+        let motion = plain.run(&excitation.road, &excitation.command, case.reach(), excitation.name);
         let pull = motion.road.iter().zip(&motion.wheel).fold(0.0_f64, |most, (z, w)| most.max(w - z));
         let share = pull * car.tire_stiffness / load;
         let factor = match () {
@@ -134,7 +142,7 @@ fn limit_pull(case: &Case, plain: &Rig, excitation: &mut Excitation, lifting: bo
 fn keep_contact(case: &Case, plain: &Rig, excitation: &mut Excitation) {
     let (_, load) = plain.sas.rest();
     for _ in 0..8 {
-        let motion = plain.run(&excitation.road, &excitation.command, case.reach());
+        let motion = plain.run(&excitation.road, &excitation.command, case.reach(), excitation.name);
         let least = motion.tire_force.iter().fold(load, |least, force| least.min(*force));
         let share = 1.0 - least / load;
         if share <= 0.8 {

@@ -48,7 +48,7 @@ impl<'a> Sizing<'a> {
         let length = if case.plant.is_car() { "suspension.deflection" } else { "motion.position" };
         let most = |signal: &[f64]| signal.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         for excitation in train {
-            let motion = plain.run(&excitation.road, &excitation.command, case.reach());
+            let motion = plain.run(&excitation.road, &excitation.command, case.reach(), excitation.name);
             sizing.deflection = sizing.deflection.max(most(&true_signal(case.plant, &motion, length)));
             sizing.travel = sizing.travel.max(most(&motion.wheel));
             sizing.command = sizing.command.max(most(&motion.command));
@@ -76,7 +76,7 @@ impl<'a> Sizing<'a> {
     /// What is seen of another rig than the plain one.
     fn change(&self, rig: &Rig) -> Change {
         let records = self.train.iter().zip(&self.seen).flat_map(|(excitation, seen)| {
-            let motion = rig.run(&excitation.road, &excitation.command, self.case.reach());
+            let motion = rig.run(&excitation.road, &excitation.command, self.case.reach(), excitation.name);
             let measured = rig.measured(self.case, &motion, "sizing");
             let column = |((.., before), (.., after)): (&(_, _, Vec<f64>), &(_, _, Vec<f64>))| {
                 let size = swing(before);
@@ -173,6 +173,7 @@ impl<'a> Sizing<'a> {
             place: entry.place,
             signal: hidden.signal.clone(),
             variable: entry.variable.into(),
+            depends_on: entry.depends_on.iter().map(|word| (*word).to_owned()).collect(),
             parameters: named.collect(),
             ratio,
         };

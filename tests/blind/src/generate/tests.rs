@@ -124,6 +124,7 @@ fn effects_outdo_the_clutter_and_every_one_can_be_hidden() {
         let plant = match entry.id {
             "26v" | "28" | "28h" | "29" | "30" => Plant::ServoQuarter,
             "02g" | "27" | "33g" => Plant::LinearDrive,
+            "16m" | "U16" | "U9m" => Plant::GuidedMass,
             "30p" | "32a" | "32b" | "32c" => Plant::PumpDyno,
             "01p" | "19p" => Plant::SasRig,
             _ => Plant::LinearQuarter,
@@ -162,6 +163,39 @@ fn what_cannot_be_hidden_is_refused() {
     assert!(refused(&short(vec![Hidden::new("28")])).contains("another plant"));
     assert!(refused(&short(vec![Hidden::at("41", "body.acceleration")])).contains("wheel.force"));
     assert!(refused(&Case { rate: 333.0, ..short(vec![]) }).contains("divides"));
+}
+
+/// Phases and bursts differ between records, and repeat if a record is made again.
+#[test]
+fn each_record_finds_other_times() {
+    let made = |id: &str| clean(Plant::LinearQuarter, vec![Hidden::new(id)]);
+    let (sound, uneven) = (clean(Plant::LinearQuarter, vec![]), made("U11"));
+    let frequency = uneven.truth.effects[0].parameters[1].value;
+    let tables = |of: &Generated| of.train.iter().chain(&of.test).cloned().collect::<Vec<_>>();
+    let phases: Vec<f64> = tables(&uneven)
+        .iter()
+        .zip(tables(&sound))
+        .map(|(uneven, sound)| {
+            let force = |of: &Table| of.column("wheel.force").unwrap().to_vec();
+            let off = force(uneven).into_iter().zip(force(&sound)).map(|(one, other)| one - other);
+            let (sine, cosine) = off.enumerate().skip(2000).fold((0.0, 0.0), |sum, (k, off)| {
+                let angle = std::f64::consts::TAU * frequency * k as f64 / 1000.0;
+                (sum.0 + off * angle.sin(), sum.1 + off * angle.cos())
+            });
+            cosine.atan2(sine)
+        })
+        .collect();
+    let apart = |phase: &f64| (phase - phases[0]).sin().abs();
+    assert!(phases.iter().filter(|phase| apart(phase) > 0.2).count() >= 2, "{phases:?}");
+    assert_eq!(uneven.train, made("U11").train);
+}
+
+#[test]
+fn a_loose_sensor_is_an_accelerometer() {
+    let refused = generate(&short(vec![Hidden::at("U13", "wheel.force")])).unwrap_err();
+    assert!(refused.contains("accelerometer"), "{refused}");
+    let dyno = Case { plant: Plant::StrutDyno, ..short(vec![Hidden::new("U7")]) };
+    assert!(generate(&dyno).unwrap_err().contains("another plant"));
 }
 
 #[test]

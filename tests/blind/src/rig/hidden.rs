@@ -1,16 +1,18 @@
 //! How an effect gets into a rig.
 
 use super::{GUIDE, Rig, STRUT, WHEEL_GUIDE};
-use crate::car::Frame;
+use crate::car::{Crosstalk, Frame};
 use crate::case::Plant;
 use crate::catalogue::{Entry, Place};
 use crate::friction::{Contact, Limit};
+use crate::sensors::Rattle;
 use crate::servo::Servo;
-use crate::strut::Hump;
+use crate::strut::{Bypass, Hump, memory};
 
 /// Effects that only one plant can have.
 const OF_SERVO: [&str; 5] = ["26v", "28", "28h", "29", "30"];
 const OF_DRIVE: [&str; 3] = ["02g", "27", "33g"];
+const OF_MASS: [&str; 3] = ["16m", "U16", "U9m"];
 const OF_PUMP: [&str; 4] = ["30p", "32a", "32b", "32c"];
 const OF_SAS: [&str; 2] = ["01p", "19p"];
 
@@ -18,7 +20,7 @@ const OF_SAS: [&str; 2] = ["01p", "19p"];
 fn is_possible(plant: Plant, entry: &Entry) -> bool {
     let id = entry.id;
     let elsewhere = |own: &[&str]| {
-        let all = [&OF_SERVO[..], &OF_DRIVE, &OF_PUMP, &OF_SAS].concat();
+        let all = [&OF_SERVO[..], &OF_DRIVE, &OF_MASS, &OF_PUMP, &OF_SAS].concat();
         all.contains(&id) && !own.contains(&id)
     };
     let of_record = entry.place == Place::Sensor && !["41", "41h", "42"].contains(&id);
@@ -28,10 +30,11 @@ fn is_possible(plant: Plant, entry: &Entry) -> bool {
         Plant::LinearQuarter | Plant::RegulatedQuarter => !elsewhere(&[]),
         Plant::PublishedQuarter => !elsewhere(&[]) && !["01", "02", "04", "16", "19"].contains(&id),
         Plant::ServoQuarter => {
-            OF_SERVO.contains(&id) || !elsewhere(&OF_SERVO) && entry.place != Place::Actuator
+            let of_force = entry.place == Place::Actuator || id == "U15";
+            OF_SERVO.contains(&id) || !elsewhere(&OF_SERVO) && !of_force
         }
         Plant::StrutDyno | Plant::MrDyno => match entry.place {
-            Place::Strut => !["13", "14"].contains(&id),
+            Place::Strut => !["13", "14", "U7"].contains(&id),
             Place::Sensor => of_record,
             Place::Guide
             | Place::WheelGuide
@@ -42,6 +45,7 @@ fn is_possible(plant: Plant, entry: &Entry) -> bool {
             | Place::Pivot => false,
         },
         Plant::LinearDrive => OF_DRIVE.contains(&id) || id == "16" || of_record,
+        Plant::GuidedMass => OF_MASS.contains(&id) || of_record,
         Plant::PumpDyno => OF_PUMP.contains(&id) || of_command || of_record,
         Plant::SasRig => OF_SAS.contains(&id) || of_command || of_record,
     }
@@ -95,6 +99,7 @@ impl Rig {
                 drive.contacts.push(contact(GUIDE, Limit::Coulomb(first)));
             }
             "16" => self.car.contacts.push(contact(GUIDE, Limit::Coulomb(first))),
+            "16m" => drive.contacts.push(contact(GUIDE, Limit::Coulomb(first))),
             "17" => self.car.contacts.push(contact(WHEEL_GUIDE, Limit::Coulomb(first))),
             "18" => {
                 self.car.frame = Some(Frame { mass: first, frequency: values[1], damping_ratio: values[2] });
@@ -125,6 +130,19 @@ impl Rig {
                 let limit = Limit::Periodic { force: first, period: values[1] };
                 self.car.contacts.push(contact(WHEEL_GUIDE, limit));
             }
+            "U7" => self.car.inertance = first,
+            "U8" => strut.memory = (first > 0.0).then(|| memory(first, values[1])),
+            // As a mode of the frame, but slower.
+            "U9" | "U9m" => {
+                let frame = Frame { mass: first, frequency: values[1], damping_ratio: values[2] };
+                *(if entry.id == "U9" { &mut self.car.frame } else { &mut drive.absorber }) = Some(frame);
+            }
+            "U10" => self.timed.dropout_rate = first,
+            "U11" => self.timed.uneven_tire = (first, values[1]),
+            "U12" => strut.bypass = Some(Bypass { zone: hump(values), velocity: values[3] }),
+            "U16" => drive.spring[1] = first,
+            "U14" => self.timed.imbalance = (first, values[1]),
+            "U15" => self.car.crosstalk = Some(Crosstalk { gain: first, delay: values[1] }),
             _ => return self.put_in_sensor(entry, values, signal),
         }
         Ok(())
@@ -145,6 +163,16 @@ impl Rig {
                 known.join(", ")
             )
         })?;
+        if entry.id == "U13" {
+            if !signal.ends_with("acceleration") {
+                return Err(format!(
+                    "effect U13 sits in an accelerometer, and not in the sensor of `{signal}`"
+                ));
+            }
+            let [gap, friction, frequency, damping_ratio] = [0, 1, 2, 3].map(|number| values[number]);
+            sensor.rattle = Some(Rattle { gap, friction, frequency, damping_ratio });
+            return Ok(());
+        }
         for (drawn, value) in entry.parameters.iter().zip(values) {
             match drawn.name {
                 "offset" => sensor.offset = *value,

@@ -28,6 +28,7 @@ pub fn signals(plant: Plant, sensors: Sensors) -> Vec<(&'static str, &'static st
         }
         Plant::StrutDyno | Plant::MrDyno => return vec![("motion.position", "m"), ("force", "N")],
         Plant::LinearDrive => return vec![("force", "N"), ("position", "m")],
+        Plant::GuidedMass => return vec![("force", "N"), ("position", "m"), ("acceleration", "m/s2")],
         Plant::LinearQuarter | Plant::RegulatedQuarter | Plant::PublishedQuarter => ("actuator.force", "N"),
         Plant::ServoQuarter => ("voltage", "V"),
     };
@@ -53,9 +54,9 @@ pub fn true_signal(plant: Plant, motion: &Motion, name: &str) -> Vec<f64> {
     match name {
         "road.position" | "motion.position" => motion.road.clone(),
         "actuator.force" | "voltage" => motion.command.clone(),
-        "force" if plant == Plant::LinearDrive => motion.command.clone(),
+        "force" if matches!(plant, Plant::LinearDrive | Plant::GuidedMass) => motion.command.clone(),
         "position" => motion.body.clone(),
-        "body.acceleration" => motion.body_acceleration.clone(),
+        "body.acceleration" | "acceleration" => motion.body_acceleration.clone(),
         "wheel.acceleration" => motion.wheel_acceleration.clone(),
         "suspension.deflection" => motion.body.iter().zip(&motion.wheel).map(|(z, w)| z - w).collect(),
         "pressure" => motion.pressure.clone(),

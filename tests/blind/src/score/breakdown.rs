@@ -23,7 +23,7 @@ impl Row {
     }
 }
 
-/// Both tables, as Markdown; the one over conditions only if several were tried.
+/// The tables, as Markdown: over conditions only if several were tried, over causes out of the catalogue if there are any.
 pub fn breakdown(scores: &[Score]) -> String {
     let mut text = String::new();
     let single = || {
@@ -40,9 +40,39 @@ pub fn breakdown(scores: &[Score]) -> String {
         text += &table("condition", tried.map(|score| (score.condition.as_str(), score)));
         text.push('\n');
     }
+    text += &out_of_catalogue(scores);
     text +=
         "## By plant\n\nAll cases, those without an effect included: there, right is to name nothing.\n\n";
     text + &table("plant", scores.iter().map(|score| (score.plant.title(), score)))
+}
+
+/// How often each cause was named, missed, placed and described rightly; nothing if there is none.
+fn out_of_catalogue(scores: &[Score]) -> String {
+    let mut rows: BTreeMap<&str, Vec<&Score>> = BTreeMap::new();
+    for score in scores.iter().filter(|score| score.out_of_catalogue) {
+        rows.entry(&score.truth).or_default().push(score);
+    }
+    if rows.is_empty() {
+        return String::new();
+    }
+    let mut text = "## By cause out of the catalogue\n\n\
+        | cause | cases | falsely named | reported as no effect | place right | variable right |\n\
+        |---|---|---|---|---|---|\n"
+        .to_owned();
+    for (truth, all) in rows {
+        let count = |is: &dyn Fn(&Score) -> bool| all.iter().filter(|score| is(score)).count();
+        writeln!(
+            text,
+            "| {truth} | {} | {} | {} | {} | {} |",
+            all.len(),
+            count(&|score| score.outcome == Outcome::WrongName),
+            count(&|score| score.outcome == Outcome::Missed),
+            count(&Score::is_at_place),
+            count(&Score::is_over_variable),
+        )
+        .expect("a string takes everything");
+    }
+    text + "\n"
 }
 
 fn table<'a>(over: &str, scores: impl Iterator<Item = (&'a str, &'a Score)>) -> String {

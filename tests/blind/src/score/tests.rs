@@ -1,3 +1,5 @@
+mod unmodelled;
+
 use super::*;
 use crate::case::{Case, Oracle, Value};
 
@@ -8,6 +10,7 @@ fn truth(effects: &[(&str, Place, &str)]) -> Truth {
         place,
         signal: signal.into(),
         variable: "suspension.deflection".into(),
+        depends_on: vec!["deflection".into()],
         parameters: vec![Value { name: "strut.coulomb.force".into(), unit: "N".into(), value: 60.0 }],
         ratio: None,
     };

@@ -41,6 +41,37 @@ fn the_drives_record_holds_the_resistance() {
     }
 }
 
+/// The balance of the forces on the mass is in every record: motor, spring, guide, and what is hidden.
+#[test]
+fn a_mass_on_a_spring_obeys_newton() {
+    let made = clean(Plant::GuidedMass, vec![Hidden::new("U16")]);
+    let of = |name: &str| made.truth.base.iter().find(|value| value.name == name).unwrap().value;
+    assert_eq!(of("ground_spring.stiffness"), 6000.0, "it was measured before");
+    let cubic = made.truth.effects[0].parameters[0].value;
+    for table in made.train.iter().chain(&made.test) {
+        let [force, x, a] = ["force", "position", "acceleration"].map(|name| table.column(name).unwrap());
+        let mut largest = 0.0_f64;
+        for k in 10..force.len() - 10 {
+            let velocity = (x[k + 1] - x[k - 1]) * 500.0;
+            let held = of("ground_spring.stiffness") * x[k] + cubic * x[k].powi(3);
+            let due = of("moving_mass") * a[k] + of("guide.damping") * velocity + held;
+            // Central differences are a little slow, and the filter takes the cube of what it sees as it is.
+            assert!(
+                (force[k] - due).abs() < 0.02 * rms(force) + 0.1,
+                "{}: {} N for {due} N",
+                table.name,
+                force[k]
+            );
+            largest = largest.max(cubic * x[k].abs().powi(3));
+        }
+        assert!(largest > 0.1 * rms(force), "{}: {largest} N", table.name);
+    }
+    let sound = clean(Plant::GuidedMass, vec![]);
+    for left in &sound.truth.oracle.exact {
+        assert!(left.value < 1e-9, "{} of {}", left.value, left.name);
+    }
+}
+
 fn rest_of(table: &Table, name: &str) -> f64 {
     table.column(name).unwrap()[0]
 }
