@@ -11,6 +11,7 @@ pub mod data;
 pub mod dataset;
 pub mod diagnosis;
 pub mod estimation;
+pub mod explain;
 pub mod missing;
 pub mod report;
 pub mod rig;

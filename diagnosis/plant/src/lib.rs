@@ -14,7 +14,7 @@ use strut_model::{Bundle, Declaration, Declarations, Model, SettingDeclaration, 
 
 use integrate::{Equations, Run};
 
-pub use steps::Follower;
+pub use steps::{Follower, Seen};
 
 /// Derivatives that are taken at once.
 const DIRECTIONS: usize = 8;

@@ -6,13 +6,24 @@ use super::integrate::{Run, Seeding, direction};
 use super::jet::{Jet, Scalar};
 use super::{DIRECTIONS, Drive, Seed, outputs_of};
 
+/// What a model says at a sample.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'a> {
+    /// The wanted outputs.
+    pub outputs: &'a [f64],
+    /// Their derivatives by seed, output by output.
+    pub slopes: &'a [f64],
+    /// The rates of all states.
+    pub rates: &'a [f64],
+}
+
 /// Follows a model from sample to sample, and says from which state it goes on.
 pub trait Follower {
     /// The state at a sample, as predicted, before anything is computed from it: it may be replaced.
     fn state(&mut self, sample: usize, state: &mut [f64]);
 
-    /// The wanted outputs at a sample, and their derivatives by seed, output by output. The state may be corrected.
-    fn outputs(&mut self, sample: usize, values: &[f64], slopes: &[f64], state: &mut [f64]);
+    /// What the model says at a sample. The state may be corrected.
+    fn seen(&mut self, sample: usize, seen: Seen<'_>, state: &mut [f64]);
 
     /// The state that follows at the next sample, and its derivatives by seed, state by state.
     fn advanced(&mut self, sample: usize, state: &[f64], slopes: &[f64]);
@@ -79,6 +90,7 @@ fn follow<M: Model, R: Scalar>(
     let rows: Vec<Option<usize>> =
         (0..outputs_of::<M>()).map(|output| wanted.iter().position(|it| *it == output)).collect();
     let mut state = start.to_vec();
+    let mut rates = vec![0.0; state.len()];
     let (mut values, mut slopes) = (vec![0.0; wanted.len()], vec![0.0; wanted.len() * seeds]);
     let mut advanced = vec![0.0; state.len() * seeds];
     for sample in 0..drive.len() {
@@ -86,15 +98,17 @@ fn follow<M: Model, R: Scalar>(
         for lane in &mut lanes {
             lane.run.place(|i| seeded(state[i], i, &lane.seeds));
             let at = |i: usize, share: f64| input(&lane.seeding, (i, sample, share));
-            lane.run.outputs(sample, at, |output, value| {
+            let (_, own) = lane.run.outputs(sample, at, |output, value| {
                 let Some(row) = rows[output] else { return };
                 values[row] = value.number();
                 for (seed, slope) in lane.seeds.iter().zip(value.slopes()) {
                     slopes[row * seeds + seed] = *slope;
                 }
             });
+            own.for_each(|index, rate| rates[index] = rate.number());
         }
-        follower.outputs(sample, &values, &slopes, &mut state);
+        let seen = Seen { outputs: &values, slopes: &slopes, rates: &rates };
+        follower.seen(sample, seen, &mut state);
         if sample + 1 == drive.len() {
             return;
         }

@@ -130,7 +130,7 @@ impl Setting<'_> {
         let (n, m, width, own) = (window.states, window.outputs, window.width, entered.width());
         let decay = (-window.step / MEMORY).exp();
         let parameters = self.parameters.len();
-        let columns = 1 + parameters + candidates.len();
+        let columns = 1 + parameters + window.timing.len() + candidates.len();
         let mut filter = Filter::new(&self.variances(&entered), columns);
         let driven = self.driven(&entered, decay);
         let samples = window.samples.len();
@@ -152,7 +152,7 @@ impl Setting<'_> {
                 for (y, slope) in y[1..=parameters].iter_mut().zip(&slopes[width - parameters..]) {
                     *y = -slope;
                 }
-                for (y, column) in y[1 + parameters..].iter_mut().zip(candidates) {
+                for (y, column) in y[1 + parameters..].iter_mut().zip(window.timing.iter().chain(candidates)) {
                     *y = column.outputs.get(sample * m + output).map_or(0.0, |it| -f64::from(*it));
                 }
                 let update = filter.measure(&h, noise.outputs[output], &mut y);
@@ -181,7 +181,7 @@ impl Setting<'_> {
                 input[0] = window.defects[sample * n + state];
                 let slopes = &window.next_slopes[(sample * n + state) * width..][..width];
                 input[1..=parameters].copy_from_slice(&slopes[width - parameters..]);
-                for (input, column) in input[1 + parameters..].iter_mut().zip(candidates) {
+                for (input, column) in input[1 + parameters..].iter_mut().zip(window.timing.iter().chain(candidates)) {
                     *input = column.next.get(sample * n + state).map_or(0.0, |it| f64::from(*it));
                 }
             }

@@ -42,7 +42,7 @@ impl Port {
             // A drive has one element, and its constant stands beside it.
             let alone = rig.kind.elements.first().filter(|_| group.is_none());
             let element = rig.kind.elements.iter().find(of_group).or(alone).map(|it| it.element);
-            let place = element.map_or(group.unwrap_or(&declared.name), Element::name);
+            let place = element.map_or(group.unwrap_or(&declared.name), |it| it.name());
             ports.push(Self {
                 place: place.to_owned(),
                 unit: declared.unit.symbol,

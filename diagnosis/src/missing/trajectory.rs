@@ -4,9 +4,10 @@ use std::ops::Range;
 
 use crate::dataset::recorded::{Recorded, Source};
 use crate::estimation::fit::Point;
-use crate::plant::{Drive, Dynamics, Follower, Seed};
+use crate::plant::{Drive, Dynamics, Follower, Seed, Seen};
 use crate::screening::rms;
 
+use super::innovations::Column;
 use super::filter::{Filter, Passed, Smoothed, smoothed};
 use super::ports::{Entry, Port};
 
@@ -61,10 +62,16 @@ pub struct Window {
     pub output_slopes: Vec<f64>,
     /// Predicted next states less the trajectory's.
     pub defects: Vec<f64>,
+    /// Rates of the states that matter, sample by sample.
+    pub rates: Vec<f64>,
+    /// Predicted outputs, sample by sample.
+    pub predicted: Vec<f64>,
     /// Measured outputs less predicted ones, not a number where they are missing.
     pub residuals: Vec<f64>,
     /// What drives the model.
     pub drive: Drive,
+    /// What the timing of each channel changes, which every measurement has a little of.
+    pub timing: Vec<Column>,
 }
 
 impl<'a> Setting<'a> {
@@ -180,8 +187,11 @@ impl<'a> Setting<'a> {
                 next_slopes: Vec::new(),
                 output_slopes: Vec::new(),
                 defects: Vec::new(),
+                rates: Vec::new(),
+                predicted: Vec::new(),
                 residuals: Vec::new(),
                 drive: drive.clone(),
+                timing: Vec::new(),
             },
         };
         self.dynamics.followed(&self.point.parameters, start, &drive, (&seeds, &wanted), &mut about);
@@ -237,8 +247,8 @@ impl Look {
 impl Follower for Look {
     fn state(&mut self, _: usize, _: &mut [f64]) {}
 
-    fn outputs(&mut self, _: usize, _: &[f64], slopes: &[f64], _: &mut [f64]) {
-        larger(&mut self.outputs, slopes);
+    fn seen(&mut self, _: usize, seen: Seen<'_>, _: &mut [f64]) {
+        larger(&mut self.outputs, seen.slopes);
     }
 
     fn advanced(&mut self, _: usize, _: &[f64], slopes: &[f64]) {
@@ -272,7 +282,7 @@ impl Follower for Pass<'_> {
         }
     }
 
-    fn outputs(&mut self, sample: usize, values: &[f64], slopes: &[f64], state: &mut [f64]) {
+    fn seen(&mut self, sample: usize, Seen { outputs, slopes, .. }: Seen<'_>, state: &mut [f64]) {
         let mut passed = Passed { x: self.filter.x.clone(), p: self.filter.p.clone(), ..Passed::default() };
         for (row, h) in slopes.chunks_exact(self.width).enumerate() {
             let measured = self.measured[row][sample];
@@ -281,7 +291,7 @@ impl Follower for Pass<'_> {
             }
             // About the prediction, which is nonlinear in the states and linear in the ports.
             let own: f64 = h[..self.n].iter().zip(&passed.x).map(|(h, x)| h * x).sum();
-            let mut y = [measured - values[row] + own];
+            let mut y = [measured - outputs[row] + own];
             let update = self.filter.measure(h, self.noise[row], &mut y);
             passed.measured.push((h.to_vec(), self.filter.gain().to_vec(), y[0], update.variance));
         }
@@ -326,11 +336,13 @@ impl Follower for About<'_> {
         }
     }
 
-    fn outputs(&mut self, sample: usize, values: &[f64], slopes: &[f64], state: &mut [f64]) {
+    fn seen(&mut self, sample: usize, Seen { outputs, slopes, rates }: Seen<'_>, state: &mut [f64]) {
         self.window.trajectory[sample].copy_from_slice(state);
         self.window.output_slopes.extend_from_slice(slopes);
+        self.window.predicted.extend_from_slice(outputs);
+        self.window.rates.extend(self.active.iter().map(|index| rates[*index]));
         let measured = self.measured.iter().map(|it| it[sample]);
-        self.window.residuals.extend(measured.zip(values).map(|(measured, value)| measured - value));
+        self.window.residuals.extend(measured.zip(outputs).map(|(measured, value)| measured - value));
     }
 
     fn advanced(&mut self, sample: usize, next: &[f64], slopes: &[f64]) {

@@ -24,7 +24,7 @@ pub struct Probe {
 
 impl World<'_> {
     /// A term tried out, in several shapes where it has some.
-    pub(super) fn probes(&self, index: usize, term: Term, at: &Point) -> Vec<Probe> {
+    pub fn probes(&self, index: usize, term: Term, at: &Point) -> Vec<Probe> {
         match term {
             Term::Cause(cause) => self
                 .shapes(cause, at)

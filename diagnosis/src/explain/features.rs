@@ -1,0 +1,172 @@
+//! Features of a port's own motion, of commands and of time, in groups that say what a missing signal depends on.
+
+use crate::dataset::recorded::derivative;
+use crate::missing::innovations::Column;
+use crate::missing::ports::{Entry, Port};
+use crate::missing::trajectory::Window;
+
+/// Knots of a curve over a variable.
+const KNOTS: usize = 9;
+/// Time constants of memories in seconds.
+const MEMORIES: [f64; 5] = [0.003, 0.01, 0.03, 0.1, 0.3];
+/// Shares of a velocity's root mean square within which friction turns over.
+const TURNS: [f64; 3] = [0.02, 0.1, 0.3];
+
+/// What a missing signal may depend on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Group {
+    /// Any curve over the deflection.
+    Deflection,
+    /// Any curve over the velocity.
+    Velocity,
+    /// In proportion to the acceleration.
+    Acceleration,
+    /// What remembers the velocity for some time.
+    Memory,
+    /// Products of deflection and velocity.
+    DeflectionAndVelocity,
+    /// Laws whose size grows or falls with time.
+    Time,
+    /// A command, by the input's index: its curve and its rate.
+    Command(usize),
+}
+
+/// A port's motion over a window.
+pub struct Motion {
+    /// Deflection or position.
+    pub deflection: Vec<f64>,
+    /// Velocity.
+    pub velocity: Vec<f64>,
+}
+
+/// Features of one group at a port over several windows: signals by feature, each over all windows.
+pub fn features(group: Group, motions: &[Motion], windows: &[Window]) -> Vec<Vec<Vec<f64>>> {
+    let over = |of: &dyn Fn(&Motion) -> &Vec<f64>| motions.iter().map(|it| of(it).clone()).collect::<Vec<_>>();
+    let (x, v) = (over(&|it| &it.deflection), over(&|it| &it.velocity));
+    let each = |f: &dyn Fn(f64, f64) -> f64| -> Vec<Vec<f64>> {
+        x.iter().zip(&v).map(|(x, v)| x.iter().zip(v).map(|(x, v)| f(*x, *v)).collect()).collect()
+    };
+    match group {
+        Group::Deflection => hats(&x),
+        Group::Velocity => {
+            let size = size(&v);
+            let steps = TURNS.iter().map(|share| each(&|_, v| (v / (share * size)).tanh()));
+            hats(&v).into_iter().chain(steps).collect()
+        }
+        Group::Acceleration => {
+            vec![v.iter().zip(windows).map(|(v, window)| derivative(v, window.step)).collect()]
+        }
+        Group::Memory => MEMORIES
+            .iter()
+            .map(|time| v.iter().zip(windows).map(|(v, window)| relaxed(v, *time, window.step)).collect())
+            .collect(),
+        Group::DeflectionAndVelocity => {
+            let (width, fast) = (size(&x), 0.1 * size(&v));
+            vec![
+                each(&|x, v| x * v),
+                each(&|x, v| x * x * v),
+                each(&|x, v| x * v.abs()),
+                each(&|x, v| x * (v / fast).tanh()),
+                each(&|x, v| (-(x / width).powi(2)).exp() * v),
+            ]
+        }
+        Group::Time => {
+            let fast = 0.1 * size(&v);
+            let timed = |f: &dyn Fn(f64, f64) -> f64| -> Vec<Vec<f64>> {
+                let mut all = each(f);
+                for (values, window) in all.iter_mut().zip(windows) {
+                    for (k, value) in values.iter_mut().enumerate() {
+                        *value *= window.step * (window.samples.start + k) as f64;
+                    }
+                }
+                all
+            };
+            vec![timed(&|_, _| 1.0), timed(&|x, _| x), timed(&|_, v| v), timed(&|_, v| (v / fast).tanh())]
+        }
+        Group::Command(input) => {
+            let u: Vec<Vec<f64>> = windows
+                .iter()
+                .map(|window| window.drive.inputs[input].iter().step_by(window.drive.finer).copied().collect())
+                .collect();
+            let size = size(&u);
+            let of = |f: &dyn Fn(f64) -> f64| -> Vec<Vec<f64>> {
+                u.iter().map(|u| u.iter().map(|u| f(*u)).collect()).collect()
+            };
+            let rate = u.iter().zip(windows).map(|(u, window)| derivative(u, window.step)).collect();
+            vec![of(&|u| u), of(&|u| u * u.abs() / size), of(&|u| u * u / size), rate]
+        }
+    }
+}
+
+/// A feature's signal as a column at a port.
+pub fn column(port: &Port, place: usize, window: &Window, signal: &[f64]) -> Column {
+    let (n, m, width) = (window.states, window.outputs, window.width);
+    let samples = window.samples.len();
+    let mut column = Column { next: vec![0.0; (samples.saturating_sub(1)) * n], outputs: vec![0.0; samples * m] };
+    if let Entry::Sensor(row) = port.entry {
+        for (value, signal) in column.outputs.iter_mut().skip(row).step_by(m).zip(signal) {
+            *value = *signal as f32;
+        }
+        column.next.clear();
+        return column;
+    }
+    for sample in 0..samples {
+        for output in 0..m {
+            let slope = window.output_slopes[(sample * m + output) * width + place];
+            column.outputs[sample * m + output] = (slope * signal[sample]) as f32;
+        }
+        if sample + 1 < samples {
+            let middle = 0.5 * (signal[sample] + signal[sample + 1]);
+            for state in 0..n {
+                let slope = window.next_slopes[(sample * n + state) * width + place];
+                column.next[sample * n + state] = (slope * middle) as f32;
+            }
+        }
+    }
+    column
+}
+
+/// Root mean square over all windows.
+fn size(signals: &[Vec<f64>]) -> f64 {
+    let count = signals.iter().map(Vec::len).sum::<usize>().max(1) as f64;
+    (signals.iter().flatten().map(|it| it * it).sum::<f64>() / count).sqrt().max(f64::MIN_POSITIVE)
+}
+
+/// Hat functions between quantiles of a variable: any curve that is straight between them.
+fn hats(signals: &[Vec<f64>]) -> Vec<Vec<Vec<f64>>> {
+    let mut sorted: Vec<f64> = signals.iter().flatten().copied().collect();
+    sorted.sort_by(f64::total_cmp);
+    let Some(last) = sorted.len().checked_sub(1) else { return Vec::new() };
+    let mut knots: Vec<f64> = (0..KNOTS)
+        .map(|knot| {
+            // Denser at the ends, where few samples are and most is to be seen.
+            let share = 0.5 - 0.5 * (std::f64::consts::PI * knot as f64 / (KNOTS - 1) as f64).cos();
+            sorted[(share * last as f64).round() as usize]
+        })
+        .collect();
+    knots.dedup();
+    let hat = |knot: usize, value: f64| {
+        let here = knots[knot];
+        let side = if value < here { knot.checked_sub(1) } else { Some(knot + 1).filter(|it| *it < knots.len()) };
+        match side {
+            Some(other) => (1.0 - (value - here) / (knots[other] - here)).max(0.0),
+            None => 1.0,
+        }
+    };
+    (0..knots.len())
+        .map(|knot| signals.iter().map(|values| values.iter().map(|it| hat(knot, *it)).collect()).collect())
+        .collect()
+}
+
+/// `y' = v − y/τ`.
+fn relaxed(velocity: &[f64], time: f64, step: f64) -> Vec<f64> {
+    let decay = (-step / time).exp();
+    let mut y = 0.0;
+    velocity
+        .iter()
+        .map(|v| {
+            y = decay * y + time * (1.0 - decay) * v;
+            y
+        })
+        .collect()
+}

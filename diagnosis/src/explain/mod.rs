@@ -1,0 +1,4 @@
+//! What a missing signal depends on: effects with a name and features without one, compared on the same innovations.
+
+pub mod columns;
+pub mod features;
