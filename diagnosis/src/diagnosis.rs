@@ -2,15 +2,19 @@
 
 use std::ops::Range;
 
+use crate::confirm::{Accepted, Confirmed, Tried};
 use crate::dataset::recorded::{Recorded, Source};
+use crate::dataset::split::Records;
 use crate::estimation::fit::{Handle, Point, Residuals};
 use crate::estimation::hypothesis::{Fitted, Term, World};
 use crate::estimation::intervals::Interval;
 use crate::estimation::lsq::Stop;
+use crate::explain::candidates::outputs;
+use crate::explain::describe::{MissingSignal, SMALLEST, Unmodelled};
+use crate::explain::selection::{Choice, Compared, Limits, Score, choose};
 use crate::plant::Drive;
 use crate::rig::Rig;
-use crate::screening::{Screened, rms, typical};
-use crate::search::{Accepted, Criterion, Found};
+use crate::screening::rms;
 use crate::signal::distortion::Fault;
 
 /// Length of a short stretch of data in seconds, over which no model goes far astray.
@@ -23,6 +27,11 @@ const CLEARLY: f64 = 0.8;
 /// … if Student's t of the difference over blocks of time is above this.
 const STEADILY: f64 = 4.0;
 
+/// Effects at most.
+const MOST: usize = 4;
+/// Unmodelled places at most.
+const PLACES: usize = 2;
+
 /// A diagnosis that has come to its end.
 pub struct Diagnosis<'a> {
     /// What it was about.
@@ -33,12 +42,30 @@ pub struct Diagnosis<'a> {
     pub before: Point,
     /// What was found.
     pub found: Found,
-    /// Causes that hide among the parameters that are fitted first.
-    pub rooted: Vec<Accepted>,
     /// How sure each coordinate of the extended model is.
     pub intervals: Vec<Interval>,
     /// Signals that had to be turned over before anything fitted.
     pub reversed: Vec<Handle>,
+}
+
+/// What was found.
+pub struct Found {
+    /// The model with nominal parameters fitted and nothing added.
+    pub base: Fitted,
+    /// The model after each effect, in the order in which they were confirmed.
+    pub stages: Vec<Fitted>,
+    /// The model with all effects.
+    pub extended: Fitted,
+    /// The effects.
+    pub accepted: Vec<Accepted>,
+    /// What is missing and has no name.
+    pub unmodelled: Vec<Unmodelled>,
+    /// The missing signal before anything was explained.
+    pub missing: Option<MissingSignal>,
+    /// What was compared, first of all.
+    pub compared: Vec<(Term, Score)>,
+    /// All that was fitted, the last word on each term.
+    pub tried: Vec<Tried>,
 }
 
 /// What is known, and what is looked for.
@@ -46,118 +73,183 @@ pub struct Diagnosis<'a> {
 pub struct Options {
     /// Indices of parameters that were measured otherwise, with value and standard deviation.
     pub known: Vec<(usize, f64, f64)>,
-    /// Numbers of the causes that are looked at; none: all.
+    /// Numbers of the effects that are looked at; none: all.
     pub only: Vec<String>,
-    /// What decides whether a cause is named.
-    pub criterion: Criterion,
 }
 
-/// Diagnoses a rig from records. `train` and `test` are conditioned; `measured` are the latter as they were measured,
-/// on which the errors are told.
+/// Diagnoses a rig from records; errors are told on the validation records as they were measured.
 ///
 /// # Errors
 /// If the model refuses its parameters or diverges on the records.
 pub fn diagnose<'a>(
     rig: &'a Rig,
-    train: &'a [Recorded],
-    test: &'a [Recorded],
-    measured: &'a [Recorded],
+    records: &'a Records,
     options: Options,
     progress: &(dyn Fn(&str) + Sync),
 ) -> Result<Diagnosis<'a>, String> {
-    let mut world = World {
-        rig,
-        train,
-        test,
-        typical: Vec::new(),
-        known: options.known,
-        held: Vec::new(),
-        punctual: false,
-        only: options.only,
-        criterion: options.criterion,
-        looks: 1.0,
-        sigma: vec![1.0; rig.plant.outputs.len()],
-        floor: Vec::new(),
-    };
-    progress("simulating the starting model");
+    let mut world = World::new(rig, records, options);
+    progress("fitting the nominal parameters");
+    let (before, base, reversed) = nominal(&mut world)?;
+    world.look_at(&base)?;
+    let found = world.identified(base, progress)?;
+    progress("comparing what each excitation says");
+    let intervals = world.intervals(&found.extended)?;
+    Ok(Diagnosis { world, measured: &records.measured, before, found, intervals, reversed })
+}
+
+/// The starting model as it was given, the fit of its nominal parameters, and the signals that had to be turned over.
+fn nominal(world: &mut World<'_>) -> Result<(Point, Fitted, Vec<Handle>), String> {
     let dynamics = world.dynamics(&[])?;
-    world.sigma = measured_sigma(rig, train);
-    world.floor = floors(train);
-    let mut start = {
-        let bare = world.fit(&*dynamics, train, Vec::new());
-        bare.settled(world.origin())
-    };
-    let before = start.clone();
+    world.sigma = measured_sigma(world.rig, world.train);
+    world.floor = floors(world.train);
+    let before = world.fit(&*dynamics, world.train, Vec::new()).settled(world.origin());
+    let mut start = before.clone();
     for (parameter, value, _) in &world.known {
         start.parameters[*parameter] = *value;
     }
-    progress("fitting the starting model's parameters");
     let mut reversed = Vec::new();
     let mut base = world.fitted(&[], &[start.clone()], Stop::NOISY)?;
-    if !fits(&world, &base)
-        && let Some(other) = shot(&world, &start)
+    if !fits(world, &base)
+        && let Some(other) = shot(world, &start)
         && other.cost < base.cost
     {
         base = other;
     }
-    for handle in signals(train) {
+    for handle in signals(world.train) {
         let mut turned = start.clone();
         turned.set(handle, -2.0);
-        if let Some(other) = turned_over(&world, &base, &turned, handle) {
+        if let Some(other) = turned_over(world, &base, &turned, handle) {
             (base, start) = (other, turned);
             reversed.push(handle);
         }
     }
     // Weights by what is left, twice: then the fit is the likeliest for errors of such magnitudes.
     for _ in 0..2 {
-        world.sigma = left_sigma(&world, &base.train);
+        world.sigma = left_sigma(world, &base.train);
         base = world.fitted(&[], &[base.point.clone()], Stop::NOISY)?;
     }
-    world.typical = {
-        let all = outputs(&world, &base.terms, &base.point, train);
-        typical(rig, train, &all)
-    };
-    let tried = world.tried_out(&base)?;
-    world.looks = tried.looks(&base);
-    let screened = world.ranked(&tried, &base);
-    let (mut found, mut rooted) = searched(&world, base, screened, progress)?;
-    if world.criterion == Criterion::Gates && world.anything_late(&found, &rooted) {
-        progress("looking for what makes signals seem late");
-        let punctual = World { punctual: true, ..world.clone() };
-        let start = Point { starts: before.starts.clone(), ..start };
-        let base = punctual.fitted(&[], &[start, punctual.in_time(&found.base.point)], Stop::NOISY);
-        let beyond = |base: Fitted| {
-            let screened = punctual.screened(&base)?;
-            searched(&punctual, base, screened, progress)
-        };
-        // If that diverges, what was found without it stands.
-        if let Ok((other, hidden)) = base.and_then(beyond)
-            && world.does_without_lateness(&found, &other)
-        {
-            (world, found, rooted) = (punctual, other, hidden);
-        }
-    }
-    progress("comparing what each excitation says");
-    let intervals = world.intervals(&found.extended)?;
-    Ok(Diagnosis { world, measured, before, found, rooted, intervals, reversed })
+    Ok((before, base, reversed))
 }
 
-/// What is found beyond a fit of the starting model, and what hides among its parameters.
-fn searched(
-    world: &World<'_>,
-    base: Fitted,
-    screened: Vec<Screened>,
-    progress: &(dyn Fn(&str) + Sync),
-) -> Result<(Found, Vec<Accepted>), String> {
-    let mut found = world.search(base, screened, progress)?;
-    let mut rooted = world.rooted(&mut found)?;
-    if world.dwarfed(&mut found, &rooted)? {
-        rooted = world.rooted(&mut found)?;
+impl World<'_> {
+    /// Typical magnitudes along the trajectory, and how many independent comparisons all effects amount to.
+    fn look_at(&mut self, base: &Fitted) -> Result<(), String> {
+        let frame =
+            self.frame(&[], &Point { parameters: self.rig.parameters.clone(), ..base.point.clone() })?;
+        let missing = self.missing(&frame)?;
+        let signals = outputs(&missing.setting, &missing.windows, self.rig.plant.outputs.len());
+        let typical = self.typical_along(&missing, &signals);
+        self.typical = typical;
+        self.looks = self.tried_out(base)?.looks(base);
+        Ok(())
     }
-    if world.criterion == Criterion::Gates {
-        world.beside_the_common(&mut found, &mut rooted, progress)?;
+
+    /// Place, law, confirmation: until nothing is missing that matters.
+    fn identified(&self, base: Fitted, progress: &(dyn Fn(&str) + Sync)) -> Result<Found, String> {
+        let mut found = Found::nothing(base);
+        while found.accepted.len() < MOST {
+            progress("estimating the missing signal");
+            let terms = found.extended.terms.clone();
+            let mut at = found.extended.point.clone();
+            if terms.is_empty() {
+                // A fit has bent its parameters to what it lacks.
+                at.parameters.clone_from(&self.rig.parameters);
+            }
+            let frame = self.frame(&terms, &at)?;
+            let mut missing = self.missing(&frame)?;
+            let signals = outputs(&missing.setting, &missing.windows, self.rig.plant.outputs.len());
+            for known in &found.unmodelled {
+                known.explain(&mut missing, self, &signals);
+            }
+            let location = missing.located();
+            if found.missing.is_none() {
+                found.missing = Some(MissingSignal::of(self, &missing, &location, &signals));
+            }
+            progress("comparing what may explain it");
+            let candidates = self.candidates(&missing, &signals, &terms);
+            let Some(compared) = self.compared(&missing, candidates, &location.noise()) else { break };
+            if found.compared.is_empty() {
+                found.compared = compared.ranking();
+            }
+            match choose(&compared.named, &compared.features, Limits::USUAL) {
+                Choice::Nothing => break,
+                Choice::Named(scores) => {
+                    let proposals = compared.proposals(&scores, Limits::USUAL.most);
+                    progress(&format!("fitting {} effects", proposals.len()));
+                    let tried = self.try_all(&found.base, &found.extended, &proposals);
+                    let confirmed = self.confirmed(&found.base, &tried)?;
+                    found.tried.extend(tried);
+                    let Some(Confirmed { accepted, fitted }) = confirmed else { break };
+                    found.accepted.push(accepted);
+                    found.extended = fitted.clone();
+                    found.stages.push(fitted);
+                }
+                Choice::Unmodelled(score) => {
+                    let improvement = self.improvement(&found.extended, score);
+                    if found.unmodelled.len() == PLACES || improvement < SMALLEST {
+                        break;
+                    }
+                    let port =
+                        compared.feature(score.candidate).map(|(port, _)| &missing.setting.ports[port]);
+                    let curve = compared.curve_for(score, port.and_then(|it| it.element));
+                    if let Some((term, own)) = curve
+                        && let Some(Confirmed { accepted, fitted }) =
+                            self.drawn(&mut found, &compared, own)?
+                    {
+                        found.unmodelled.push(Unmodelled::curve(term, own, improvement, &self.rig.plant));
+                        found.accepted.push(accepted);
+                        found.extended = fitted.clone();
+                        found.stages.push(fitted);
+                    } else if let Some(unmodelled) = Unmodelled::of(&missing, &compared, score, improvement) {
+                        found.unmodelled.push(unmodelled);
+                    } else {
+                        break;
+                    }
+                }
+            }
+        }
+        Ok(found)
     }
-    Ok((found, rooted))
+
+    /// A curve without a name in the model, if the data confirm it.
+    fn drawn(
+        &self,
+        found: &mut Found,
+        compared: &Compared,
+        score: Score,
+    ) -> Result<Option<Confirmed>, String> {
+        let tried = self.try_all(&found.base, &found.extended, &compared.proposals(&[score], 1));
+        let confirmed = self.confirmed(&found.base, &tried)?;
+        found.tried.extend(tried);
+        Ok(confirmed)
+    }
+
+    /// By how much the fit of the worst signal would rise without a share of its error's power.
+    fn improvement(&self, fitted: &Fitted, score: Score) -> f64 {
+        let share = score.share.min(score.validated).clamp(0.0, 1.0);
+        let of = |(row, error): (usize, f64)| {
+            let values: Vec<f64> = self.train.iter().flat_map(|record| record.bent(row)).collect();
+            error / rms(&values).max(f64::MIN_POSITIVE)
+        };
+        let errors = self.errors(&fitted.train).mean_squares().into_iter().map(f64::sqrt);
+        let worst = errors.enumerate().map(of).fold(0.0, f64::max);
+        worst * (1.0 - (1.0 - share).sqrt())
+    }
+}
+
+impl Found {
+    fn nothing(base: Fitted) -> Self {
+        Self {
+            extended: base.clone(),
+            base,
+            stages: Vec::new(),
+            accepted: Vec::new(),
+            unmodelled: Vec::new(),
+            missing: None,
+            compared: Vec::new(),
+            tried: Vec::new(),
+        }
+    }
 }
 
 /// The base fit from where many short stretches lead, each with states of its own at the start: over a long stretch, a
@@ -248,7 +340,7 @@ fn floors(train: &[Recorded]) -> Vec<f64> {
 }
 
 /// All outputs of the plant on records, from the starts that the point has for them; not a number between sections.
-pub(crate) fn outputs(
+pub(crate) fn simulated(
     world: &World<'_>,
     terms: &[Term],
     point: &Point,

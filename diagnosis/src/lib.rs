@@ -7,8 +7,10 @@
 
 pub mod app;
 pub mod catalogue;
+pub mod confirm;
 pub mod data;
 pub mod dataset;
+pub mod decision;
 pub mod diagnosis;
 pub mod estimation;
 pub mod explain;
@@ -16,7 +18,6 @@ pub mod missing;
 pub mod report;
 pub mod rig;
 pub mod screening;
-pub mod search;
 pub mod signal;
 
 pub use strut_plant as plant;

@@ -12,11 +12,11 @@ use rayon::prelude::*;
 
 use crate::catalogue;
 use crate::catalogue::naming::{is_command, name};
+use crate::confirm::has_no_name;
 use crate::dataset::recorded::{Recorded, Source};
 use crate::estimation::fit::{Handle, Normal, Point, contained};
 use crate::estimation::hypothesis::{Fitted, Term, World};
 use crate::plant::{Dynamics, Signals};
-use crate::search::has_no_name;
 use crate::signal::distortion::{AFTER, Correction, Fault};
 
 pub use probes::Probe;
@@ -100,7 +100,6 @@ impl World<'_> {
             }
         }
         terms.retain(|term| self.only.is_empty() || self.only.contains(&name(*term, plant).id));
-        terms.retain(|term| !self.punctual || !term.delays());
         terms
     }
 
@@ -243,7 +242,7 @@ impl World<'_> {
     }
 
     /// Where a fit of the term starts, and what it may gain there.
-    fn start(
+    pub(crate) fn start(
         &self,
         term: Term,
         probe: &Probe,

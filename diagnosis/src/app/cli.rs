@@ -4,8 +4,6 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-use crate::search::Criterion;
-
 const EXAMPLES: &str = "\
 Examples:
   diagnose rigs tum-quarter-vehicle   what its records may hold: names, units, and what is looked for in them
@@ -70,10 +68,6 @@ pub struct DiagnosisArguments {
     /// Only these effects, by their numbers in the catalogue: 01,04
     #[arg(long, value_delimiter = ',', value_name = "NUMBER")]
     pub effects: Vec<String>,
-
-    /// What decides whether a cause is named
-    #[arg(long, value_enum, default_value_t)]
-    pub criterion: Criterion,
 
     /// Folder for the report and the extended model; made if it is missing
     #[arg(long, value_name = "DIR", default_value = "report")]

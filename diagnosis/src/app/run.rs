@@ -108,7 +108,7 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
     }
     align(&mut records)?;
     let test: Vec<Recorded> = records.split_off(arguments.train.len());
-    let options = Options { known, only: arguments.effects.clone(), criterion: arguments.criterion };
+    let options = Options { known, only: arguments.effects.clone() };
     let bar = ProgressBar::new_spinner()
         .with_style(ProgressStyle::with_template("{spinner} {elapsed}  {msg}").expect("a valid template"));
     bar.enable_steady_tick(Duration::from_millis(100));

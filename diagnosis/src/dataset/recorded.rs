@@ -71,6 +71,19 @@ impl Recorded {
         self.sections.iter().flat_map(|section| without_line(&values[section.clone()])).collect()
     }
 
+    /// The same with neighbouring sections in one: a filter needs no new start where a simulation does.
+    #[must_use]
+    pub fn joined(&self) -> Self {
+        let mut sections: Vec<Range<usize>> = Vec::new();
+        for section in &self.sections {
+            match sections.last_mut() {
+                Some(last) if last.end == section.start => last.end = section.end,
+                _ => sections.push(section.clone()),
+            }
+        }
+        Self { sections, ..self.clone() }
+    }
+
     /// Which samples those of a section are.
     pub fn samples(&self, section: &Range<usize>) -> Samples {
         Samples { step: self.step, first: section.start }

@@ -15,9 +15,14 @@ const PARTS: usize = 3;
 
 /// What is learnt from and what judges, without the noise of the inputs; and the latter as it was measured.
 pub struct Records {
-    train: Vec<Recorded>,
-    test: Vec<Recorded>,
-    measured: Vec<Recorded>,
+    /// Estimation records, ready for the search.
+    pub train: Vec<Recorded>,
+    /// Validation records, ready for the search.
+    pub test: Vec<Recorded>,
+    /// Validation records as they were measured.
+    pub measured: Vec<Recorded>,
+    /// Both, estimation records first, without divisions.
+    pub whole: Vec<Recorded>,
 }
 
 impl Records {
@@ -25,14 +30,20 @@ impl Records {
     pub fn new(train: &[Recorded], measured: Vec<Recorded>) -> Self {
         let conditioned =
             |records: &[Recorded]| records.iter().map(Recorded::conditioned).collect::<Vec<_>>();
-        Self { train: conditioned(train), test: conditioned(&measured), measured }
+        let whole = train.iter().chain(&measured).map(|it| it.joined().conditioned()).collect();
+        Self { train: conditioned(train), test: conditioned(&measured), measured, whole }
     }
 
     /// The same in shorter stretches, each with states of its own at the start; none if the rig's models keep to long ones.
     pub fn in_parts(&self, rig: &Rig) -> Option<Self> {
         let cut = |records: &[Recorded]| records.iter().map(in_parts).collect::<Vec<_>>();
         let drifts = rig.kind.section <= DRIFTING;
-        drifts.then(|| Self { train: cut(&self.train), test: cut(&self.test), measured: cut(&self.measured) })
+        drifts.then(|| Self {
+            train: cut(&self.train),
+            test: cut(&self.test),
+            measured: cut(&self.measured),
+            whole: self.whole.clone(),
+        })
     }
 
     /// What is the matter with the rig.
@@ -45,7 +56,7 @@ impl Records {
         options: Options,
         progress: &(dyn Fn(&str) + Sync),
     ) -> Result<Diagnosis<'a>, String> {
-        diagnose(rig, &self.train, &self.test, &self.measured, options, progress)
+        diagnose(rig, self, options, progress)
     }
 
     /// That stretches had to be short.

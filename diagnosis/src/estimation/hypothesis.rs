@@ -4,11 +4,12 @@ use strut_model::{Value, unit};
 
 use crate::catalogue::{self, Cause, Element, Part, Scale, Table, Typical};
 use crate::dataset::recorded::{Recorded, Source};
+use crate::dataset::split::Records;
+use crate::diagnosis::Options;
 use crate::estimation::fit::{Coordinate, Fit, Handle, Point, Residuals, Trace};
 use crate::estimation::lsq::{self, Linear, Problem, Stop};
 use crate::plant::Dynamics;
 use crate::rig::Rig;
-use crate::search::Criterion;
 use crate::signal::distortion::{AFTER, Correction, Fault, UNKNOWN};
 
 /// Points of a table without a name.
@@ -60,19 +61,6 @@ impl PartialEq for Term {
     }
 }
 
-impl Term {
-    /// Whether it makes a signal late.
-    pub fn delays(self) -> bool {
-        match self {
-            Self::Fault(Handle::Input(_, fault) | Handle::Output(_, fault)) => {
-                matches!(fault, Fault::Lag | Fault::Delay)
-            }
-            Self::Response(_) => true,
-            Self::Fault(Handle::Parameter(_)) | Self::Cause(_) | Self::Table(_) => false,
-        }
-    }
-}
-
 /// The world that hypotheses are about.
 #[derive(Clone)]
 pub struct World<'a> {
@@ -82,18 +70,14 @@ pub struct World<'a> {
     pub train: &'a [Recorded],
     /// The records that judge.
     pub test: &'a [Recorded],
+    /// Both, estimation records first, without divisions.
+    pub whole: &'a [Recorded],
     /// Typical magnitudes of each element.
     pub typical: Vec<(Element, Typical)>,
     /// What was known of parameters before: index, value, standard deviation.
     pub known: Vec<(usize, f64, f64)>,
-    /// What of the base fit is not fitted, to see what it is worth.
-    pub held: Vec<Handle>,
-    /// Whether no signal may be later than measurements make any.
-    pub punctual: bool,
     /// Numbers of the causes that are looked at; none: all.
     pub only: Vec<String>,
-    /// What decides whether a cause is named.
-    pub criterion: Criterion,
     /// Number of independent looks at the errors that comparing every cause to them amounts to.
     pub looks: f64,
     /// Standard deviation of each output's residuals.
@@ -121,6 +105,24 @@ pub struct Fitted {
     pub train: Residuals,
     /// Errors on the held-out data.
     pub test: Residuals,
+}
+
+impl<'a> World<'a> {
+    /// What hypotheses are about, before anything is known of it.
+    pub fn new(rig: &'a Rig, records: &'a Records, options: Options) -> Self {
+        Self {
+            rig,
+            train: &records.train,
+            test: &records.test,
+            whole: &records.whole,
+            typical: Vec::new(),
+            known: options.known,
+            only: options.only,
+            looks: 1.0,
+            sigma: vec![1.0; rig.plant.outputs.len()],
+            floor: Vec::new(),
+        }
+    }
 }
 
 impl World<'_> {
@@ -240,12 +242,12 @@ impl World<'_> {
             for handle in [Fault::Delay, Fault::Lag].map(|fault| Handle::Output(measured.output, fault)) {
                 let bounds = self.fault_bounds(handle);
                 let Some(deviation) = self.usual(handle) else { continue };
-                let most = if self.punctual { IN_TIME * deviation } else { f64::INFINITY };
+                // A signal that is later than that has a fault, which is a term of its own.
+                let most = IN_TIME * deviation;
                 let bounds = (bounds.0.max(-most), bounds.1.min(most));
                 coordinates.push(Coordinate { handle, bounds, prior: Some((0.0, deviation)) });
             }
         }
-        coordinates.retain(|coordinate| !self.held.contains(&coordinate.handle));
         for term in terms {
             for coordinate in self.own_coordinates(*term) {
                 match coordinates.iter_mut().find(|other| other.handle == coordinate.handle) {
@@ -334,7 +336,8 @@ impl World<'_> {
             Handle::Parameter(_) => return (f64::NEG_INFINITY, f64::INFINITY),
         };
         match fault {
-            Fault::Gain => (-0.9, 4.0),
+            // None is off by more; a sign is another matter.
+            Fault::Gain => (-0.5, 0.5),
             Fault::Lag => (0.0, 0.2),
             Fault::Delay => (-0.05, 0.05),
             Fault::Rate => (-0.02, 0.02),

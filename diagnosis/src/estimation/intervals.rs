@@ -13,12 +13,12 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
+use crate::confirm::worth;
 use crate::dataset::recorded::Recorded;
 use crate::estimation::fit::{Coordinate, Handle, Normal, Point};
 use crate::estimation::hypothesis::{Fitted, POINTS, Term, World};
 use crate::estimation::lsq::Problem;
 use crate::screening::TriedOut;
-use crate::search::worth;
 
 /// Excitations that are compared at least: fewer records are cut in pieces.
 const EXCITATIONS: usize = 4;

@@ -33,7 +33,8 @@ impl Setting<'_> {
             _ => {
                 let drive = record.drive(&window.samples, &point.inputs);
                 let wanted: Vec<usize> = record.measured.iter().map(|it| it.output).collect();
-                let mut along = Along { active: &self.active, window, rates: Vec::new(), outputs: Vec::new() };
+                let mut along =
+                    Along { active: &self.active, window, rates: Vec::new(), outputs: Vec::new() };
                 let start = &window.trajectory[0];
                 dynamics.followed(&point.parameters, start, &drive, (&[], &wanted), &mut along);
                 let column = Column { next: along.increments(), outputs: along.outputs };

@@ -31,6 +31,18 @@ pub enum Group {
     Command(usize),
 }
 
+impl Group {
+    /// Those of a port's own motion and of time.
+    pub const OF_MOTION: [Self; 6] = [
+        Self::Deflection,
+        Self::Velocity,
+        Self::Acceleration,
+        Self::Memory,
+        Self::DeflectionAndVelocity,
+        Self::Time,
+    ];
+}
+
 /// A port's motion over a window.
 pub struct Motion {
     /// Deflection or position.
@@ -41,7 +53,8 @@ pub struct Motion {
 
 /// Features of one group at a port over several windows: signals by feature, each over all windows.
 pub fn features(group: Group, motions: &[Motion], windows: &[Window]) -> Vec<Vec<Vec<f64>>> {
-    let over = |of: &dyn Fn(&Motion) -> &Vec<f64>| motions.iter().map(|it| of(it).clone()).collect::<Vec<_>>();
+    let over =
+        |of: &dyn Fn(&Motion) -> &Vec<f64>| motions.iter().map(|it| of(it).clone()).collect::<Vec<_>>();
     let (x, v) = (over(&|it| &it.deflection), over(&|it| &it.velocity));
     let each = |f: &dyn Fn(f64, f64) -> f64| -> Vec<Vec<f64>> {
         x.iter().zip(&v).map(|(x, v)| x.iter().zip(v).map(|(x, v)| f(*x, *v)).collect()).collect()
@@ -86,7 +99,9 @@ pub fn features(group: Group, motions: &[Motion], windows: &[Window]) -> Vec<Vec
         Group::Command(input) => {
             let u: Vec<Vec<f64>> = windows
                 .iter()
-                .map(|window| window.drive.inputs[input].iter().step_by(window.drive.finer).copied().collect())
+                .map(|window| {
+                    window.drive.inputs[input].iter().step_by(window.drive.finer).copied().collect()
+                })
                 .collect();
             let size = size(&u);
             let of = |f: &dyn Fn(f64) -> f64| -> Vec<Vec<f64>> {
@@ -102,7 +117,8 @@ pub fn features(group: Group, motions: &[Motion], windows: &[Window]) -> Vec<Vec
 pub fn column(port: &Port, place: usize, window: &Window, signal: &[f64]) -> Column {
     let (n, m, width) = (window.states, window.outputs, window.width);
     let samples = window.samples.len();
-    let mut column = Column { next: vec![0.0; (samples.saturating_sub(1)) * n], outputs: vec![0.0; samples * m] };
+    let mut column =
+        Column { next: vec![0.0; (samples.saturating_sub(1)) * n], outputs: vec![0.0; samples * m] };
     if let Entry::Sensor(row) = port.entry {
         for (value, signal) in column.outputs.iter_mut().skip(row).step_by(m).zip(signal) {
             *value = *signal as f32;
@@ -147,7 +163,8 @@ fn hats(signals: &[Vec<f64>]) -> Vec<Vec<Vec<f64>>> {
     knots.dedup();
     let hat = |knot: usize, value: f64| {
         let here = knots[knot];
-        let side = if value < here { knot.checked_sub(1) } else { Some(knot + 1).filter(|it| *it < knots.len()) };
+        let side =
+            if value < here { knot.checked_sub(1) } else { Some(knot + 1).filter(|it| *it < knots.len()) };
         match side {
             Some(other) => (1.0 - (value - here) / (knots[other] - here)).max(0.0),
             None => 1.0,

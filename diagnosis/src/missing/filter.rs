@@ -164,7 +164,9 @@ pub fn smoothed(passed: &[Passed]) -> Vec<Smoothed> {
             let row = &sample.p[i * n..(i + 1) * n];
             x[i] += row.iter().zip(&adjoint).map(|(p, a)| p * a).sum::<f64>();
             let quadratic: f64 = (0..n)
-                .map(|j| row[j] * information[j * n..(j + 1) * n].iter().zip(row).map(|(m, p)| m * p).sum::<f64>())
+                .map(|j| {
+                    row[j] * information[j * n..(j + 1) * n].iter().zip(row).map(|(m, p)| m * p).sum::<f64>()
+                })
                 .sum();
             variance[i] = (row[i] - quadratic).max(0.0);
         }

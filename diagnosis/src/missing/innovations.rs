@@ -152,7 +152,8 @@ impl Setting<'_> {
                 for (y, slope) in y[1..=parameters].iter_mut().zip(&slopes[width - parameters..]) {
                     *y = -slope;
                 }
-                for (y, column) in y[1 + parameters..].iter_mut().zip(window.timing.iter().chain(candidates)) {
+                for (y, column) in y[1 + parameters..].iter_mut().zip(window.timing.iter().chain(candidates))
+                {
                     *y = column.outputs.get(sample * m + output).map_or(0.0, |it| -f64::from(*it));
                 }
                 let update = filter.measure(&h, noise.outputs[output], &mut y);
@@ -181,7 +182,9 @@ impl Setting<'_> {
                 input[0] = window.defects[sample * n + state];
                 let slopes = &window.next_slopes[(sample * n + state) * width..][..width];
                 input[1..=parameters].copy_from_slice(&slopes[width - parameters..]);
-                for (input, column) in input[1 + parameters..].iter_mut().zip(window.timing.iter().chain(candidates)) {
+                for (input, column) in
+                    input[1 + parameters..].iter_mut().zip(window.timing.iter().chain(candidates))
+                {
                     *input = column.next.get(sample * n + state).map_or(0.0, |it| f64::from(*it));
                 }
             }
@@ -193,7 +196,13 @@ impl Setting<'_> {
 
     /// The deviation from the trajectory and the missing signals of a window by all its data: states first, then the ports
     /// that are in the filter. What is known beside, parameters and candidates times their amounts, is taken off.
-    pub fn smoothed(&self, window: &Window, noise: &Noise, known: &[(f64, &Column)], moved: &[f64]) -> Vec<Smoothed> {
+    pub fn smoothed(
+        &self,
+        window: &Window,
+        noise: &Noise,
+        known: &[(f64, &Column)],
+        moved: &[f64],
+    ) -> Vec<Smoothed> {
         let entered = Entered::new(window, self.ports, noise);
         let (n, m, width, own) = (window.states, window.outputs, window.width, entered.width());
         let decay = (-window.step / MEMORY).exp();
@@ -216,7 +225,9 @@ impl Setting<'_> {
                 entered.row(sample, output, &mut h);
                 let taken: f64 = known
                     .iter()
-                    .map(|(amount, column)| amount * column.outputs.get(place).map_or(0.0, |it| f64::from(*it)))
+                    .map(|(amount, column)| {
+                        amount * column.outputs.get(place).map_or(0.0, |it| f64::from(*it))
+                    })
                     .sum();
                 let mut y = [residual - taken - parameters(&window.output_slopes[place * width..][..width])];
                 let update = filter.measure(&h, noise.outputs[output], &mut y);
@@ -230,9 +241,13 @@ impl Setting<'_> {
                     let place = sample * n + state;
                     let taken: f64 = known
                         .iter()
-                        .map(|(amount, column)| amount * column.next.get(place).map_or(0.0, |it| f64::from(*it)))
+                        .map(|(amount, column)| {
+                            amount * column.next.get(place).map_or(0.0, |it| f64::from(*it))
+                        })
                         .sum();
-                    *input = window.defects[place] + taken + parameters(&window.next_slopes[place * width..][..width]);
+                    *input = window.defects[place]
+                        + taken
+                        + parameters(&window.next_slopes[place * width..][..width]);
                 }
                 filter.predict(&a, &input, &driven);
                 at.a = a;

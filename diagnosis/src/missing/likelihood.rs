@@ -48,8 +48,11 @@ impl Sums {
     /// The best amounts of some columns, with the precision that is known of each before; none where columns do the same.
     pub fn fitted(&self, columns: &[usize], precisions: &[f64]) -> Option<Amounts> {
         let n = columns.len();
-        let size: Vec<f64> =
-            columns.iter().zip(precisions).map(|(it, more)| (self.normal[(*it, *it)] + more).sqrt()).collect();
+        let size: Vec<f64> = columns
+            .iter()
+            .zip(precisions)
+            .map(|(it, more)| (self.normal[(*it, *it)] + more).sqrt())
+            .collect();
         let scaled = DMatrix::from_fn(n, n, |i, j| {
             if size[i] == 0.0 || size[j] == 0.0 {
                 return f64::from(i == j);
@@ -58,9 +61,13 @@ impl Sums {
             let ridge = if i == j { 1e-9 } else { 0.0 };
             (self.normal[(columns[i], columns[j])] + prior) / size[i] / size[j] + ridge
         });
-        let right = DVector::from_fn(n, |i, _| {
-            if size[i] == 0.0 { 0.0 } else { -self.normal[(columns[i], 0)] / size[i] }
-        });
+        let right =
+            DVector::from_fn(
+                n,
+                |i, _| {
+                    if size[i] == 0.0 { 0.0 } else { -self.normal[(columns[i], 0)] / size[i] }
+                },
+            );
         let factor = scaled.cholesky()?;
         let solved = factor.solve(&right);
         let unscale = |i: usize| if size[i] == 0.0 { 0.0 } else { 1.0 / size[i] };

@@ -11,3 +11,251 @@ pub mod likelihood;
 pub mod locate;
 pub mod ports;
 pub mod trajectory;
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use crate::dataset::recorded::Recorded;
+use crate::estimation::fit::{Handle, Point};
+use crate::estimation::hypothesis::{TIMING, Term, World};
+use crate::plant::Dynamics;
+use crate::signal::distortion::Correction;
+
+use innovations::{Column, Noise};
+use likelihood::Sums;
+use ports::Port;
+use trajectory::{Setting, Window};
+
+/// Samples of all records together that are looked at: half a minute at the rate of conditioned records.
+const SAMPLES: usize = 12_000;
+/// Longest stretch that is filtered in one go, in seconds.
+const LONGEST: f64 = 10.0;
+/// Standard deviation of a nominal parameter over its value, before the data are seen.
+const TOLERANCE: f64 = 0.3;
+/// Least share of a nominal value that a parameter is believed to have, where it cannot be zero.
+const LEAST: f64 = 0.3;
+/// Share of each port's size that may be missing while the nominal parameters are looked at.
+const LOOSE: f64 = 0.03;
+/// How often the nominal parameters are corrected.
+const ROUNDS: usize = 2;
+/// The delay that a timing column stands for, in seconds.
+const DELAY: f64 = 1e-3;
+
+/// A rig's model about the trajectory of its records.
+pub struct Missing<'a> {
+    /// Estimation records, then validation records.
+    pub records: &'a [Recorded],
+    /// How many of them are estimation records.
+    pub train: usize,
+    /// What the smoother knows of the rig.
+    pub setting: Setting<'a>,
+    /// The predictions about the trajectory.
+    pub windows: Vec<Window>,
+    /// What was known of each nuisance before: precisions of nominal parameters, then of the channels' timing, then of what was
+    /// explained.
+    pub precisions: Vec<f64>,
+}
+
+/// What a smoother needs to outlive it.
+pub struct Frame {
+    /// Estimation records, then validation records, freed of what sensors are known to do.
+    records: Vec<Recorded>,
+    point: Point,
+    /// Whether nominal parameters start from the data sheet, far off perhaps.
+    fresh: bool,
+    dynamics: Box<dyn Dynamics>,
+    ports: Vec<Port>,
+    parameters: Vec<usize>,
+    nominal: Vec<f64>,
+}
+
+impl World<'_> {
+    /// Equations, ports and nominal parameters of the rig with what was found so far.
+    ///
+    /// # Errors
+    /// If the model refuses its settings.
+    pub fn frame(&self, found: &[Term], at: &Point) -> Result<Frame, String> {
+        let record = self.train.first().ok_or("there is no estimation record")?;
+        let mut point = Point { starts: Vec::new(), ..at.clone() };
+        let mut records = self.whole.to_vec();
+        // Of the channels' timing only what was found is known; the rest is looked at anew.
+        for (output, distortion) in point.outputs.iter_mut().enumerate() {
+            let told = |term: &Term| match term {
+                Term::Fault(Handle::Output(of, _)) | Term::Response(of) => *of == output,
+                _ => false,
+            };
+            let before = std::mem::take(distortion);
+            if found.iter().any(told) {
+                for record in &mut records {
+                    undistorted(record, output, &before);
+                }
+            }
+        }
+        let mut parameters = self.rig.base();
+        for coordinate in found.iter().flat_map(|term| self.own_coordinates(*term)) {
+            if let Handle::Parameter(index) = coordinate.handle
+                && !parameters.contains(&index)
+            {
+                parameters.push(index);
+            }
+        }
+        let states = self.rig.plant.states.iter();
+        Ok(Frame {
+            records,
+            point,
+            fresh: found.is_empty(),
+            dynamics: self.dynamics(found)?,
+            ports: Port::all(self.rig, record),
+            parameters,
+            nominal: states.map(|it| it.nominal.unwrap_or(1.0)).collect(),
+        })
+    }
+
+    /// The model about the trajectory that the sensors tell, its nominal parameters corrected as far as the missing signals allow.
+    ///
+    /// # Errors
+    /// If the model diverges along every stretch.
+    pub fn missing<'b>(&self, frame: &'b Frame) -> Result<Missing<'b>, String> {
+        let records = &frame.records[..];
+        let mut point = frame.point.clone();
+        let rounds = if frame.fresh { ROUNDS } else { 0 };
+        let timing: Vec<Handle> = self
+            .coordinates(&[])
+            .into_iter()
+            .filter(|it| matches!(it.handle, Handle::Output(..)))
+            .map(|it| it.handle)
+            .collect();
+        let known = |index: &usize| {
+            let told =
+                self.known.iter().find(|(of, _, _)| of == index).map(|(_, _, deviation)| deviation.powi(-2));
+            let value = self.rig.parameters[*index];
+            told.unwrap_or(if value == 0.0 { 0.0 } else { (TOLERANCE * value).powi(-2) })
+        };
+        for (index, value, _) in &self.known {
+            point.parameters[*index] = *value;
+        }
+        let mut precisions: Vec<f64> = frame.parameters.iter().map(known).collect();
+        precisions.extend(timing.iter().map(|_| (DELAY / TIMING).powi(2)));
+        let stretches = stretches(records);
+        let mut round = 0;
+        loop {
+            let setting = self.setting(frame, &point, records);
+            let windows = self.windows(&setting, (records, &stretches), &timing, &point);
+            if windows.is_empty() {
+                return Err("the model diverges along the measured trajectory".into());
+            }
+            round += 1;
+            if round > rounds {
+                let train = self.train.len();
+                return Ok(Missing { records, train, setting, windows, precisions });
+            }
+            let ports = setting.sizes.iter().zip(&frame.ports).enumerate().map(|(number, (size, port))| {
+                if port.is_sensor() || setting.ties[number] != number { 0.0 } else { LOOSE * size }
+            });
+            let ports = ports.collect();
+            let noise = Noise { ports, outputs: setting.noise.clone() };
+            let blocks = setting.innovations(&windows, &noise, &[]);
+            let columns: Vec<usize> = (1..=precisions.len()).collect();
+            let own = blocks.iter().filter(|block| block.record < self.train.len());
+            let Some(fitted) = Sums::of(own).and_then(|sums| sums.fitted(&columns, &precisions)) else {
+                continue;
+            };
+            for (index, step) in frame.parameters.iter().zip(fitted.values.iter()) {
+                let (before, nominal) = (point.parameters[*index], self.rig.parameters[*index]);
+                let declared = &self.rig.plant.parameters[*index];
+                let low = declared.min.map_or(f64::NEG_INFINITY, |min| min.max(LEAST * nominal));
+                let high = declared.max.unwrap_or(f64::INFINITY);
+                let moved = (before + step).clamp(low.min(before), high.max(before));
+                point.parameters[*index] = moved;
+            }
+            if frame.dynamics.check(&point.parameters).is_err() {
+                point.parameters.clone_from(&self.rig.parameters);
+            }
+        }
+    }
+
+    fn setting<'b>(&self, frame: &'b Frame, point: &Point, records: &[Recorded]) -> Setting<'b> {
+        Setting::new(
+            &*frame.dynamics,
+            (point, &self.rig.start),
+            &frame.ports,
+            &frame.parameters,
+            &frame.nominal,
+            records,
+        )
+    }
+
+    fn windows(
+        &self,
+        setting: &Setting<'_>,
+        (records, stretches): (&[Recorded], &[(usize, Range<usize>)]),
+        timing: &[Handle],
+        point: &Point,
+    ) -> Vec<Window> {
+        let of = |(record, samples): &(usize, Range<usize>)| {
+            let sections = vec![samples.clone()];
+            let part = Recorded { sections, ..records[*record].clone() };
+            let start = self.starts(std::slice::from_ref(&part)).pop()?;
+            let mut window = setting.window(records, *record, samples.clone(), &start)?;
+            let columns: Option<Vec<Column>> = timing
+                .iter()
+                .map(|handle| {
+                    let mut late = point.clone();
+                    late.set(*handle, DELAY);
+                    setting.changed((records, &window), (Term::Fault(*handle), setting.dynamics), &late)
+                })
+                .collect();
+            window.timing = columns?;
+            Some(window)
+        };
+        stretches.par_iter().filter_map(of).collect()
+    }
+}
+
+impl Missing<'_> {
+    /// Numbers of the columns that are fitted whatever is looked for.
+    pub fn nuisances(&self) -> Vec<usize> {
+        (1..=self.precisions.len()).collect()
+    }
+
+    /// Takes columns, one for each window, as explained: they are fitted along from here on.
+    pub fn explain(&mut self, columns: impl Iterator<Item = Vec<Column>>) {
+        for column in columns {
+            self.windows.iter_mut().zip(column).for_each(|(window, column)| window.timing.push(column));
+            self.precisions.push(0.0);
+        }
+    }
+}
+
+/// Takes away what a sensor did to an output.
+fn undistorted(record: &mut Recorded, output: usize, distortion: &Correction) {
+    let sections = record.sections.clone();
+    let samples: Vec<_> = sections.iter().map(|section| record.samples(section)).collect();
+    for measured in record.measured.iter_mut().filter(|it| it.output == output) {
+        for (section, samples) in sections.iter().zip(&samples) {
+            let plain = distortion.removed(&measured.values[section.clone()], *samples);
+            measured.values[section.clone()].copy_from_slice(&plain);
+        }
+    }
+}
+
+/// Stretches of all records: none longer than [`LONGEST`], not more than [`SAMPLES`] together, spread over each record.
+fn stretches(records: &[Recorded]) -> Vec<(usize, Range<usize>)> {
+    let total: usize = records.iter().flat_map(|it| it.sections.iter().map(Range::len)).sum();
+    let share = (SAMPLES as f64 / total.max(1) as f64).min(1.0);
+    let mut all = Vec::new();
+    for (number, record) in records.iter().enumerate() {
+        let longest = ((LONGEST / record.step) as usize).max(2);
+        for section in &record.sections {
+            let pieces = section.len().div_ceil(longest).max(1);
+            let length = section.len() / pieces;
+            for piece in 0..pieces {
+                let start = section.start + piece * length;
+                let taken = ((length as f64 * share) as usize).max(2).min(length);
+                all.push((number, start..start + taken));
+            }
+        }
+    }
+    all
+}

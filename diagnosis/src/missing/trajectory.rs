@@ -7,8 +7,8 @@ use crate::estimation::fit::Point;
 use crate::plant::{Drive, Dynamics, Follower, Seed, Seen};
 use crate::screening::rms;
 
-use super::innovations::Column;
 use super::filter::{Filter, Passed, Smoothed, smoothed};
+use super::innovations::Column;
 use super::ports::{Entry, Port};
 
 /// Time in which a missing signal forgets what it was, in seconds: it may change as fast as a rig's own motions.
@@ -16,7 +16,9 @@ pub const MEMORY: f64 = 0.3;
 /// Samples over which the states that matter are looked for.
 const LOOK: usize = 400;
 /// Accuracy of a sensor beside its noise, in shares of its signal's root mean square: none is calibrated better.
-const ACCURACY: f64 = 1e-3;
+const ACCURACY: f64 = 1e-2;
+/// Share of what a port does that another one does not, below which the two are one place.
+const TIED: f64 = 1e-6;
 /// Share of a state's nominal value by which the model's own integration may be wrong in a sample.
 const ROUNDING: f64 = 1e-7;
 
@@ -25,7 +27,7 @@ pub struct Setting<'a> {
     /// The equations.
     pub dynamics: &'a dyn Dynamics,
     /// Values of the parameters, and what inputs pass.
-    pub point: &'a Point,
+    pub point: Point,
     /// Where signals may be missing.
     pub ports: &'a [Port],
     /// Parameters of which derivatives are wanted, by their indices.
@@ -34,6 +36,8 @@ pub struct Setting<'a> {
     pub nominal: &'a [f64],
     /// States that show in some measured output, directly or by others.
     pub active: Vec<usize>,
+    /// For each port: the first one that does the same to every state and output.
+    pub ties: Vec<usize>,
     /// Size of each port's signal that would be as large as what the sensors show.
     pub sizes: Vec<f64>,
     /// Variance of each measured output's noise.
@@ -78,7 +82,7 @@ impl<'a> Setting<'a> {
     /// Looks which states matter and how large missing signals may be.
     pub fn new(
         dynamics: &'a dyn Dynamics,
-        (point, start): (&'a Point, &[f64]),
+        (point, start): (&Point, &[f64]),
         ports: &'a [Port],
         parameters: &'a [usize],
         nominal: &'a [f64],
@@ -105,6 +109,20 @@ impl<'a> Setting<'a> {
                 floor.powi(2) + (ACCURACY * magnitudes[row]).powi(2)
             })
             .collect();
+        let mut column = states;
+        let columns: Vec<Option<usize>> = ports
+            .iter()
+            .map(|port| {
+                column += usize::from(!port.is_sensor());
+                (!port.is_sensor()).then(|| column - 1)
+            })
+            .collect();
+        let same = |a: usize, b: usize| match (columns[a], columns[b]) {
+            (Some(a), Some(b)) => look.same(a, b),
+            _ => a == b,
+        };
+        let ties =
+            (0..ports.len()).map(|port| (0..port).find(|it| same(*it, port)).unwrap_or(port)).collect();
         let mut own = states;
         let sizes = ports
             .iter()
@@ -116,7 +134,8 @@ impl<'a> Setting<'a> {
                 }
             })
             .collect();
-        Self { dynamics, point, ports, parameters, nominal, active, sizes, noise }
+        let point = point.clone();
+        Self { dynamics, point, ports, parameters, nominal, active, ties, sizes, noise }
     }
 
     /// The ports of the plant.
@@ -132,14 +151,21 @@ impl<'a> Setting<'a> {
     }
 
     /// The model about the trajectory over some samples of a record; none if the model diverges there.
-    pub fn window(&self, records: &[Recorded], record: usize, samples: Range<usize>, start: &[f64]) -> Option<Window> {
+    pub fn window(
+        &self,
+        records: &[Recorded],
+        record: usize,
+        samples: Range<usize>,
+        start: &[f64],
+    ) -> Option<Window> {
         let own = &records[record];
         let drive = own.drive(&samples, &self.point.inputs);
         let mut seeds = self.seeds(&drive);
         let wanted: Vec<usize> = own.measured.iter().map(|it| it.output).collect();
         let (n, moving) = (self.active.len(), self.moving().count());
         let ports: Vec<f64> = self.moving().map(|(port, _)| self.sizes[port]).collect();
-        let variances = self.active.iter().map(|it| self.nominal[*it].powi(2)).chain(ports.iter().map(|it| it * it));
+        let variances =
+            self.active.iter().map(|it| self.nominal[*it].powi(2)).chain(ports.iter().map(|it| it * it));
         let variances: Vec<f64> = variances.collect();
         let decay = (-own.step / MEMORY).exp();
         let driven = (0..n)
@@ -161,7 +187,13 @@ impl<'a> Setting<'a> {
             passed: Vec::with_capacity(samples.len()),
             whole: Vec::with_capacity(samples.len()),
         };
-        self.dynamics.followed(&self.point.parameters, start, &drive, (&seeds[..n + moving], &wanted), &mut pass);
+        self.dynamics.followed(
+            &self.point.parameters,
+            start,
+            &drive,
+            (&seeds[..n + moving], &wanted),
+            &mut pass,
+        );
         let (passed, mut trajectory) = (pass.passed, pass.whole);
         let smooth: Vec<Smoothed> = smoothed(&passed);
         for (whole, smooth) in trajectory.iter_mut().zip(&smooth) {
@@ -200,7 +232,8 @@ impl<'a> Setting<'a> {
 }
 
 fn magnitude(records: &[Recorded], row: usize) -> f64 {
-    let values: Vec<f64> = records.iter().flat_map(|it: &Recorded| it.measured[row].values.iter().copied()).collect();
+    let values: Vec<f64> =
+        records.iter().flat_map(|it: &Recorded| it.measured[row].values.iter().copied()).collect();
     rms(&values).max(f64::MIN_POSITIVE)
 }
 
@@ -228,6 +261,18 @@ impl Look {
                 return (0..states).filter(|it| reaches[*it]).collect();
             }
         }
+    }
+
+    /// Whether two seeds do the same but for their size.
+    fn same(&self, a: usize, b: usize) -> bool {
+        let rows = || self.next.chunks_exact(self.width).chain(self.outputs.chunks_exact(self.width));
+        let (mut aa, mut ab, mut bb) = (0.0, 0.0, 0.0);
+        for row in rows() {
+            aa += row[a] * row[a];
+            ab += row[a] * row[b];
+            bb += row[b] * row[b];
+        }
+        aa > 0.0 && bb > 0.0 && ab * ab > (1.0 - TIED) * aa * bb
     }
 
     /// The size of a port's signal that moves what the sensors show, or else the states, as far as it moves.

@@ -1,39 +1,37 @@
 //! Findings from a diagnosis: verdict, words, tables and pictures.
 
+mod account;
 mod pictures;
 mod summary;
-mod unnamed;
+mod unmodelled;
 
 use strut_model::Declaration;
 
+use unmodelled::missing;
+
 use crate::catalogue::naming::{self, name};
+use crate::confirm::{Accepted, has_no_name};
 use crate::dataset::recorded::{Recorded, Source};
+use crate::decision::verdict::{Facts, verdict};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::estimation::fit::{Handle, Point, Residuals};
 use crate::estimation::hypothesis::Term;
+use crate::explain::selection::Score;
 use crate::report::findings::{
     Answer, BaseParameter, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal,
-    SignalCorrection, Start, Verdict,
+    SignalCorrection, Start,
 };
 use crate::screening::rms;
-use crate::search::{Accepted, has_no_name};
 use crate::signal::distortion::{AFTER, Correction, Fault};
 
 /// Relative change of a base parameter that matters, if it is significant.
 const MISMATCH: f64 = 0.03;
 /// Difference of two excitations, over their magnitude, below which one is a repetition of the other.
 const SAME: f64 = 0.05;
-/// Φ of the best signal on held-out data below which nothing is to be believed.
-const INADEQUATE: f64 = 0.2;
-/// The same below which a model that drifts has lost what was measured: its errors are of what happened long before.
+/// Fit of the best signal on validation data below which a model that drifts has lost what was measured: its errors are of what happened long before.
 const LOST: f64 = 0.95;
 
 impl Diagnosis<'_> {
-    /// Whether no signal on held-out data is met so well that anything is to be believed.
-    fn is_inadequate(&self) -> bool {
-        self.best() < INADEQUATE
-    }
-
     /// Whether no signal on held-out data is met closely over the stretches that it is compared over. Of a model that drifts,
     /// shorter ones tell more then.
     pub fn is_lost(&self) -> bool {
@@ -42,7 +40,7 @@ impl Diagnosis<'_> {
 
     /// Φ of the signal on held-out data that is met best.
     fn best(&self) -> f64 {
-        self.left().iter().map(unnamed::Left::phi).fold(f64::NEG_INFINITY, f64::max)
+        self.left().iter().map(unmodelled::Left::phi).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Everything that is told.
@@ -50,44 +48,20 @@ impl Diagnosis<'_> {
         let world = &self.world;
         let (signals, starts, corrections) = self.signals();
         let base_parameters = self.base_parameters();
-        let accepted = self.found.accepted.iter().chain(&self.rooted);
-        let named: Vec<&Accepted> = accepted.filter(|it| !has_no_name(it.term)).collect();
-        let mut unnamed = self.found.accepted.iter().find_map(|it| match it.term {
-            Term::Table(table) => Some(self.curve(table)),
-            Term::Response(output) => Some(self.response(output)),
-            Term::Cause(_) | Term::Fault(_) => None,
+        let named: Vec<&Accepted> = self.found.accepted.iter().filter(|it| !has_no_name(it.term)).collect();
+        let effects: Vec<Effect> = named.iter().map(|it| self.effect(it)).collect();
+        let unmodelled = self.unmodelled();
+        let account = self.account(unmodelled.first().map_or(0.0, |it| it.share));
+        let verdict = verdict(Facts {
+            best_fit: self.best(),
+            effects: effects.len(),
+            ambiguous: effects.iter().any(|effect| !effect.ambiguous_with.is_empty()),
+            sensors: !effects.is_empty() && named.iter().all(|it| name(it.term, &world.rig.plant).sensor),
+            unmodelled: unmodelled.first().map_or(0.0, |it| it.share),
+            unmodelled_first: self.found.accepted.first().is_none_or(|it| has_no_name(it.term)),
+            mismatch: base_parameters.iter().any(|it| it.mismatch),
+            open: account.iter().any(|it| it.open),
         });
-        let mut effects: Vec<Effect> = named.iter().map(|it| self.effect(it)).collect();
-        let mut nearest = Vec::new();
-        let left = self.left();
-        if let Some(first) = named.first()
-            && unnamed.is_none()
-            && self.rooted.is_empty()
-            && unnamed::explains_too_little(&left)
-        {
-            unnamed = Some(self.place(first.term));
-            nearest = std::mem::take(&mut effects);
-        }
-        let sensors = !effects.is_empty() && named.iter().all(|it| name(it.term, &world.rig.plant).sensor);
-        let verdict = if self.is_inadequate() {
-            Verdict::ModelInadequate
-        } else if unnamed.is_some() && (effects.is_empty() || sensors) {
-            // A curve is about the plant, whatever is wrong with the sensors besides.
-            Verdict::Unnamed
-        } else if effects.iter().any(|effect| !effect.ambiguous_with.is_empty()) {
-            Verdict::Ambiguous
-        } else if sensors {
-            Verdict::SensorFault
-        } else if !effects.is_empty() {
-            Verdict::Named
-        } else if base_parameters.iter().any(|it| it.mismatch) {
-            Verdict::ParameterMismatch
-        } else if unnamed::misses_much(&left) {
-            // Something is there, and nothing that was looked for is it.
-            Verdict::ModelInadequate
-        } else {
-            Verdict::NoEffect
-        };
         let experiment = effects.iter().find_map(|effect| effect.experiment.clone());
         let mut findings = Findings {
             format: FORMAT,
@@ -97,14 +71,14 @@ impl Diagnosis<'_> {
             verdict,
             summary: String::new(),
             effects,
-            common: self.found.common.iter().map(|it| self.effect(it)).collect(),
             base_parameters,
             pictures: self.pictures(),
             signals,
             starts,
             corrections,
-            unnamed,
-            nearest,
+            account,
+            unmodelled,
+            missing: self.found.missing.as_ref().map(missing),
             experiment,
             data_problems,
             candidates: self.candidates(),
@@ -149,12 +123,6 @@ impl Diagnosis<'_> {
             }
         }
         list
-    }
-
-    /// All that the extended model has more than the starting model.
-    fn extended_terms(&self) -> Vec<Term> {
-        let hidden = self.rooted.iter().map(|it| it.term);
-        self.found.extended.terms.iter().copied().chain(hidden).collect()
     }
 
     /// The point of the held-out records as they were measured, and the errors there.
@@ -207,7 +175,7 @@ impl Diagnosis<'_> {
     fn signals(&self) -> (Vec<Signal>, Vec<Start>, Vec<SignalCorrection>) {
         let world = &self.world;
         let extended = &self.found.extended;
-        let terms = self.extended_terms();
+        let terms = extended.terms.clone();
         let all = (
             self.measured(&[], &self.before),
             self.measured(&[], &self.found.base.point),
@@ -292,35 +260,30 @@ impl Diagnosis<'_> {
 
     fn candidates(&self) -> Vec<Candidate> {
         let plant = &self.world.rig.plant;
-        let among = |all: &[Accepted], term: Term| all.iter().any(|it| it.term == term);
-        let screened = self.found.screened.iter().map(|it| {
-            let words = name(it.term, plant);
-            let own = self.world.own_coordinates(it.term);
-            let tried = self.found.tried.iter().find(|tried| tried.term == it.term);
+        let of = |(term, score): &(Term, Score)| {
+            let words = name(*term, plant);
+            let tried = self.found.tried.iter().rev().find(|tried| tried.term == *term);
             let outcome = match tried {
-                _ if among(&self.found.accepted, it.term) => "accepted".into(),
-                _ if among(&self.found.common, it.term) => {
-                    "fitted along: every rig has a little of it".into()
-                }
-                None => "not seen in what the model misses".into(),
+                _ if self.found.accepted.iter().any(|it| it.term == *term) => "accepted".into(),
+                None => "explains less of the missing signal".into(),
                 Some(tried) => match (&tried.fitted, tried.evidence.refusal()) {
                     (Err(error), _) => error.clone(),
                     (Ok(_), Some(refusal)) => refusal,
-                    (Ok(_), None) => "another cause explains it better, or is much larger".into(),
+                    (Ok(_), None) => "another effect explains it better".into(),
                 },
             };
             Candidate {
                 id: words.id,
                 element: words.element,
                 name: words.name,
+                share: score.share,
+                validated: score.validated,
                 fitted: tried.is_some_and(|tried| tried.fitted.is_ok()),
                 evidence: tried.map(|tried| tried.evidence),
-                detectable: Some(it.detectable).filter(|size| size.is_finite()),
-                unit: own.first().map_or_else(String::new, |it| naming::handle(it.handle, plant).1),
                 outcome,
             }
-        });
-        screened.collect()
+        };
+        self.found.compared.iter().map(of).collect()
     }
 }
 

@@ -6,11 +6,13 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+pub use crate::decision::verdict::Verdict;
+
 pub(crate) use pictures::LARGEST;
 pub use pictures::{Binned, Coherence, Mark, Parity, Periodogram, Pictures, Spectrum, Trace};
 
 /// Version of the format of `report.json`: raised when a reader of an older one would misunderstand it.
-pub const FORMAT: u32 = 1;
+pub const FORMAT: u32 = 2;
 
 /// All that a diagnosis has found.
 #[derive(Clone, Debug, Serialize)]
@@ -29,8 +31,6 @@ pub struct Findings {
     pub summary: String,
     /// What was found, in the order of its gain.
     pub effects: Vec<Effect>,
-    /// Small effects that every rig has a little of, fitted along so that the causes show; the extended model holds them.
-    pub common: Vec<Effect>,
     /// Parameters of the starting model that were fitted.
     pub base_parameters: Vec<BaseParameter>,
     /// The model's errors on the held-out data, before and after.
@@ -39,10 +39,12 @@ pub struct Findings {
     pub starts: Vec<Start>,
     /// What signals pass on their way into the extended model and out of it; its FMU does not hold it.
     pub corrections: Vec<SignalCorrection>,
-    /// A cause without a name.
-    pub unnamed: Option<Curve>,
-    /// Laws that come nearest to a cause without a name, and explain too little to be it; the extended model holds them.
-    pub nearest: Vec<Effect>,
+    /// Where the power of each signal's error goes, on the validation records.
+    pub account: Vec<SignalAccount>,
+    /// What is missing and in no catalogue, the largest first.
+    pub unmodelled: Vec<Unmodelled>,
+    /// The missing signal at the likeliest place, before anything was explained.
+    pub missing: Option<Missing>,
     /// What would settle doubts.
     pub experiment: Option<String>,
     /// What is wrong with the data.
@@ -68,13 +70,13 @@ impl Findings {
             verdict: Verdict::BadData,
             summary: format!("The data cannot be used. {}", texts.collect::<Vec<_>>().join(" ")),
             effects: Vec::new(),
-            common: Vec::new(),
             base_parameters: Vec::new(),
             signals: Vec::new(),
             starts: Vec::new(),
             corrections: Vec::new(),
-            unnamed: None,
-            nearest: Vec::new(),
+            account: Vec::new(),
+            unmodelled: Vec::new(),
+            missing: None,
             experiment: None,
             data_problems: problems,
             candidates: Vec::new(),
@@ -82,28 +84,6 @@ impl Findings {
             seconds: 0.0,
         }
     }
-}
-
-/// What is the matter with the model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Verdict {
-    /// Nothing that this record could show.
-    NoEffect,
-    /// Parameters differ from those that the model started with; no cause beyond them could be shown.
-    ParameterMismatch,
-    /// One or several causes are named.
-    Named,
-    /// Several causes explain the data equally well.
-    Ambiguous,
-    /// There is a cause that has no name in the catalogue.
-    Unnamed,
-    /// A sensor is at fault, not the plant.
-    SensorFault,
-    /// The model explains too little, and no cause explains the rest.
-    ModelInadequate,
-    /// The data cannot be used.
-    BadData,
 }
 
 /// A cause that was found.
@@ -351,6 +331,91 @@ pub struct Answer {
     pub value: f64,
 }
 
+/// Where the power of a signal's error goes: shares of the starting model's that add up to one.
+#[derive(Clone, Debug, Serialize)]
+pub struct SignalAccount {
+    /// As in the FMU.
+    pub signal: String,
+    /// Root mean square of the starting model's error, in the signal's unit.
+    pub error: f64,
+    /// Measurement noise.
+    pub noise: f64,
+    /// What fitting the nominal parameters takes away; negative if it makes this signal worse.
+    pub parameters: f64,
+    /// What each effect takes away, in the order of `effects`; a curve without a name comes in the order in which it was found.
+    pub effects: Vec<AccountItem>,
+    /// What features without a name explain of the rest.
+    pub unmodelled: f64,
+    /// What nothing explains.
+    pub unexplained: f64,
+    /// Whether more is missing than three times the noise and a tenth of the signal.
+    pub open: bool,
+}
+
+/// What an effect takes away of a signal's error.
+#[derive(Clone, Debug, Serialize)]
+pub struct AccountItem {
+    /// The effect.
+    pub name: String,
+    /// Share of the starting model's error power.
+    pub share: f64,
+}
+
+/// Something missing that no effect of the catalogue explains.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Unmodelled {
+    /// Where: an element such as `strut`, or the signal of a sensor.
+    pub place: String,
+    /// Unit of the missing signal.
+    pub unit: String,
+    /// What it depends on, the most important first; empty if it follows nothing that was recorded.
+    pub depends_on: Vec<String>,
+    /// Share of what is missing that it explains, on the estimation records.
+    pub share: f64,
+    /// The same on the validation records with the same amounts.
+    pub validated: f64,
+    /// By how much the fit of the worst signal would rise with it.
+    pub improvement: f64,
+    /// Frequency in Hz where it has one.
+    pub frequency: Option<f64>,
+    /// One sentence.
+    pub description: String,
+    /// Its curve, where it is one.
+    pub curve: Option<Curve>,
+}
+
+/// A missing signal at a place over a part of the first estimation record.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Missing {
+    /// Where: an element, or the signal of a sensor.
+    pub place: String,
+    /// Its unit.
+    pub unit: String,
+    /// Places that no record of these signals could tell from it.
+    pub ties: Vec<String>,
+    /// Every place, the likeliest first.
+    pub places: Vec<PlaceLikelihood>,
+    /// Time since the record's beginning in seconds.
+    pub time: Vec<f64>,
+    /// The missing signal.
+    pub value: Vec<f64>,
+    /// Its standard deviation.
+    pub deviation: Vec<f64>,
+    /// Deflection there, SI; empty at a sensor.
+    pub deflection: Vec<f64>,
+    /// Velocity there, SI; empty at a sensor.
+    pub velocity: Vec<f64>,
+}
+
+/// How likely it is that a signal is missing at a place.
+#[derive(Clone, Debug, Serialize)]
+pub struct PlaceLikelihood {
+    /// Where.
+    pub place: String,
+    /// Logarithm of the likelihood, beyond that of nothing missing but a little everywhere.
+    pub log_likelihood: f64,
+}
+
 /// A force, or another quantity, over a variable; without points where it is only known to be there.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Curve {
@@ -406,14 +471,14 @@ pub struct Candidate {
     pub element: String,
     /// What it is called.
     pub name: String,
-    /// Whether it was fitted, or only screened.
+    /// Share of what was missing first that it explains on its own, on the estimation records.
+    pub share: f64,
+    /// The same on the validation records with the same amounts.
+    pub validated: f64,
+    /// Whether it was fitted.
     pub fitted: bool,
-    /// What the gates said, if it was fitted.
+    /// What its fit showed.
     pub evidence: Option<Evidence>,
-    /// Size that would have been seen for certain with these data, of its first parameter.
-    pub detectable: Option<f64>,
-    /// Unit of the size.
-    pub unit: String,
-    /// Why it is not named: `accepted`, `weaker than …`, `no gain on held-out data`, `not excited`, …
+    /// What became of it.
     pub outcome: String,
 }

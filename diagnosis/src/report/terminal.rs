@@ -4,10 +4,9 @@ use textwrap::Options;
 use unicode_width::UnicodeWidthStr;
 
 use super::words::{
-    badge, capitalised, cause, count, digits, fit, headline, interval, located, number, percent, place,
-    sized, unit,
+    badge, capitalised, cause, count, digits, fit, headline, interval, located, number, percent, unit,
 };
-use crate::report::findings::{Effect, Findings, Verdict};
+use crate::report::findings::{Effect, Findings};
 
 /// Columns that a line has at most.
 const WIDTH: usize = 100;
@@ -27,14 +26,11 @@ pub fn terminal(findings: &Findings) -> String {
         lines.effect(findings, effect);
     }
     lines.more(findings.effects.len());
-    lines.common(findings);
     lines.base_parameters(findings);
     lines.signals(findings);
-    lines.detectable(findings);
-    if let Some(curve) = &findings.unnamed {
+    for unmodelled in &findings.unmodelled {
         lines.blank();
-        let what = if curve.x.is_empty() { "something" } else { "a curve, see report.html," };
-        lines.wrapped("", &format!("Unnamed: {what} {} over {}", place(&curve.location), curve.variable));
+        lines.wrapped("", &format!("Unmodelled: {}", unmodelled.description));
     }
     if let Some(experiment) = &findings.experiment {
         lines.blank();
@@ -113,15 +109,6 @@ impl Lines {
         }
     }
 
-    /// What is no finding, but part of the model now.
-    fn common(&mut self, findings: &Findings) {
-        if !findings.common.is_empty() {
-            self.blank();
-            let all: Vec<String> = findings.common.iter().map(sized).collect();
-            self.wrapped("", &format!("Fitted along, as every rig has a little of it: {}", all.join("; ")));
-        }
-    }
-
     fn base_parameters(&mut self, findings: &Findings) {
         let wrong: Vec<_> = findings.base_parameters.iter().filter(|parameter| parameter.mismatch).collect();
         if wrong.is_empty() {
@@ -170,29 +157,6 @@ impl Lines {
             self.0.push(line);
         }
         self.more(findings.signals.len());
-    }
-
-    /// Without a verdict, the size that would have been seen is the result.
-    fn detectable(&mut self, findings: &Findings) {
-        if findings.verdict != Verdict::NoEffect {
-            return;
-        }
-        let seen: Vec<_> =
-            findings.candidates.iter().filter(|candidate| candidate.detectable.is_some()).collect();
-        if seen.is_empty() {
-            return;
-        }
-        self.blank();
-        self.wrapped("", "What would have been seen:");
-        for candidate in seen.iter().take(SHOWN) {
-            let size = number(candidate.detectable.unwrap_or(f64::NAN));
-            let place = place(&candidate.element);
-            self.wrapped(
-                "  ",
-                &format!("{} {place} from {size} {}", capitalised(&candidate.name), unit(&candidate.unit)),
-            );
-        }
-        self.more(seen.len());
     }
 }
 

@@ -234,8 +234,8 @@ pub fn headline(findings: &Findings) -> String {
                 more => format!("{more} parameters differ; no cause beyond that could be shown."),
             }
         }
-        Verdict::Named if effects.is_empty() => "The cause is named.".into(),
-        Verdict::Named => format!("The model lacks {}.", list(&effects, "and")),
+        Verdict::Identified if effects.is_empty() => "An effect is identified.".into(),
+        Verdict::Identified => format!("The model lacks {}.", list(&effects, "and")),
         Verdict::Ambiguous => {
             let (settled, open): (Vec<&Effect>, Vec<&Effect>) =
                 findings.effects.iter().partition(|effect| effect.ambiguous_with.is_empty());
@@ -257,16 +257,11 @@ pub fn headline(findings: &Findings) -> String {
                 ),
             }
         }
-        Verdict::Unnamed => match &findings.unnamed {
-            Some(curve) if curve.is_of_sensor() => {
-                format!("The sensor of {} has a response that has no name in the catalogue.", curve.location)
+        Verdict::Unmodelled => match findings.unmodelled.first() {
+            Some(unmodelled) => {
+                format!("The model lacks {}. No effect of the catalogue explains it.", unmodelled.description)
             }
-            Some(curve) => format!(
-                "The model lacks something {}, over {}, that has no name in the catalogue.",
-                place(&curve.location),
-                curve.variable
-            ),
-            None => "The model lacks something that has no name in the catalogue.".into(),
+            None => "Something is missing in the model, and it follows nothing that was recorded.".into(),
         },
         Verdict::SensorFault if effects.is_empty() => "A sensor is at fault, not the plant.".into(),
         Verdict::SensorFault => format!("A sensor is at fault, not the plant: {}.", list(&effects, "and")),
@@ -280,9 +275,9 @@ pub fn badge(verdict: Verdict) -> (&'static str, &'static str) {
     match verdict {
         Verdict::NoEffect => ("no effect", "good"),
         Verdict::ParameterMismatch => ("parameter mismatch", "found"),
-        Verdict::Named => ("named", "found"),
+        Verdict::Identified => ("identified", "found"),
         Verdict::Ambiguous => ("ambiguous", "doubt"),
-        Verdict::Unnamed => ("unnamed", "doubt"),
+        Verdict::Unmodelled => ("unmodelled", "doubt"),
         Verdict::SensorFault => ("sensor fault", "found"),
         Verdict::ModelInadequate => ("model inadequate", "bad"),
         Verdict::BadData => ("bad data", "bad"),

@@ -1,6 +1,6 @@
 //! The verdict in a few sentences, with the numbers that matter.
 
-use crate::report::findings::{Curve, Effect, Findings, Signal, Verdict};
+use crate::report::findings::{Effect, Findings, Signal, Verdict};
 use crate::report::words::{digits, sized, value};
 
 /// Errors that exceed a signal's noise by this factor are told as not explained …
@@ -12,14 +12,14 @@ const NOISY: f64 = 0.1;
 
 /// The summary of findings that are complete otherwise.
 pub(super) fn of(findings: &Findings) -> String {
-    let Findings { effects, unnamed, .. } = findings;
+    let Findings { effects, unmodelled, .. } = findings;
     let text = match findings.verdict {
         Verdict::NoEffect => "No cause could be shown by these records.".to_owned(),
         Verdict::ParameterMismatch => "No cause beyond parameters could be shown.".to_owned(),
-        Verdict::Named | Verdict::Ambiguous => format!("The model lacks: {}.", list(effects)),
+        Verdict::Identified | Verdict::Ambiguous => format!("The model lacks: {}.", list(effects)),
         Verdict::SensorFault => format!("The measurement is wrong, not the plant: {}.", list(effects)),
-        Verdict::Unnamed if effects.is_empty() => String::new(),
-        Verdict::Unnamed => format!("The measurement is wrong: {}.", list(effects)),
+        Verdict::Unmodelled if effects.is_empty() => String::new(),
+        Verdict::Unmodelled => format!("Beside it: {}.", list(effects)),
         Verdict::ModelInadequate => {
             "The model explains too little of the held-out data, and nothing that was looked for explains the rest: \
              check the rig, the signals' names, units and signs. If they are right, something acts that is not in the \
@@ -28,8 +28,9 @@ pub(super) fn of(findings: &Findings) -> String {
         }
         Verdict::BadData => "The data cannot be used.".to_owned(),
     };
-    let told = findings.verdict != Verdict::ModelInadequate;
-    let curve = unnamed.as_ref().filter(|_| told).map(|curve| without_name(curve, &findings.nearest));
+    let more = unmodelled.iter().skip(usize::from(findings.verdict == Verdict::Unmodelled));
+    let more: Vec<String> = more.map(|it| format!("Also missing: {}.", it.description)).collect();
+    let curve = Some(more.join(" "));
     let sentences =
         [parameters(findings), Some(text), curve, gained(findings), noisy(findings), left(findings)];
     sentences.into_iter().flatten().filter(|it| !it.is_empty()).collect::<Vec<_>>().join(" ")
@@ -57,31 +58,11 @@ fn parameters(findings: &Findings) -> Option<String> {
     (!changed.is_empty()).then(|| format!("Parameters: {}.", changed.join("; ")))
 }
 
-fn without_name(curve: &Curve, nearest: &[Effect]) -> String {
-    let known = match (curve.x.is_empty(), nearest.is_empty()) {
-        (false, _) => "its curve is given".to_owned(),
-        (true, false) => format!("nearest comes {}", list(nearest)),
-        (true, true) => "these data do not determine its curve".to_owned(),
-    };
-    let Curve { location, quantity, variable, .. } = curve;
-    if curve.is_of_sensor() {
-        return format!(
-            "The sensor of {location} has a response that has no name in the catalogue, neither a gain nor a lag nor a delay; {known}."
-        );
-    }
-    let what = match quantity.as_str() {
-        "" => format!("something at {location}"),
-        quantity => format!("a {quantity} in the {location} over {variable}"),
-    };
-    format!("The model lacks {what} that has no name in the catalogue; {known}.")
-}
-
 fn gained(findings: &Findings) -> Option<String> {
     let gain = |signal: &Signal| signal.phi_after - signal.phi_fitted;
     let most = findings.signals.iter().max_by(|a, b| gain(a).total_cmp(&gain(b)))?;
     let Signal { name, phi_fitted, phi_after, .. } = most;
-    let along = if findings.common.is_empty() { "" } else { ", with what was fitted along" };
-    let text = format!("On held-out data Φ of {name} rises from {phi_fitted:.3} to {phi_after:.3}{along}.");
+    let text = format!("On held-out data Φ of {name} rises from {phi_fitted:.3} to {phi_after:.3}.");
     (gain(most) > 0.0).then_some(text)
 }
 
@@ -121,7 +102,6 @@ fn left(findings: &Findings) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::findings::Evidence;
 
     fn findings(verdict: Verdict) -> Findings {
         Findings { verdict, ..Findings::of_bad_data("rig", vec![], vec![], vec![]) }
@@ -166,46 +146,5 @@ mod tests {
         let text = of(0.6);
         assert!(text.contains("is 0.600") && text.contains("Yet 40 % of body.acceleration"), "{text}");
         assert!(text.contains("20 times its noise"), "{text}");
-    }
-
-    fn effect(id: &str, element: &str, name: &str) -> Effect {
-        Effect {
-            id: id.into(),
-            element: element.into(),
-            name: name.into(),
-            equation: String::new(),
-            parameters: vec![],
-            evidence: Evidence::default(),
-            ambiguous_with: vec![],
-            experiment: None,
-        }
-    }
-
-    #[test]
-    fn a_gain_is_not_told_as_the_causes_where_more_was_fitted() {
-        let of = |common: &[Effect]| {
-            let signals = vec![Signal { phi_fitted: 0.4, ..signal(0.9, 0.1) }];
-            let effects = vec![effect("01", "strut", "Coulomb friction")];
-            of(&Findings { signals, effects, common: common.to_vec(), ..findings(Verdict::Named) })
-        };
-        assert!(of(&[]).ends_with("rises from 0.400 to 0.900."), "{}", of(&[]));
-        let text = of(&[effect("08", "strut", "nonlinear spring")]);
-        assert!(text.ends_with("rises from 0.400 to 0.900, with what was fitted along."), "{text}");
-        assert!(!text.contains("nonlinear spring"), "{text}");
-    }
-
-    #[test]
-    fn a_fault_of_a_sensor_beside_a_curve_does_not_acquit_the_plant() {
-        let effect = effect("34", "wheel.force", "gain of the sensor");
-        let curve = Curve {
-            location: "strut".into(),
-            quantity: "force".into(),
-            variable: "suspension.velocity".into(),
-            ..Curve::default()
-        };
-        let unnamed = Some(Curve { x: vec![0.0], y: vec![1.0], ..curve });
-        let text = of(&Findings { effects: vec![effect], unnamed, ..findings(Verdict::Unnamed) });
-        assert!(text.starts_with("The measurement is wrong: gain of the sensor at wheel.force."), "{text}");
-        assert!(text.contains("a force in the strut over suspension.velocity"), "{text}");
     }
 }

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::report::evidence::{gates, sentences};
 use crate::report::findings::{Effect, Evidence, Findings};
-use crate::report::words::{capitalised, cause, interval, located, sized, unit};
+use crate::report::words::{capitalised, cause, interval, located, unit};
 
 /// All effects that were found.
 pub fn section(findings: &Findings) -> Markup {
@@ -30,22 +30,6 @@ pub fn section(findings: &Findings) -> Markup {
                         (added(findings, effect))
                     }
                 }
-            }
-        }
-    }
-}
-
-/// What is no finding, but part of the extended model.
-pub fn common(findings: &Findings) -> Markup {
-    html! {
-        @if !findings.common.is_empty() {
-            section {
-                h2 { "What was fitted along" }
-                p.note {
-                    "Every rig has a little of these, and the records show that this one has. They are too small to be the cause, \
-                     but they hid it or blurred which one it is; so they are in the extended model."
-                }
-                ul.compact { @for effect in &findings.common { li { (capitalised(&sized(effect))) } } }
             }
         }
     }

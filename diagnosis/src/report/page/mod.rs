@@ -8,7 +8,7 @@ mod tables;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::words::{badge, cause, count, digits, headline, labelled, list, located, number, place, unit};
+use super::words::{badge, capitalised, cause, count, digits, headline, labelled};
 use crate::report::findings::{Findings, Verdict};
 
 const STYLE: &str = include_str!("style.css");
@@ -33,10 +33,8 @@ pub fn html(findings: &Findings) -> String {
                     (tables::fatal_problems(findings))
                     @if parameters_first { (tables::base_parameters(findings)) }
                     (effects::section(findings))
-                    (effects::common(findings))
-                    (unnamed(findings))
+                    (unmodelled(findings))
                     (experiment(findings))
-                    (tables::detectable(findings))
                     (gain::section(findings))
                     @if !parameters_first { (tables::base_parameters(findings)) }
                     (pictures::section(findings))
@@ -83,64 +81,22 @@ fn files(names: &[String]) -> Markup {
 
 /// Whether anything was added to the starting model.
 fn extended(findings: &Findings) -> bool {
-    !findings.effects.is_empty() || findings.unnamed.is_some()
+    !findings.effects.is_empty() || findings.unmodelled.iter().any(|it| it.curve.is_some())
 }
 
-/// What is known of a cause without a name.
-fn unnamed(findings: &Findings) -> Markup {
-    let Some(curve) = &findings.unnamed else {
-        return html! {};
-    };
-    if curve.x.is_empty() {
-        let nearest: Vec<String> = findings.nearest.iter().map(|it| located(&it.name, &it.element)).collect();
-        return html! {
+/// What is missing and in no catalogue.
+fn unmodelled(findings: &Findings) -> Markup {
+    html! {
+        @for it in &findings.unmodelled {
             section {
-                h2 { "The cause without a name" }
-                p {
-                    "None of the catalogue’s laws fits. What is missing acts " (place(&curve.location)) ", most likely over "
-                    (curve.variable) ". "
-                    @if !nearest.is_empty() {
-                        "Nearest comes " (list(&nearest, "and")) ", which the extended model holds: it explains a part, and \
-                         leaves too much to be the cause."
+                h2 { "Not in the catalogue" }
+                p { (capitalised(&it.description)) "." }
+                @if let Some(curve) = it.curve.as_ref().filter(|curve| !curve.x.is_empty()) {
+                    figure {
+                        figcaption { (labelled(&format!("Missing {}", curve.quantity), &curve.unit)) " with its 95 % band" }
+                        (pictures::unnamed(curve))
                     }
                 }
-            }
-        };
-    }
-    let finite = curve.x.iter().copied().filter(|x| x.is_finite());
-    let range = finite.fold(None, |range: Option<(f64, f64)>, x| {
-        Some(range.map_or((x, x), |(low, high)| (low.min(x), high.max(x))))
-    });
-    if curve.is_of_sensor() {
-        return html! {
-            section {
-                h2 { "The cause without a name" }
-                p {
-                    "Neither a gain nor a lag nor a delay of the sensor of " (curve.location) " fits. This is what it would show \
-                     after a step of one, as far as these records tell. The extended model does not hold it: "
-                    code { "report.json" } " has it among " code { "corrections" } "."
-                }
-                figure {
-                    figcaption { "Response of the sensor to a step, with its 95 % band" }
-                    (pictures::unnamed(curve))
-                }
-            }
-        };
-    }
-    html! {
-        section {
-            h2 { "The cause without a name" }
-            p {
-                "None of the catalogue’s laws fits. What is missing acts " (place(&curve.location))
-                " and follows this curve over " (curve.variable)
-                @if let Some((low, high)) = range {
-                    ", which the data cover from " (number(low)) " to " (number(high)) " " (unit(&curve.variable_unit))
-                }
-                ". The extended model contains it as a table; outside of that range nothing is known."
-            }
-            figure {
-                figcaption { (labelled(&format!("Missing {}", curve.quantity), &curve.unit)) " with its 95 % band" }
-                (pictures::unnamed(curve))
             }
         }
     }

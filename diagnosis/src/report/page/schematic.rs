@@ -25,7 +25,7 @@ impl Drawing {
         let has = |wanted: Part| {
             let candidates = findings.candidates.iter().map(|candidate| candidate.element.as_str());
             let effects = findings.effects.iter().map(|effect| effect.element.as_str());
-            let unnamed = findings.unnamed.iter().map(|curve| curve.location.as_str());
+            let unnamed = findings.unmodelled.iter().map(|it| it.place.as_str());
             candidates.chain(effects).chain(unnamed).any(|element| part(element) == Some(wanted))
         };
         let (strut, tire, actuator) = (has(Part::Strut), has(Part::Tire), has(Part::Actuator));
@@ -65,7 +65,7 @@ impl Mark {
 /// The elements at which the findings place a cause, or a parameter that does not fit if that is the verdict.
 fn marked(findings: &Findings) -> Vec<&str> {
     let effects = findings.effects.iter().map(|effect| effect.element.as_str());
-    let unnamed = findings.unnamed.iter().map(|curve| curve.location.as_str());
+    let unnamed = findings.unmodelled.iter().map(|it| it.place.as_str());
     let wrong = findings
         .base_parameters
         .iter()

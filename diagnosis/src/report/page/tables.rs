@@ -2,10 +2,8 @@
 
 use maud::{Markup, html};
 
-use crate::report::findings::{BaseParameter, Candidate, DataProblem, Findings, Verdict};
-use crate::report::words::{
-    capitalised, count, digits, interval, located, number, percent, place, quantity, unit,
-};
+use crate::report::findings::{BaseParameter, DataProblem, Findings};
+use crate::report::words::{capitalised, count, digits, interval, number, percent, place, unit};
 
 /// Rows that a table shows before the rest is folded away.
 const OPEN_ROWS: usize = 12;
@@ -96,57 +94,9 @@ fn change(parameter: &BaseParameter) -> String {
     format!("{sign}{}", percent(change))
 }
 
-/// Without an effect, the sizes that would have been seen are the result.
-pub fn detectable(findings: &Findings) -> Markup {
-    if findings.verdict != Verdict::NoEffect {
-        return html! {};
-    }
-    let seen: Vec<_> =
-        findings.candidates.iter().filter(|candidate| candidate.detectable.is_some()).collect();
-    let blind: Vec<_> =
-        findings.candidates.iter().filter(|candidate| candidate.detectable.is_none()).collect();
-    let table = |candidates: &[&Candidate]| {
-        html! {
-            table {
-                thead { tr { th { "Effect" } th { "Where" } th.number { "Seen for certain from" } } }
-                tbody { @for candidate in candidates {
-                    tr {
-                        td { (capitalised(&candidate.name)) }
-                        td { (place(&candidate.element)) }
-                        td.number { strong { (size(candidate)) } }
-                    }
-                } }
-            }
-        }
-    };
-    html! {
-        @if !seen.is_empty() {
-            section {
-                h2 { "What would have been seen" }
-                p.note {
-                    "An effect of at least this size would have been found with these records. Smaller ones may be there."
-                }
-                (folded(&seen, "effects", table))
-            }
-        }
-        @if !blind.is_empty() {
-            section {
-                h2 { "What these records cannot judge" }
-                ul.compact { @for candidate in blind {
-                    li { (capitalised(&located(&candidate.name, &candidate.element))) ": " (candidate.outcome) }
-                } }
-            }
-        }
-    }
-}
-
 /// A place without its preposition, for a narrow column.
 fn site(element: &str) -> String {
     place(element).trim_start_matches("in the ").trim_start_matches("measurement of ").to_owned()
-}
-
-fn size(candidate: &Candidate) -> String {
-    candidate.detectable.map_or("–".into(), |size| quantity(size, &candidate.unit))
 }
 
 /// Everything that was looked at.
@@ -161,27 +111,28 @@ pub fn candidates(findings: &Findings) -> Markup {
             h2 { "All candidates" }
             details {
                 summary {
-                    (count(all.len(), "candidate")) ": " (fitted) " fitted, " (all.len() - fitted) " screened only"
+                    (count(all.len(), "candidate")) ": " (fitted) " fitted, " (all.len() - fitted) " compared only"
                 }
                 div.scroll { table {
                     thead { tr {
                         th { "No." } th { "Effect" } th { "Where" } th { "Outcome" } th.number { "Held-out t" }
                         th.number { "Training t" } th.number { "ΔBIC" } th.number { "Explains" }
-                        th.number { "Seen from" }
+                        th.number { "Share" } th.number { "Validated" }
                     } }
                     tbody { @for candidate in all {
                         tr class=(if candidate.outcome == "accepted" { "accepted" } else { "" }) {
                             td { (candidate.id) }
                             td { (capitalised(&candidate.name)) }
                             td { (site(&candidate.element)) }
-                            td { (candidate.outcome) @if !candidate.fitted { span.small { " (screened)" } } }
+                            td { (candidate.outcome) @if !candidate.fitted { span.small { " (compared)" } } }
                             @if let Some(evidence) = candidate.evidence {
                                 td.number { (number(evidence.held_out_t)) }
                                 td.number { (number(evidence.block_t)) }
                                 td.number { (number(evidence.delta_bic)) }
                                 td.number { (percent(evidence.explained)) }
                             } @else { td.number {} td.number {} td.number {} td.number {} }
-                            td.number { (size(candidate)) }
+                            td.number { (percent(candidate.share)) }
+                            td.number { (percent(candidate.validated)) }
                         }
                     } }
                 } }

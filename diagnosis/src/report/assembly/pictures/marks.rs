@@ -4,7 +4,7 @@ use strut_model::Value;
 use strut_physics::GRAVITY;
 
 use crate::dataset::recorded::{Recorded, derivative};
-use crate::diagnosis::{Diagnosis, outputs};
+use crate::diagnosis::{Diagnosis, simulated};
 use crate::report::findings::{LARGEST, Mark};
 
 use super::shown;
@@ -73,7 +73,7 @@ impl Diagnosis<'_> {
         let Some(record) = world.test.first() else { return Vec::new() };
         let Ok(dynamics) = world.dynamics(&extended.terms) else { return Vec::new() };
         let point = world.held_out_point(&*dynamics, &extended.point);
-        let simulated = outputs(world, &extended.terms, &point, world.test);
+        let simulated = simulated(world, &extended.terms, &point, world.test);
         let Some(signals) = simulated.first() else { return Vec::new() };
         let signal = |name: &str| Some(&signals[rig.plant.output(name)?][..shown(record)]);
         let parameter = |name: &str| Some(parameters[rig.plant.parameter(name)?]);

@@ -9,7 +9,7 @@ mod balance;
 mod laws;
 mod stretch;
 
-use crate::diagnosis::{Diagnosis, outputs, root_mean_square};
+use crate::diagnosis::{Diagnosis, root_mean_square, simulated};
 use crate::estimation::fit::{Handle, Point};
 use crate::estimation::hypothesis::Term;
 use crate::report::findings::Parity;
@@ -34,7 +34,7 @@ struct Judged {
 impl Diagnosis<'_> {
     /// Every balance, those included that cannot be formed; none if the rig is not a body and a wheel.
     pub(super) fn parity(&self) -> Vec<Parity> {
-        let terms = self.extended_terms();
+        let terms = self.found.extended.terms.clone();
         let models = [
             (&[][..], self.as_given()),
             (&[], self.without(&terms)),
@@ -87,7 +87,7 @@ impl Diagnosis<'_> {
             let timing = Handle::Output(output, Fault::Delay);
             point.set(timing, self.found.extended.point.get(timing));
         }
-        self.with_given(point, &self.extended_terms())
+        self.with_given(point, &self.found.extended.terms)
     }
 
     /// The extended model with what was found taken away again. The fitted starting model will not do: it has bent its
@@ -108,7 +108,7 @@ impl Diagnosis<'_> {
     fn judged(&self, terms: &[Term], point: Point) -> Option<Judged> {
         let laws = Laws::of(self.world.rig, &self.world.choices(terms), &point.parameters)?;
         let (settled, _) = self.measured(terms, &point)?;
-        let simulated = outputs(&self.world, terms, &settled, self.measured);
+        let simulated = simulated(&self.world, terms, &settled, self.measured);
         // The settled point knows nothing of the channels' timing.
         Some(Judged { laws, point, simulated })
     }

@@ -2,7 +2,7 @@
 
 use crate::catalogue::Element;
 use crate::dataset::recorded::derivative;
-use crate::diagnosis::{Diagnosis, outputs};
+use crate::diagnosis::{Diagnosis, simulated};
 use crate::report::findings::Binned;
 use crate::rig::Missing;
 
@@ -15,7 +15,7 @@ impl Diagnosis<'_> {
     /// The force that the fitted model misses, over the motions of the elements that may lack it.
     pub(super) fn scatters(&self) -> Vec<Binned> {
         let base = &self.found.base;
-        let all = outputs(&self.world, &base.terms, &base.point, self.world.train);
+        let all = simulated(&self.world, &base.terms, &base.point, self.world.train);
         let kind = self.world.rig.kind;
         let pairs = kind.missing.iter().flat_map(|missing| missing.over.iter().map(move |it| (missing, *it)));
         pairs

@@ -14,8 +14,6 @@ const APART: f64 = 2.5;
 const SAME: f64 = 1.005;
 /// Errors of a rough fit that are larger by less than this factor may be as small when it is a close one.
 const NEAR: f64 = 1.1;
-/// Errors that are larger by more than this factor are not made good by being less common, or by signals that are less late.
-pub(super) const LITTLE_MORE: f64 = 1.5;
 
 impl World<'_> {
     /// The best of those with a name that pass; without any, the best table.
@@ -24,31 +22,14 @@ impl World<'_> {
         named.map(|it| self.simplest(base, it, passing)).or_else(|| passing.first().copied())
     }
 
-    /// What every rig has a little of, where it does far better than anything rare that passes: something is there then, and that
-    /// it is common is no objection.
-    pub(super) fn far_better(&self, base: &Fitted, tried: &[Tried], passing: &[&Tried]) -> Vec<Tried> {
-        let left = |it: &Tried| it.fitted.as_ref().map_or(f64::INFINITY, |fitted| self.left(base, fitted));
-        let rare = passing.iter().map(|it| left(it)).fold(f64::INFINITY, f64::min);
-        let waived = tried.iter().filter(|it| it.evidence.usual && !has_no_name(it.term)).cloned();
-        let waived = waived.map(|it| Tried { evidence: Evidence { usual: false, ..it.evidence }, ..it });
-        let better = |it: &Tried| {
-            !passing.is_empty() && LITTLE_MORE * left(it) < rare && it.evidence.refusal().is_none()
-        };
-        waived.filter(better).collect()
-    }
-
-    /// One that is simpler than the best, a part of it with fewer parameters and no more late signals, or one that needs fewer
-    /// of these and leaves little more, unless what the best one adds to it passes the gates on its own.
+    /// One that is simpler than the best, a part of it with fewer parameters, unless what the best one adds to it passes the
+    /// gates on its own.
     fn simplest<'b>(&self, base: &Fitted, best: &'b Tried, passing: &[&'b Tried]) -> &'b Tried {
         let mut chosen = best;
         for other in passing {
             if let (Ok(fitted), Ok(simpler)) = (&chosen.fitted, &other.fitted)
-                && (contains(chosen.term, other.term, &parts(fitted), &parts(simpler))
-                    && simpler.coordinates.len() < fitted.coordinates.len()
-                    && self.late(simpler) <= self.late(fitted)
-                    || self.late(simpler) < self.late(fitted)
-                        && !has_no_name(other.term)
-                        && self.left(base, simpler) < LITTLE_MORE * self.left(base, fitted))
+                && contains(chosen.term, other.term, &parts(fitted), &parts(simpler))
+                && simpler.coordinates.len() < fitted.coordinates.len()
             {
                 let added = self.evidence(chosen.term, base, simpler, fitted);
                 // Whether it is common does not matter beside a part of itself.
@@ -80,7 +61,7 @@ impl World<'_> {
     }
 
     /// Those that explain the data as well as the chosen one, or better and are only too common to be named, and are not the
-    /// same with something more, nor need more late signals. What is nearly as good is fitted as closely as the chosen one
+    /// same with something more. What is nearly as good is fitted as closely as the chosen one
     /// before it is told apart.
     pub(super) fn rivals(
         &self,
@@ -94,8 +75,7 @@ impl World<'_> {
         let rival = |other: &&&Tried| {
             let Ok(fitted) = &other.fitted else { return false };
             let more = contains(other.term, chosen.term, &parts(fitted), &own);
-            let later = self.late(fitted) > self.late(best);
-            if other.term == chosen.term || has_no_name(other.term) || more || later {
+            if other.term == chosen.term || has_no_name(other.term) || more {
                 return false;
             }
             let closer = || self.closely(base, Ok(fitted.clone()), best);

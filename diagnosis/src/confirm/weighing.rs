@@ -8,13 +8,16 @@ use crate::estimation::fit::{Handle, Residuals, strain};
 use crate::estimation::hypothesis::{Fitted, TIMING, Term, World};
 use crate::report::findings::Evidence;
 use crate::screening::rms;
+use crate::signal::distortion::Fault;
 
-use super::rooted::LATE;
 use super::{has_no_name, has_threshold};
 
 /// Numbers of what every rig has a little of: memory and compliance in its rubber, springs that are not quite straight, cogging,
 /// sensors' filters and timing, of what is measured of the drive, too. What has no name is as common.
 const USUAL: &[&str] = &["07", "08", "09", "13", "22", "27", "35", "36"];
+
+/// Standard deviations of a channel's timing beyond which a signal is late.
+const LATE: f64 = 5.0;
 
 impl World<'_> {
     fn block(&self) -> usize {
@@ -156,11 +159,6 @@ impl World<'_> {
         self.shares(unit, fitted).iter().sum()
     }
 
-    /// The same of one output alone.
-    pub(super) fn left_of(&self, output: usize, unit: &Fitted, fitted: &Fitted) -> f64 {
-        self.shares_of(Term::Response(output), unit, fitted).iter().sum()
-    }
-
     /// Share of another fit's error that is left, on the training and on the held-out data: mean over the signals.
     fn shares(&self, unit: &Fitted, fitted: &Fitted) -> [f64; 2] {
         [(&unit.train, &fitted.train), (&unit.test, &fitted.test)].map(|(unit, fitted)| {
@@ -189,7 +187,10 @@ impl World<'_> {
 /// Whether a signal is late by no more than measurements make any; none of what is not about its timing.
 pub(super) fn is_in_time(term: Term, fitted: &Fitted) -> Option<bool> {
     match term {
-        Term::Fault(handle) if term.delays() => Some(fitted.point.get(handle).abs() < LATE * TIMING),
+        Term::Fault(
+            handle @ (Handle::Input(_, Fault::Lag | Fault::Delay)
+            | Handle::Output(_, Fault::Lag | Fault::Delay)),
+        ) => Some(fitted.point.get(handle).abs() < LATE * TIMING),
         _ => None,
     }
 }

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::estimation::fit::Point;
 use crate::estimation::hypothesis::{Fitted, World};
-use crate::screening::Screened;
+use crate::explain::selection::Proposal;
 
 use super::{Tried, comparing, contains_by_name, parts};
 
@@ -21,7 +21,7 @@ impl World<'_> {
         &self,
         base: &Fitted,
         null: &Fitted,
-        screened: &[&Screened],
+        screened: &[Proposal],
         tried: &mut [Tried],
     ) {
         let again = tried.par_iter().zip(screened).map(|(it, screened)| {
@@ -39,7 +39,7 @@ impl World<'_> {
     }
 
     /// Where a limit is, with a little of what a law has more.
-    fn beside(&self, limit: &Fitted, screened: &Screened) -> Option<Point> {
+    fn beside(&self, limit: &Fitted, screened: &Proposal) -> Option<Point> {
         let first = screened.starts.first()?;
         let mut start = limit.point.clone();
         let known = parts(limit);

@@ -1,0 +1,162 @@
+//! Whether an effect is true: the law enters the model, output error closes in, and another excitation judges.
+
+mod choice;
+mod nested;
+mod weighing;
+
+use std::collections::BTreeSet;
+
+use rayon::prelude::*;
+
+use crate::estimation::fit::Handle;
+use crate::estimation::hypothesis::{Fitted, Term, World};
+use crate::estimation::lsq::Stop;
+use crate::explain::selection::Proposal;
+use crate::report::findings::Evidence;
+use crate::signal::distortion::Fault;
+
+/// Share of what may matter that any fit that is compared has to promise.
+const HINT: f64 = 0.2;
+
+/// A candidate that was fitted on top of others.
+#[derive(Clone, Debug)]
+pub struct Tried {
+    /// The term.
+    pub term: Term,
+    /// With it, or why there is no such fit.
+    pub fitted: Result<Fitted, String>,
+    /// What it shows.
+    pub evidence: Evidence,
+    /// Its rank: the larger the better.
+    pub score: f64,
+}
+
+/// A term that was accepted.
+#[derive(Clone, Debug)]
+pub struct Accepted {
+    /// The term.
+    pub term: Term,
+    /// What it showed when it was added.
+    pub evidence: Evidence,
+    /// Terms that explain the data as well.
+    pub rivals: Vec<Term>,
+}
+
+/// An effect that the data confirm, and the model with it.
+pub struct Confirmed {
+    /// The effect.
+    pub accepted: Accepted,
+    /// The model with it.
+    pub fitted: Fitted,
+}
+
+impl World<'_> {
+    fn tried(&self, base: &Fitted, null: &Fitted, proposal: &Proposal) -> Tried {
+        let mut terms = null.terms.clone();
+        terms.push(proposal.term);
+        // From where the smoother is, and from where the fit without the effect is.
+        let own = self.own_coordinates(proposal.term);
+        let beside = proposal.starts.iter().map(|start| {
+            let mut point = null.point.clone();
+            own.iter().for_each(|it| point.set(it.handle, start.get(it.handle)));
+            point
+        });
+        let parameters = proposal.starts.iter().map(|start| {
+            let mut point = null.point.clone();
+            point.parameters.clone_from(&start.parameters);
+            own.iter().for_each(|it| point.set(it.handle, start.get(it.handle)));
+            point
+        });
+        let starts: Vec<_> = beside.chain(parameters).collect();
+        let fitted = self.fitted(&terms, &starts, comparing(base, null));
+        self.weighed(base, null, proposal.term, fitted)
+    }
+
+    /// A fit of a term on top of the null's, with what it shows.
+    fn weighed(&self, base: &Fitted, null: &Fitted, term: Term, fitted: Result<Fitted, String>) -> Tried {
+        let fitted = fitted.and_then(|it| match self.driven_off(null, &it).filter(|_| !has_no_name(term)) {
+            Some(parameter) => Err(format!("drives {parameter} to its bound")),
+            None => Ok(it),
+        });
+        let (evidence, score) = match &fitted {
+            Ok(fitted) => (self.evidence(term, base, null, fitted), self.score(null, fitted)),
+            Err(_) => (Evidence::default(), f64::NEG_INFINITY),
+        };
+        Tried { term, fitted, evidence, score }
+    }
+
+    /// Fits what is proposed, the best first.
+    pub fn try_all(&self, base: &Fitted, null: &Fitted, proposals: &[Proposal]) -> Vec<Tried> {
+        let mut tried: Vec<Tried> = proposals.par_iter().map(|it| self.tried(base, null, it)).collect();
+        self.beside_their_limits(base, null, proposals, &mut tried);
+        tried.sort_by(|a, b| b.score.total_cmp(&a.score));
+        tried
+    }
+
+    /// The effect among those that were tried which the data confirm, if any.
+    ///
+    /// # Errors
+    /// If the model diverges in the close fit.
+    pub fn confirmed(&self, base: &Fitted, tried: &[Tried]) -> Result<Option<Confirmed>, String> {
+        let passes = |it: &&Tried| it.fitted.is_ok() && it.evidence.refusal().is_none();
+        let passing: Vec<&Tried> = tried.iter().filter(passes).collect();
+        let Some(chosen) = self.chosen(base, &passing).cloned() else { return Ok(None) };
+        let Ok(fitted) = &chosen.fitted else { return Ok(None) };
+        let close = self.fitted(&fitted.terms, std::slice::from_ref(&fitted.point), Stop::NOISY)?;
+        let beside: Vec<&Tried> =
+            tried.iter().filter(|it| passes(it) || it.evidence.passes_beside_another()).collect();
+        let rivals = self.rivals(base, &chosen, &close, &beside);
+        let accepted = Accepted { term: chosen.term, evidence: chosen.evidence, rivals };
+        Ok(Some(Confirmed { accepted, fitted: close }))
+    }
+}
+
+/// Whether a term is a curve that the catalogue has no name for.
+pub(crate) fn has_no_name(term: Term) -> bool {
+    matches!(term, Term::Table(_) | Term::Response(_))
+}
+
+/// Whether a term can do all that another one can: by what it changes, or as the catalogue says.
+fn contains(larger: Term, smaller: Term, more: &BTreeSet<Handle>, fewer: &BTreeSet<Handle>) -> bool {
+    contains_by_name(larger, smaller) || fewer.is_subset(more)
+}
+
+/// Whether the catalogue says that a term has another one as a limit.
+fn contains_by_name(larger: Term, smaller: Term) -> bool {
+    match (larger, smaller) {
+        (Term::Cause(larger), Term::Cause(smaller)) => {
+            larger.element == smaller.element && larger.contains.contains(&smaller.id)
+        }
+        (Term::Response(output), Term::Fault(Handle::Output(of, fault))) => {
+            output == of && matches!(fault, Fault::Gain | Fault::Lag | Fault::Delay)
+        }
+        _ => false,
+    }
+}
+
+/// What a fit has changed.
+fn parts(fitted: &Fitted) -> BTreeSet<Handle> {
+    fitted.coordinates.iter().map(|it| it.handle).collect()
+}
+
+/// The least fall of the sum of squares that may matter.
+pub(crate) fn worth(base: &Fitted) -> f64 {
+    12.0_f64.max(0.005 * 2.0 * base.cost)
+}
+
+/// Well enough to compare a cause to a fit without it, as long as the cause promises anything.
+fn comparing(base: &Fitted, null: &Fitted) -> Stop {
+    Stop { below: null.cost - 0.5 * HINT * worth(base), ..Stop::ROUGH }
+}
+
+/// Numbers of the causes that begin to act beyond a threshold, or only near a standstill.
+const THRESHOLDS: &[&str] = &["02", "05", "09", "12", "20", "26", "26s"];
+
+/// Whether nothing shows of a term while it is absent, and of what it does only now and then.
+fn has_threshold(term: Term) -> bool {
+    match term {
+        Term::Cause(cause) => THRESHOLDS.contains(&cause.id),
+        Term::Fault(handle) => matches!(handle, Handle::Input(_, Fault::Limit)),
+        Term::Table(_) | Term::Response(_) => false,
+    }
+}

@@ -1,0 +1,4 @@
+//! Decisions as pure functions of numbers: no file, no simulation.
+
+pub mod account;
+pub mod verdict;

@@ -1,0 +1,195 @@
+//! Everything that may explain a missing signal: effects with a name, tried in some shapes, and groups of features.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use crate::catalogue::{Element, Typical};
+use crate::dataset::recorded::derivative;
+use crate::estimation::hypothesis::{Term, World};
+use crate::missing::Missing;
+use crate::missing::innovations::Column;
+use crate::missing::ports::Entry;
+use crate::missing::trajectory::{Setting, Window};
+use crate::plant::{Follower, Seen, Signals};
+use crate::screening::{Probe, typical};
+
+use super::features::{Group, Motion, column, features};
+
+/// What may explain a missing signal.
+pub enum Kind {
+    /// An effect with a name, in one shape.
+    Named {
+        /// The effect.
+        term: Term,
+        /// The shape.
+        probe: Probe,
+    },
+    /// Features of a port's motion.
+    Feature {
+        /// Number of the port.
+        port: usize,
+        /// The features.
+        group: Group,
+    },
+}
+
+/// A candidate and its columns.
+pub struct Candidate {
+    /// What it is.
+    pub kind: Kind,
+    /// Which columns are its, among all candidates'.
+    pub columns: Range<usize>,
+}
+
+/// All candidates.
+#[derive(Default)]
+pub struct Candidates {
+    /// What they are.
+    pub list: Vec<Candidate>,
+    /// Their columns in each window.
+    pub columns: Vec<Vec<Column>>,
+}
+
+impl Candidates {
+    fn add(&mut self, kind: Kind, columns: Vec<Vec<Column>>) {
+        let first = self.columns.first().map_or(0, Vec::len);
+        let count = columns.first().map_or(0, Vec::len);
+        for (all, own) in self.columns.iter_mut().zip(columns) {
+            all.extend(own);
+        }
+        self.list.push(Candidate { kind, columns: first..first + count });
+    }
+}
+
+/// Every output of the plant along the trajectory of each window.
+pub fn outputs(setting: &Setting<'_>, windows: &[Window], outputs: usize) -> Vec<Signals> {
+    let wanted: Vec<usize> = (0..outputs).collect();
+    let of = |window: &Window| {
+        let mut all = All { active: &setting.active, window, signals: vec![Vec::new(); outputs] };
+        let start = &window.trajectory[0];
+        let parameters = &setting.point.parameters;
+        setting.dynamics.followed(parameters, start, &window.drive, (&[], &wanted), &mut all);
+        all.signals
+    };
+    windows.par_iter().map(of).collect()
+}
+
+struct All<'a> {
+    active: &'a [usize],
+    window: &'a Window,
+    signals: Signals,
+}
+
+impl Follower for All<'_> {
+    fn state(&mut self, sample: usize, state: &mut [f64]) {
+        for index in self.active {
+            state[*index] = self.window.trajectory[sample][*index];
+        }
+    }
+
+    fn seen(&mut self, _: usize, Seen { outputs, .. }: Seen<'_>, _: &mut [f64]) {
+        self.signals.iter_mut().zip(outputs).for_each(|(signal, value)| signal.push(*value));
+    }
+
+    fn advanced(&mut self, _: usize, _: &[f64], _: &[f64]) {}
+}
+
+impl World<'_> {
+    /// Typical magnitudes of each element along the trajectory.
+    pub fn typical_along(&self, missing: &Missing<'_>, outputs: &[Signals]) -> Vec<(Element, Typical)> {
+        let count = self.rig.plant.outputs.len();
+        let nothing = |record: &crate::dataset::recorded::Recorded| vec![vec![f64::NAN; record.len()]; count];
+        let mut whole: Vec<Signals> = missing.records.iter().map(nothing).collect();
+        for (window, signals) in missing.windows.iter().zip(outputs) {
+            for (whole, signal) in whole[window.record].iter_mut().zip(signals) {
+                whole[window.samples.clone()].copy_from_slice(signal);
+            }
+        }
+        typical(self.rig, &missing.records[..missing.train], &whole[..missing.train])
+    }
+
+    /// All candidates but those that are explained already.
+    pub fn candidates(&self, missing: &Missing<'_>, outputs: &[Signals], explained: &[Term]) -> Candidates {
+        let mut all =
+            Candidates { columns: vec![Vec::new(); missing.windows.len()], ..Candidates::default() };
+        self.named(missing, explained, &mut all);
+        self.features(missing, outputs, &mut all);
+        all
+    }
+
+    fn named(&self, missing: &Missing<'_>, explained: &[Term], all: &mut Candidates) {
+        let (setting, windows) = (&missing.setting, &missing.windows);
+        let terms = self.terms();
+        let shapes: Vec<(Term, Probe)> = terms
+            .iter()
+            .enumerate()
+            .filter(|(_, term)| !explained.contains(term))
+            .flat_map(|(index, term)| {
+                self.probes(index, *term, &setting.point).into_iter().map(|probe| (*term, probe))
+            })
+            .collect();
+        let columns = |(term, probe): &(Term, Probe)| -> Option<Vec<Vec<Column>>> {
+            let dynamics = self.dynamics(&[*term]).ok()?;
+            let of = |window: &Window| {
+                let about = (missing.records, window);
+                probe.points.iter().map(|point| setting.changed(about, (*term, &*dynamics), point)).collect()
+            };
+            windows.iter().map(of).collect()
+        };
+        let made: Vec<Option<Vec<Vec<Column>>>> = shapes.par_iter().map(columns).collect();
+        for ((term, probe), columns) in shapes.into_iter().zip(made) {
+            if let Some(columns) = columns {
+                all.add(Kind::Named { term, probe }, columns);
+            }
+        }
+    }
+
+    fn features(&self, missing: &Missing<'_>, outputs: &[Signals], all: &mut Candidates) {
+        let (setting, windows) = (&missing.setting, &missing.windows);
+        let commands: Vec<usize> = setting
+            .ports
+            .iter()
+            .filter_map(|port| match port.entry {
+                Entry::Input(input) => Some(input),
+                Entry::Constant(_) | Entry::Sensor(_) => None,
+            })
+            .collect();
+        for (number, port) in setting.ports.iter().enumerate() {
+            if setting.ties[number] != number {
+                continue;
+            }
+            let Some((place, motions)) = motions(self, missing, outputs, number) else { continue };
+            let groups = Group::OF_MOTION.into_iter().chain(commands.iter().map(|it| Group::Command(*it)));
+            for group in groups {
+                let signals = features(group, &motions, windows);
+                let columns = windows.iter().enumerate().map(|(index, window)| {
+                    signals.iter().map(|signal| column(port, place, window, &signal[index])).collect()
+                });
+                all.add(Kind::Feature { port: number, group }, columns.collect());
+            }
+        }
+    }
+}
+
+/// The motion at a port of the plant, and its place among the slopes; none if the rig does not say what moves there.
+pub fn motions(
+    world: &World<'_>,
+    missing: &Missing<'_>,
+    outputs: &[Signals],
+    port: usize,
+) -> Option<(usize, Vec<Motion>)> {
+    let (ports, plant) = (missing.setting.ports, &world.rig.plant);
+    let own = ports.get(port).filter(|it| !it.is_sensor())?;
+    let before = ports[..port].iter().filter(|it| !it.is_sensor()).count();
+    let element = world.rig.kind.elements.iter().find(|it| Some(it.element) == own.element)?;
+    let deflection = plant.output(element.deflection)?;
+    let velocity = element.velocity.and_then(|name| plant.output(name));
+    let motion = |(window, signals): (&Window, &Signals)| Motion {
+        deflection: signals[deflection].clone(),
+        velocity: velocity
+            .map_or_else(|| derivative(&signals[deflection], window.step), |it| signals[it].clone()),
+    };
+    let motions = missing.windows.iter().zip(outputs).map(motion).collect();
+    Some((missing.setting.active.len() + before, motions))
+}

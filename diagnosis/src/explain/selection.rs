@@ -1,0 +1,319 @@
+//! Which candidate explains what is missing: by the estimation records, and whether the validation records agree.
+
+use nalgebra::DVector;
+
+use crate::catalogue::{Element, Scale, Table};
+use crate::confirm::has_no_name;
+use crate::estimation::fit::Point;
+use crate::estimation::hypothesis::{Term, World};
+use crate::missing::Missing;
+use crate::missing::innovations::{Block, Noise};
+use crate::missing::likelihood::{Amounts, Sums};
+use crate::screening::Probe;
+
+use super::candidates::{Candidates, Kind};
+use super::features::Group;
+
+/// How well a candidate explains what is missing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Score {
+    /// Number of the candidate.
+    pub candidate: usize,
+    /// Share of the estimation records' sum of squares that it takes away, less what as many columns take away by chance.
+    pub share: f64,
+    /// Share of the validation records' sum of squares that the same amounts take away there.
+    pub validated: f64,
+}
+
+impl Score {
+    /// Whether the validation records show it, too.
+    fn is_confirmed(&self, limits: Limits) -> bool {
+        self.validated > 0.0 && self.validated >= limits.confirmed * self.share
+    }
+}
+
+/// What explains a missing signal best.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Choice {
+    /// Nothing does.
+    Nothing,
+    /// Effects with a name, the best first.
+    Named(Vec<Score>),
+    /// What a group of features says, for which there is no name.
+    Unmodelled(Score),
+}
+
+/// What decides between names and features.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Smallest share of what is missing that is worth an explanation.
+    pub smallest: f64,
+    /// Share of what free features explain that a law with a name has to explain, before it is fitted.
+    pub nearly: f64,
+    /// Share of what the best name explains from which another is tried, too.
+    pub rival: f64,
+    /// Share of what is explained of the estimation records that has to be explained of the validation records.
+    pub confirmed: f64,
+    /// Names that are tried at most.
+    pub most: usize,
+}
+
+impl Limits {
+    /// The numbers with their reasons: a twentieth is what background effects make; a law in a rough shape comes within a
+    /// third of a free curve through the same data; what explains half as much may be better once it is fitted; another
+    /// excitation may show a quarter of it.
+    pub const USUAL: Self = Self { smallest: 0.04, nearly: 0.65, rival: 0.4, confirmed: 0.25, most: 7 };
+}
+
+/// Chooses by scores alone; `named` and `features` in any order.
+pub fn choose(named: &[Score], features: &[Score], limits: Limits) -> Choice {
+    let best = |all: &[Score]| {
+        let holds = all.iter().filter(|it| it.is_confirmed(limits)).copied();
+        holds.max_by(|a, b| a.share.total_cmp(&b.share))
+    };
+    let (name, feature) = (best(named), best(features));
+    let largest = [name, feature].into_iter().flatten().map(|it| it.share).fold(0.0, f64::max);
+    if largest < limits.smallest {
+        return Choice::Nothing;
+    }
+    match (name, feature) {
+        (Some(name), feature) if name.share >= limits.nearly * feature.map_or(0.0, |it| it.share) => {
+            let mut near: Vec<Score> = named
+                .iter()
+                .filter(|it| it.share >= limits.rival * name.share && it.is_confirmed(limits))
+                .copied()
+                .collect();
+            near.sort_by(|a, b| b.share.total_cmp(&a.share));
+            Choice::Named(near)
+        }
+        (_, Some(feature)) => Choice::Unmodelled(feature),
+        _ => Choice::Nothing,
+    }
+}
+
+/// A name to be fitted, and from where.
+#[derive(Clone, Debug)]
+pub struct Proposal {
+    /// The effect.
+    pub term: Term,
+    /// Points from which it is to be fitted.
+    pub starts: Vec<Point>,
+    /// How well it explains what is missing.
+    pub score: Score,
+}
+
+/// Candidates compared to what is missing.
+pub struct Compared {
+    /// All candidates.
+    pub candidates: Candidates,
+    /// Those with a name.
+    pub named: Vec<Score>,
+    /// Groups of features.
+    pub features: Vec<Score>,
+    /// Amounts of each candidate's columns.
+    amounts: Vec<Vec<f64>>,
+    points: Vec<Option<Point>>,
+}
+
+impl World<'_> {
+    /// Compares all candidates to what is missing.
+    pub fn compared(&self, missing: &Missing<'_>, candidates: Candidates, noise: &Noise) -> Option<Compared> {
+        let blocks = missing.setting.innovations(&missing.windows, noise, &candidates.columns);
+        let own = missing.nuisances();
+        let first = own.len() + 1;
+        let of = |train: bool| move |block: &&Block| (block.record < missing.train) == train;
+        let train = Sums::of(blocks.iter().filter(of(true)))?;
+        let test = Sums::of(blocks.iter().filter(of(false)));
+        let before = train.fitted(&own, &missing.precisions)?;
+        let held_out = test.as_ref().and_then(|sums| Some((sums, sums.fitted(&own, &missing.precisions)?)));
+        let (mut named, mut features) = (Vec::new(), Vec::new());
+        let (mut all_amounts, mut points) = (Vec::new(), Vec::new());
+        for (number, candidate) in candidates.list.iter().enumerate() {
+            let columns: Vec<usize> =
+                own.iter().copied().chain(candidate.columns.clone().map(|it| first + it)).collect();
+            let mut precisions = missing.precisions.clone();
+            precisions.resize(columns.len(), 0.0);
+            let fitted = train.fitted(&columns, &precisions);
+            let amounts: Vec<f64> =
+                fitted.as_ref().map_or(Vec::new(), |it| it.values.iter().skip(own.len()).copied().collect());
+            all_amounts.push(amounts.clone());
+            points.push(None);
+            let Some(fitted) = fitted else { continue };
+            let chance = (candidate.columns.len() as f64) * (train.count as f64).ln();
+            let gain = before.left - fitted.left - chance;
+            let validated = held_out.as_ref().map_or(0.0, |(sums, before)| {
+                (before.left - with_amounts(sums, missing, &columns, &fitted)) / before.left
+            });
+            let mut score = Score { candidate: number, share: gain / before.left, validated };
+            match &candidate.kind {
+                Kind::Named { term, probe } => {
+                    let amounts = DVector::from_vec(amounts);
+                    let at = &missing.setting.point;
+                    let (possible, point) = self.start(*term, probe, &amounts, gain.max(0.0), at);
+                    // What would have to be negative is not there, and what would have to be too large is held back.
+                    let within = self.within(*term, probe, &amounts, (&point, at));
+                    score.share *= if possible > 0.0 { within * (2.0 - within) } else { 0.0 };
+                    points[number] = Some(point);
+                    if has_no_name(*term) { &mut features } else { &mut named }.push(score);
+                }
+                // No body is lighter for what acts on it.
+                Kind::Feature { group: Group::Acceleration, .. } if amounts[0] < 0.0 => {}
+                Kind::Feature { .. } => features.push(score),
+            }
+        }
+        Some(Compared { candidates, named, features, amounts: all_amounts, points })
+    }
+}
+
+impl World<'_> {
+    /// Share of the best amount of a single column that a start within bounds has.
+    fn within(
+        &self,
+        term: Term,
+        probe: &Probe,
+        amounts: &DVector<f64>,
+        (start, at): (&Point, &Point),
+    ) -> f64 {
+        let own = self.own_coordinates(term);
+        let (Some(first), [tried]) = (own.first(), probe.points.as_slice()) else { return 1.0 };
+        let wanted = amounts[0] * (tried.get(first.handle) - at.get(first.handle));
+        let had = start.get(first.handle) - at.get(first.handle);
+        if wanted == 0.0 { 1.0 } else { (had / wanted).clamp(0.0, 1.0) }
+    }
+}
+
+/// What is left of other records with a candidate's amounts, nuisances being fitted there.
+fn with_amounts(sums: &Sums, missing: &Missing<'_>, columns: &[usize], fitted: &Amounts) -> f64 {
+    let known = missing.precisions.len();
+    let mut moved = sums.clone();
+    // The record less the candidate takes the record's place.
+    let size = moved.normal.nrows();
+    for (column, value) in columns.iter().zip(fitted.values.iter()).skip(known) {
+        for other in 0..size {
+            moved.normal[(other, 0)] += value * sums.normal[(other, *column)];
+        }
+    }
+    let mut corner = sums.normal[(0, 0)];
+    for (i, (a, x)) in columns.iter().zip(fitted.values.iter()).enumerate().skip(known) {
+        corner += 2.0 * x * sums.normal[(*a, 0)];
+        for (b, y) in columns.iter().zip(fitted.values.iter()).skip(known) {
+            corner += x * y * sums.normal[(*a, *b)];
+        }
+        let _ = i;
+    }
+    moved.normal[(0, 0)] = corner;
+    moved.fitted(&columns[..known], &missing.precisions).map_or(f64::INFINITY, |it| it.left)
+}
+
+impl Compared {
+    /// Names to be fitted, each once, from its best shapes.
+    pub fn proposals(&self, scores: &[Score], most: usize) -> Vec<Proposal> {
+        let mut all: Vec<Proposal> = Vec::new();
+        for score in scores {
+            let candidate = &self.candidates.list[score.candidate];
+            let (Kind::Named { term, .. }, Some(point)) = (&candidate.kind, &self.points[score.candidate])
+            else {
+                continue;
+            };
+            if let Some(known) = all.iter_mut().find(|it| it.term == *term) {
+                if known.starts.len() < 2 {
+                    known.starts.push(point.clone());
+                }
+            } else if all.len() < most {
+                all.push(Proposal { term: *term, starts: vec![point.clone()], score: *score });
+            }
+        }
+        all
+    }
+
+    /// The best shape of each effect with a name, the best effect first.
+    pub fn ranking(&self) -> Vec<(Term, Score)> {
+        let mut ranking: Vec<(Term, Score)> = Vec::new();
+        for candidate in &self.candidates.list {
+            let Kind::Named { term, .. } = candidate.kind else { continue };
+            if let Some(score) = self.shape(term)
+                && !ranking.iter().any(|(other, _)| *other == term)
+            {
+                ranking.push((term, score));
+            }
+        }
+        ranking.sort_by(|a, b| b.1.share.total_cmp(&a.1.share));
+        ranking
+    }
+
+    /// The best shape of a term.
+    pub fn shape(&self, term: Term) -> Option<Score> {
+        let own = |score: &&Score| matches!(self.candidates.list[score.candidate].kind, Kind::Named { term: other, .. } if other == term);
+        self.named.iter().filter(own).max_by(|a, b| a.share.total_cmp(&b.share)).copied()
+    }
+
+    /// The columns of a candidate, one list for each window: its own sum where the amounts are fixed.
+    pub fn columns(&self, candidate: usize) -> Vec<Vec<crate::missing::innovations::Column>> {
+        let range = self.candidates.list[candidate].columns.clone();
+        range.map(|column| self.candidates.columns.iter().map(|all| all[column].clone()).collect()).collect()
+    }
+
+    /// Port and group of features.
+    pub fn feature(&self, candidate: usize) -> Option<(usize, Group)> {
+        match self.candidates.list[candidate].kind {
+            Kind::Feature { port, group } => Some((port, group)),
+            Kind::Named { .. } => None,
+        }
+    }
+
+    /// A curve in the model that does nearly what free features do, at the same place over the same variable.
+    pub fn curve_for(&self, score: Score, element: Option<Element>) -> Option<(Term, Score)> {
+        let over = |table: &Table| match self.candidates.list[score.candidate].kind {
+            Kind::Feature { group: Group::Deflection, .. } => {
+                table.scale == Scale::DEFLECTION && table.id == "G1"
+            }
+            Kind::Feature { group: Group::Velocity, .. } => table.scale == Scale::VELOCITY,
+            _ => false,
+        };
+        let near = |it: &&Score| it.share >= Limits::USUAL.nearly * score.share;
+        self.features.iter().filter(near).find_map(|it| match self.candidates.list[it.candidate].kind {
+            Kind::Named { term: term @ Term::Table(table), .. }
+                if Some(table.element) == element && over(table) =>
+            {
+                Some((term, *it))
+            }
+            Kind::Named { term, .. } if it.candidate == score.candidate => Some((term, *it)),
+            _ => None,
+        })
+    }
+
+    /// Amounts of a candidate's columns.
+    pub fn amounts(&self, candidate: usize) -> &[f64] {
+        &self.amounts[candidate]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn score(candidate: usize, share: f64, validated: f64) -> Score {
+        Score { candidate, share, validated }
+    }
+
+    #[test]
+    fn a_name_that_explains_nearly_what_free_features_do_is_fitted_with_its_rivals() {
+        let named = [score(0, 0.3, 0.2), score(1, 0.5, 0.4), score(2, 0.05, 0.01)];
+        let features = [score(3, 0.6, 0.5)];
+        let Choice::Named(tried) = choose(&named, &features, Limits::USUAL) else { panic!("a name") };
+        assert_eq!(tried.iter().map(|it| it.candidate).collect::<Vec<_>>(), [1, 0]);
+    }
+
+    #[test]
+    fn what_no_name_explains_is_unmodelled() {
+        let named = [score(0, 0.2, 0.2)];
+        let features = [score(1, 0.6, 0.5), score(2, 0.7, -0.1)];
+        assert_eq!(choose(&named, &features, Limits::USUAL), Choice::Unmodelled(features[0]));
+    }
+
+    #[test]
+    fn background_and_what_the_validation_records_deny_is_nothing() {
+        assert_eq!(choose(&[score(0, 0.03, 0.03)], &[score(1, 0.02, 0.1)], Limits::USUAL), Choice::Nothing);
+        assert_eq!(choose(&[score(0, 0.5, -0.2)], &[], Limits::USUAL), Choice::Nothing);
+    }
+}

@@ -1,0 +1,53 @@
+//! The account of each signal, from the fits on the validation records.
+
+use crate::catalogue::naming::name;
+use crate::decision::account::account;
+use crate::diagnosis::Diagnosis;
+use crate::estimation::hypothesis::Fitted;
+use crate::report::findings::{AccountItem, SignalAccount};
+use crate::report::words::located;
+use crate::screening::rms;
+
+impl Diagnosis<'_> {
+    /// Where each signal's error goes; `share` of what is left is explained without a name.
+    pub(super) fn account(&self, share: f64) -> Vec<SignalAccount> {
+        let (world, found) = (&self.world, &self.found);
+        let squares = |fitted: &Fitted| world.errors(&fitted.test).mean_squares();
+        let Some(before) = self.before_on_validation() else { return Vec::new() };
+        let start = world.errors(&before).mean_squares();
+        let fitted = squares(&found.base);
+        let stages: Vec<Vec<f64>> = found.stages.iter().map(squares).collect();
+        let rows = world.test.first().map_or(&[][..], |record| &record.measured);
+        let of = |(row, measured): (usize, &crate::dataset::recorded::Measured)| {
+            let after: Vec<f64> = stages.iter().map(|stage| stage[row]).collect();
+            let noise = world.floor.get(row).map_or(0.0, |floor| floor * floor);
+            let values = world.test.iter().flat_map(|record| record.measured[row].values.iter().copied());
+            let signal = rms(&values.collect::<Vec<_>>()).powi(2);
+            let account = account(start[row], fitted[row], &after, noise, share);
+            let total = account.total.max(f64::MIN_POSITIVE);
+            let item = |(taken, accepted): (&f64, &crate::confirm::Accepted)| {
+                let words = name(accepted.term, &world.rig.plant);
+                AccountItem { name: located(&words.name, &words.element), share: taken / total }
+            };
+            SignalAccount {
+                signal: world.rig.plant.outputs[measured.output].name.clone(),
+                error: account.total.sqrt(),
+                noise: account.noise / total,
+                parameters: account.parameters / total,
+                effects: account.effects.iter().zip(&found.accepted).map(item).collect(),
+                unmodelled: account.unmodelled / total,
+                unexplained: account.unexplained / total,
+                open: account.is_open(signal),
+            }
+        };
+        rows.iter().enumerate().map(of).collect()
+    }
+
+    /// Errors of the starting model on the conditioned validation records.
+    fn before_on_validation(&self) -> Option<crate::estimation::fit::Residuals> {
+        let dynamics = self.world.dynamics(&[]).ok()?;
+        let fit = self.world.fit(&*dynamics, self.world.test, Vec::new());
+        let point = self.world.held_out_point(&*dynamics, &self.before);
+        Some(fit.residuals(&point))
+    }
+}
