@@ -73,6 +73,7 @@ fn the_ports_are_these() {
         "ElementDyno: strut.preload, tire.preload",
         "LinearDrive: constant_load",
         "ServoHydraulicActuator: cylinder.preload, cylinder.flow_offset",
+        "PumpHydraulicActuator: pump.load, pump.flow_offset, piston.preload",
         "ExcitationMotor: constant_load",
     ];
     assert_eq!(found, expected);
