@@ -68,6 +68,7 @@ fn the_ports_are_these() {
     let expected = [
         "QuarterCar: strut.preload, guide.preload, tire.preload, wheel_guide.preload",
         "FullCar: strut.front.preload, strut.rear.preload, tire.front.preload, tire.rear.preload",
+        "SasRig: wheel_arm.load, body_arm.load, pivot.preload, tire.preload",
         "ServoSuspension: strut.preload, guide.preload, tire.preload, wheel_guide.preload, \
          actuator.cylinder.preload, actuator.cylinder.flow_offset",
         "ElementDyno: strut.preload, tire.preload",
