@@ -282,6 +282,9 @@ fn a_tyre_that_can_leave_the_eccentric_never_pulls() {
     assert!((rates.wheel_arm.speed - falling).abs() < 1e-6, "{} {falling}", rates.wheel_arm.speed);
 }
 
+/// Changes parameters.
+type Change = fn(&mut Parameters<f64>);
+
 #[test]
 fn constants_act_where_their_equations_say() {
     let x = [-0.19, 0.3, 0.4, -0.5];
@@ -291,7 +294,7 @@ fn constants_act_where_their_equations_say() {
     };
     let p = parameters();
     let lever = 0.21 * (0.234_f64 + 0.19).cos();
-    let with: [(fn(&mut Parameters<f64>), [f64; 3]); 4] = [
+    let with: [(Change, [f64; 3]); 4] = [
         (|p| p.wheel_arm.load = 2.0, [-2.0, 0.0, 0.0]),
         (|p| p.body_arm.load = 2.0, [0.0, -2.0, 0.0]),
         (|p| p.pivot.preload = 2.0, [2.0, -2.0, 0.0]),
