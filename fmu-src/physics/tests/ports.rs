@@ -68,9 +68,13 @@ fn the_ports_are_these() {
     let expected = [
         "QuarterCar: strut.preload, guide.preload, tire.preload, wheel_guide.preload",
         "FullCar: strut.front.preload, strut.rear.preload, tire.front.preload, tire.rear.preload",
-        "ServoSuspension: strut.preload, guide.preload, tire.preload",
+        "SasRig: wheel_arm.load, body_arm.load, pivot.preload, tire.preload",
+        "ServoSuspension: strut.preload, guide.preload, tire.preload, wheel_guide.preload, \
+         actuator.cylinder.preload, actuator.cylinder.flow_offset",
         "ElementDyno: strut.preload, tire.preload",
         "LinearDrive: constant_load",
+        "ServoHydraulicActuator: cylinder.preload, cylinder.flow_offset",
+        "PumpHydraulicActuator: pump.load, pump.flow_offset, piston.preload",
         "ExcitationMotor: constant_load",
     ];
     assert_eq!(found, expected);

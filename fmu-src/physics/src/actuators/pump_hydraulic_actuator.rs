@@ -6,7 +6,7 @@ use strut_model::{
     About, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
 };
 
-use crate::elements::{Gas, Piston, PumpWithLosses, Valve, Valves};
+use crate::elements::{Gas, PistonWithPreload, PumpWithLosses, Valve, Valves};
 use crate::signals::{Pressures, Torque, TravelRate};
 
 /// Cylinder, two valves, two accumulators, pump and motor: Ajala eq. 1–16.
@@ -31,7 +31,7 @@ pub struct Parameters<R> {
     /// Motor
     pub motor: Rotor<R>,
     /// Piston
-    pub piston: Piston<R>,
+    pub piston: PistonWithPreload<R>,
     /// Gas
     pub gas: Gas<R>,
     /// Valve
@@ -124,9 +124,9 @@ impl Model for PumpHydraulicActuator {
         kind: Kind::Actuator,
         equations: &[
             Equation {
-                text: "q_k = q_m - v A_k - q_l, q_r = -q_m + v A_r + q_l, q_m = V_c/2pi omega, v = \
+                text: "q_k = q_m - v A_k - q_l, q_r = -q_m + v A_r + q_l, q_m = V_c/2pi omega + q_0, v = \
                     suspension.velocity",
-                source: "Ajala eq. 5, 9 with z_e' = -v; leak: below",
+                source: "Ajala eq. 5, 9 with z_e' = -v; leak: below; q_0: port of diagnosis",
             },
             Equation {
                 text: "q_l = C_l (p_k - p_r), p_k and p_r with q_l = 0",
@@ -141,12 +141,12 @@ impl Model for PumpHydraulicActuator {
                 source: "Ajala eq. 7, 8; dp from tables",
             },
             Equation {
-                text: "J_m omega' = T_m - V_c/2pi (p_k - p_r) - T_f tanh(omega/omega_f)",
-                source: "Ajala eq. 4; friction, catalogue of diagnosis 32c: TUM eq. 12",
+                text: "J_m omega' = T_m - V_c/2pi (p_k - p_r) - T_f tanh(omega/omega_f) - T_0",
+                source: "Ajala eq. 4; friction, catalogue of diagnosis 32c: TUM eq. 12; T_0: port of diagnosis",
             },
             Equation {
-                text: "F_a = p_k A_k - p_r A_r, force = F_a - (A_k - A_r) p_0",
-                source: "Ajala eq. 6",
+                text: "F_a = p_k A_k - p_r A_r - F_0, force = F_a - (A_k - A_r) p_0",
+                source: "Ajala eq. 6; F_0: port of diagnosis",
             },
         ],
         notes: &[
@@ -199,7 +199,7 @@ impl Model for PumpHydraulicActuator {
     }
 
     fn derive<R: Real>(&self, p: &Parameters<R>) -> Derived<R> {
-        let rod = p.piston.compression_area - p.piston.rebound_area;
+        let rod = p.piston.ideal.compression_area - p.piston.ideal.rebound_area;
         Derived { static_force: rod * p.gas.charge_pressure }
     }
 
@@ -211,7 +211,7 @@ impl Model for PumpHydraulicActuator {
     #[inline]
     fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
         let (x, u, p) = (now.state, now.input, now.parameters);
-        let (area, gas, speed) = (p.piston, p.gas, x.motor.speed);
+        let (area, gas, speed) = (p.piston.ideal, p.gas, x.motor.speed);
         let closing = -u.suspension.velocity;
 
         let compression = |flow| Side {
@@ -226,23 +226,21 @@ impl Model for PumpHydraulicActuator {
             volume_at_rest: gas.rebound_volume,
             valve: &p.valve.rebound,
         };
-        let per_radian = p.pump.ideal.per_radian();
-        let pumped = per_radian * speed;
+        let pumped = p.pump.pumped(speed);
         let tight = [pumped + closing * area.compression_area, -pumped - closing * area.rebound_area];
         let [into_compression, into_rebound] =
             p.pump.leaked(tight, || compression(tight[0]).on_piston() - rebound(tight[1]).on_piston());
         let (compression, rebound) = (compression(into_compression), rebound(into_rebound));
         let (on_compression, on_rebound) = (compression.on_piston(), rebound.on_piston());
 
-        let resisting = p.pump.coulomb.added_to(|| per_radian * (on_compression - on_rebound), speed);
-        let torque = u.motor.torque - resisting;
+        let torque = u.motor.torque - p.pump.resistance(|| on_compression - on_rebound, speed);
         let acceleration = if self.locked { R::from(0.0) } else { torque / p.motor.inertia };
         let rates = State {
             motor: Speed { speed: acceleration },
             overpressure: Overpressure { compression: compression.rate(&gas), rebound: rebound.rate(&gas) },
         };
 
-        let force = area.compression_area * on_compression - area.rebound_area * on_rebound;
+        let force = p.piston.force(on_compression, on_rebound);
         let absolute = |compression, rebound| Pressures {
             compression: gas.charge_pressure + compression,
             rebound: gas.charge_pressure + rebound,

@@ -111,10 +111,10 @@ pub struct SupplyOutput<R> {
 
 /// Equations of cylinder and valve, wherever they are built in.
 pub(crate) const EQUATIONS: &[Equation] = &[
-    Equation { text: "f_s = A_a P_r", source: "Konieczny eq. 2.12" },
+    Equation { text: "f_s = A_a P_r - F_0c", source: "Konieczny eq. 2.12; F_0c: port of diagnosis" },
     Equation {
-        text: "P_r' = alpha (Q - A_a v - C_tm P_r), alpha = 4 E/(V_t + V_p), v = z_2' - z_1'",
-        source: "Konieczny eq. 2.3-2.8, 2.11",
+        text: "P_r' = alpha (Q + Q_0 - A_a v - C_tm P_r), alpha = 4 E/(V_t + V_p), v = z_2' - z_1'",
+        source: "Konieczny eq. 2.3-2.8, 2.11; Q_0: port of diagnosis",
     },
     Equation {
         text: "nonlinear: Q = u_1 l C_d sqrt((P_z - sign(u_1) P_r)/rho)",
@@ -178,8 +178,8 @@ impl Model for ServoHydraulicActuator {
             EQUATIONS[7],
             Equation {
                 text: "with load.mass m > 0, at t_k = k T: v in P_r' becomes v + T (F_k/m + a_k)/2; force between t_k and \
-                    t_(k+1): A_a P, P = P_r + T/2 alpha (Q - A_a (w + T/2 (A_a P/m + a_k)) - C_tm P), w = v_k + T (F_k/m \
-                    + a_k)",
+                    t_(k+1): F = A_a P - F_0c, P = P_r + T/2 alpha (Q + Q_0 - A_a (w + T/2 (F/m + a_k)) - C_tm P), w = v_k \
+                    + T (F_k/m + a_k)",
                 source: "ours: v and P at the middle of the interval to come, by the implicit midpoint rule",
             },
             Equation {

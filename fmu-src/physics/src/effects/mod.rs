@@ -9,6 +9,7 @@
 mod asymmetry;
 mod backlash;
 mod cogging;
+mod constant;
 mod coulomb;
 mod curve;
 mod enveloping;
@@ -36,6 +37,7 @@ mod yield_force;
 pub use asymmetry::Asymmetry;
 pub use backlash::behind_backlash;
 pub use cogging::Cogging;
+pub use constant::with_constant;
 pub use coulomb::{Coulomb, RotaryCoulomb};
 pub use curve::{CommandCurve, CompressionCurve, ForceCurve, POINTS, VelocityCurve};
 pub use enveloping::{Enveloping, EnvelopingState};

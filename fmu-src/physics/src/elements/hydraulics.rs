@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use strut_model::{Real, Variables};
 
-use crate::effects::RotaryCoulomb;
+use crate::effects::{RotaryCoulomb, with_constant};
 
 /// Pump without losses, Ajala eq. 4 and 5.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
@@ -22,7 +22,8 @@ impl<R: Real> Pump<R> {
     }
 }
 
-/// Pump that leaks and rubs (catalogue of diagnosis, 30 and 32c). Without losses it costs two questions.
+/// Pump that leaks and rubs (catalogue of diagnosis, 30 and 32c), with a constant torque and a constant flow as ports of
+/// diagnosis. Each of the four costs one question if it is off.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct PumpWithLosses<R> {
     /// The pump itself
@@ -31,11 +32,30 @@ pub struct PumpWithLosses<R> {
     /// Leakage from chamber to chamber (C_l)
     #[var(unit = M5_PER_N_S, start = 0.0, min = 0.0)]
     pub leakage: R,
+    /// Constant torque on pump and motor, opposing positive speed
+    #[var(unit = N_M, start = 0.0, port)]
+    pub load: R,
+    /// Constant flow that fills the compression side beside that of the pump
+    #[var(unit = M3_PER_S, start = 0.0, port)]
+    pub flow_offset: R,
     /// Friction of pump and motor
     pub coulomb: RotaryCoulomb<R>,
 }
 
 impl<R: Real> PumpWithLosses<R> {
+    /// Flow to the compression side at a speed, before the leak.
+    #[inline]
+    pub fn pumped(&self, speed: R) -> R {
+        with_constant(self.ideal.per_radian() * speed, self.flow_offset)
+    }
+
+    /// Torque that a pressure difference on the piston and the losses hold against the motor.
+    #[inline]
+    pub fn resistance(&self, difference: impl FnOnce() -> R, speed: R) -> R {
+        let rubbing = self.coulomb.added_to(|| self.ideal.per_radian() * difference(), speed);
+        with_constant(rubbing, self.load)
+    }
+
     /// Flows into the chambers, less what leaks from that of the higher pressure to the other: C_l Δp,
     /// laminar as in Konieczny eq. 2.11. `difference` is the pressure difference on the piston with those
     /// flows.
@@ -82,6 +102,26 @@ pub struct Piston<R> {
     /// Area in the chamber that rebound makes smaller (A_r)
     #[var(unit = M2, start = 8.6e-4, min = 1e-6)]
     pub rebound_area: R,
+}
+
+/// Piston with a constant force as a port of diagnosis.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct PistonWithPreload<R> {
+    /// The piston itself
+    #[var(flatten)]
+    pub ideal: Piston<R>,
+    /// Constant force that pulls body and wheel together
+    #[var(unit = N, start = 0.0, port)]
+    pub preload: R,
+}
+
+impl<R: Real> PistonWithPreload<R> {
+    /// Force that pushes body and wheel apart, Ajala eq. 6.
+    #[inline]
+    pub fn force(&self, on_compression: R, on_rebound: R) -> R {
+        let Piston { compression_area, rebound_area } = self.ideal;
+        with_constant(compression_area * on_compression - rebound_area * on_rebound, -self.preload)
+    }
 }
 
 /// Gas in two accumulators, Ajala eq. 1 to 3. Pressures are absolute.
@@ -134,6 +174,8 @@ mod tests {
     const LEAKING: PumpWithLosses<f64> = PumpWithLosses {
         ideal: Pump { displacement: 12e-6 },
         leakage: 1e-11,
+        load: 0.0,
+        flow_offset: 0.0,
         coulomb: RotaryCoulomb { torque: 0.0, speed: 2.0 },
     };
 

@@ -16,7 +16,7 @@ pub use actuation::{Actuation, ActuationState};
 pub use anti_roll_bar::AntiRollBar;
 pub use corner::{Corner, Moving};
 pub use guide::{Guide, WheelGuide};
-pub use hydraulics::{Gas, Piston, Pump, PumpWithLosses};
+pub use hydraulics::{Gas, Piston, PistonWithPreload, Pump, PumpWithLosses};
 pub use hysteresis::{Hysteresis, HysteresisState};
 pub use mode::Mode;
 pub use servo_cylinder::{

@@ -2,7 +2,7 @@
 
 use strut_model::{Choice, Real, Variables};
 
-use crate::effects::{behind_backlash, dead_zone};
+use crate::effects::{behind_backlash, dead_zone, with_constant};
 
 /// How the flow through the valve follows from spool position and load pressure.
 #[derive(Choice, Clone, Copy, Debug, PartialEq)]
@@ -64,6 +64,12 @@ pub struct Cylinder<R> {
     /// Leakage from chamber to chamber (C_tm)
     #[var(unit = M5_PER_N_S, start = 15e-12, min = 0.0)]
     pub leakage: R,
+    /// Constant force of the piston that pulls body and wheel together
+    #[var(unit = N, start = 0.0, port)]
+    pub preload: R,
+    /// Constant flow into the chamber that drives body and wheel apart, and out of the other one
+    #[var(unit = M3_PER_S, start = 0.0, port)]
+    pub flow_offset: R,
 }
 
 /// The valve's orifices.
@@ -138,7 +144,7 @@ pub struct Hydraulics<R> {
 /// Flows through the valve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flow<R> {
-    /// Into the chamber that drives body and wheel apart, and out of the other one.
+    /// Into the chamber that drives body and wheel apart, and out of the other one; the cylinder's constant one included.
     pub load: R,
     /// Out of the supply.
     pub supply: R,
@@ -160,10 +166,10 @@ impl<R: Real> ServoCylinder<R> {
         }
     }
 
-    /// The force that pushes body and wheel apart, Konieczny eq. 2.12.
+    /// The force that pushes body and wheel apart, Konieczny eq. 2.12, less the piston's constant force.
     #[inline]
     pub fn force(&self, pressure: R) -> R {
-        self.cylinder.area * pressure
+        with_constant(self.cylinder.area * pressure, -self.cylinder.preload)
     }
 
     /// Rate of the spool position, Konieczny eq. 2.13.
@@ -194,7 +200,7 @@ impl<R: Real> ServoCylinder<R> {
     pub fn flow(&self, law: ValveLaw, hydraulics: &Hydraulics<R>, position: R, pressure: R) -> Flow<R> {
         let overlap = self.spool.overlap;
         let position = if overlap.vanishes() { position } else { dead_zone(position, overlap) };
-        match law {
+        let flow = match law {
             ValveLaw::Nonlinear => self.orifices(hydraulics, position, pressure),
             ValveLaw::Linear => {
                 Flow { load: hydraulics.flow_gain * position, supply: hydraulics.flow_gain * position.abs() }
@@ -206,7 +212,8 @@ impl<R: Real> ServoCylinder<R> {
                     supply: flow_gain * position.abs(),
                 }
             }
-        }
+        };
+        Flow { load: with_constant(flow.load, self.cylinder.flow_offset), ..flow }
     }
 
     /// Konieczny eq. 2.9, `u_1 l C_d sqrt((P_z − sign(u_1) P_r)/ρ)`, with what a root leaves open.

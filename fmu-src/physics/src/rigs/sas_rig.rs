@@ -8,7 +8,7 @@ use strut_model::{
     About, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
 };
 
-use crate::effects::RotaryCoulomb;
+use crate::effects::{RotaryCoulomb, with_constant};
 use crate::signals::{BrakeTorque, EccentricMotion};
 
 use self::contact::{Contact, Eccentric, Wheel, WheelTire};
@@ -73,6 +73,9 @@ pub struct WheelArm<R> {
     /// Moment of gravity with the wheel's centre level with the pivot (M_1 = m_1 g R)
     #[var(unit = N_M, start = 46.71 * 0.2116)]
     pub gravity_moment: R,
+    /// Constant torque on the arm, opposing upward motion
+    #[var(unit = N_M, start = 0.0, port)]
+    pub load: R,
     /// Distance of the wheel's centre from the pivot (R)
     #[var(unit = M, start = 0.21, min = 1e-3)]
     pub length: R,
@@ -90,11 +93,17 @@ pub struct BodyArm<R> {
     /// Moment of gravity with the arm horizontal (M_2 = a_6 I_2, in part one M)
     #[var(unit = N_M, start = 22.07 * 1.37)]
     pub gravity_moment: R,
+    /// Constant torque on the arm, opposing upward motion
+    #[var(unit = N_M, start = 0.0, port)]
+    pub load: R,
 }
 
 /// What both arms turn about.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Pivot<R> {
+    /// Constant torque that pulls the arms together
+    #[var(unit = N_M, start = 0.0, port)]
+    pub preload: R,
     /// Friction between the arms
     pub coulomb: RotaryCoulomb<R>,
 }
@@ -217,12 +226,12 @@ impl Model for SasRig {
         kind: Kind::Rig,
         equations: &[
             Equation {
-                text: "I_1 a_1'' = F_t R cos(b - a_1) - h_1 F_s - M_1 cos(b - a_1) + T",
-                source: "Kogut eq. 13, first line, corrected",
+                text: "I_1 a_1'' = F_t R cos(b - a_1) - h_1 F_s - M_1 cos(b - a_1) + T - T_01",
+                source: "Kogut eq. 13, first line, corrected; T_01: port of diagnosis",
             },
             Equation {
-                text: "I_2 g'' = h_2 F_s - M_2 cos(g) - T",
-                source: "Kogut eq. 13, second line; eq. 1",
+                text: "I_2 g'' = h_2 F_s - M_2 cos(g) - T - T_02",
+                source: "Kogut eq. 13, second line; eq. 1; T_02: port of diagnosis",
             },
             Equation {
                 text: "F_s = k_s l_s, l_s = l_s0 - sqrt(r_s1^2 + r_s2^2 - 2 r_s1 r_s2 cos(g - a_1))",
@@ -234,20 +243,21 @@ impl Model for SasRig {
                 source: "Kogut eq. 13; 3.1.1; derived",
             },
             Equation {
-                text: "F_t = k_t l_t + q l_t^2 + d_t l_t' + F_t0 tanh(l_t'/v_0), l_t = l_t0 - (H - r - u_1 - R \
-                    sin(b - a_1))",
-                source: "Kogut eq. 14, 18; effects of TUM 4.3.2 and eq. 12",
+                text: "F_t = k_t l_t + q l_t^2 + d_t l_t' + F_t0 tanh(l_t'/v_0) + F_0t, l_t = l_t0 - (H - r - u_1 - \
+                    R sin(b - a_1))",
+                source: "Kogut eq. 14, 18; effects of TUM 4.3.2 and eq. 12; F_0t: port of diagnosis",
             },
             Equation {
-                text: "T = brake.torque + T_p tanh((g' - a_1')/w_0)",
-                source: "Kogut eq. 13: k_MR(u_2) (g' - a_1'); friction: TUM eq. 12",
+                text: "T = brake.torque + T_p tanh((g' - a_1')/w_0) + T_0p",
+                source: "Kogut eq. 13: k_MR(u_2) (g' - a_1'); friction: TUM eq. 12; T_0p: port of diagnosis",
             },
         ],
         notes: &[
             "Angles count upwards from the horizontal, as in the source, not from equilibrium. The states start \
              at the equilibrium of the declared parameters; another start is the start value of \
-             wheel_arm.angle, body_arm.angle and their speeds. The equilibrium of other parameters is calculated \
-             as rest.wheel_arm_angle and rest.body_arm_angle, to be read in initialisation mode.",
+             wheel_arm.angle, body_arm.angle and their speeds. The equilibrium of other parameters, loads and \
+             preloads included, is calculated as rest.wheel_arm_angle and rest.body_arm_angle, to be read in \
+             initialisation mode.",
             "Kogut eq. 13 and 16 print the brake's torque with one sign, + k_MR(α̇1 - γ̇), in both lines. On the \
              wheel arm that makes the power k_MR(α̇1² - γ̇²), which is not always a loss; it must be - k_MR(α̇1 - \
              γ̇) there, so that both together take k_MR(α̇1 - γ̇)². At the printed damping the wheel arm's motion \
@@ -346,7 +356,7 @@ impl Model for SasRig {
         let (angle, speed) = (body.angle - wheel.angle, body.speed - wheel_speed);
 
         let spring = p.spring.at(angle, self.lever);
-        let between = p.pivot.coulomb.added_to(|| u.brake.torque, speed);
+        let between = with_constant(p.pivot.coulomb.added_to(|| u.brake.torque, speed), p.pivot.preload);
         let contact = Contact::new(p, wheel.angle, u.eccentric.height);
         let thinning = u.eccentric.velocity - contact.lever * wheel_speed;
         let tire = p.tire.force(contact.compression, thinning, self.lift_off);
@@ -355,6 +365,8 @@ impl Model for SasRig {
             tire * contact.lever - spring.on_wheel_arm - p.wheel_arm.gravity_moment * contact.cosine
                 + between;
         let on_body_arm = spring.on_body_arm - p.body_arm.gravity_moment * body.angle.cos() - between;
+        let on_wheel_arm = with_constant(on_wheel_arm, -p.wheel_arm.load);
+        let on_body_arm = with_constant(on_body_arm, -p.body_arm.load);
         let wheel_acceleration = if self.locked { R::from(0.0) } else { on_wheel_arm / p.wheel_arm.inertia };
         let body_acceleration = on_body_arm / p.body_arm.inertia;
 

@@ -7,6 +7,7 @@ use strut_model::{
 };
 
 use crate::actuators::servo_hydraulic_actuator::{self as servo, SpoolState, SupplyOutput};
+use crate::effects::switched_on;
 use crate::elements::{Guide, Hydraulics, Mode, ServoCylinder, Strut, Tire, ValveLaw};
 use crate::signals::{Acceleration, Deflection, Motion, Pushing, RoadMotion, Travel};
 
@@ -40,8 +41,18 @@ pub struct Parameters<R> {
     pub guide: Guide<R>,
     /// Tyre
     pub tire: Tire<R>,
+    /// Vertical guide of the wheel
+    pub wheel_guide: WheelPreload<R>,
     /// Actuator
     pub actuator: ServoCylinder<R>,
+}
+
+/// What acts between wheel and ground beside the tyre.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct WheelPreload<R> {
+    /// Constant force between wheel and ground, opposing upward motion
+    #[var(unit = N, start = 0.0, port)]
+    pub preload: R,
 }
 
 /// What comes from outside.
@@ -130,12 +141,12 @@ impl Model for ServoSuspension {
         equations: &[
             Equation { text: "m_2 z_2'' = f_s - F_strut - F_guide", source: "Konieczny eq. 2.15" },
             Equation {
-                text: "m_1 q' = F_strut - f_s + k_1 (w - z_1), z_1' = q - b_1 (z_1 - w)/m_1",
-                source: "Konieczny eq. 2.14, the tyre's damper integrated as in eq. 2.16",
+                text: "m_1 q' = F_strut - f_s + k_1 (w - z_1) + F_0t - F_0w, z_1' = q - b_1 (z_1 - w)/m_1",
+                source: "Konieczny eq. 2.14, the tyre's damper integrated as in eq. 2.16; F_0t, F_0w: ports of diagnosis",
             },
             Equation {
-                text: "F_strut = k_2 (z_2 - z_1) + b_2 (z_2' - z_1')",
-                source: "Konieczny eq. 2.14-2.15; effects as in QuarterCar",
+                text: "F_strut = k_2 (z_2 - z_1) + b_2 (z_2' - z_1') + F_p, F_guide = F_g tanh(z_2'/v_0) + F_0g",
+                source: "Konieczny eq. 2.14-2.15; effects as in QuarterCar; F_p, F_0g: ports of diagnosis",
             },
             servo::EQUATIONS[0],
             servo::EQUATIONS[1],
@@ -164,6 +175,8 @@ impl Model for ServoSuspension {
              44800 N/m give 1.54 and 10.8 Hz (sqrt(k_2/m_2), sqrt((k_1 + k_2)/m_1)), the used ones 1.60 and \
              10.1 Hz.",
             "The tyre of this model never leaves the road.",
+            "actuator.cylinder.preload is part of actuator.force, strut.preload is not. Where that force is not measured, \
+             both are the same.",
             servo::NOTES[0],
             servo::NOTES[1],
             servo::NOTES[2],
@@ -215,7 +228,10 @@ impl Model for ServoSuspension {
                 natural_frequency: natural / std::f64::consts::TAU,
                 damping_ratio: decay / (natural * 2.0),
             },
-            further_effects: p.strut.further_effects() + p.guide.further_effects() + p.tire.further_effects(),
+            further_effects: p.strut.further_effects()
+                + p.guide.further_effects()
+                + p.tire.further_effects()
+                + switched_on([p.wheel_guide.preload]),
         }
     }
 
@@ -244,7 +260,8 @@ impl Model for ServoSuspension {
         let flow = p.actuator.flow(self.law, hydraulics, opening, pressure);
 
         let body_acceleration = (force - on_body) * per_sprung;
-        let on_wheel = strut - force;
+        let between = strut - force;
+        let on_wheel = if further.vanishes() { between } else { between - p.wheel_guide.preload };
         let rates = State {
             body: Motion { position: body.velocity, velocity: body_acceleration },
             wheel: WheelState {

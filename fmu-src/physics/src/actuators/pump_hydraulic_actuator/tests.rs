@@ -35,7 +35,7 @@ fn rest_is_an_equilibrium_with_the_static_force_of_the_rod() {
 /// Eq. 16b as it is printed, with the rate of compression and resistances.
 fn printed(p: &Parameters<f64>, x: [f64; 3], torque: f64, closing: f64) -> [f64; 4] {
     let [speed, pks, prs] = [x[0], x[1] + p.gas.charge_pressure, x[2] + p.gas.charge_pressure];
-    let (ak, ar, kappa) = (p.piston.compression_area, p.piston.rebound_area, p.gas.exponent);
+    let (ak, ar, kappa) = (p.piston.ideal.compression_area, p.piston.ideal.rebound_area, p.gas.exponent);
     let vc = p.pump.ideal.displacement / std::f64::consts::TAU;
     let volume = |rest: f64, pressure: f64| rest * (p.gas.charge_pressure / pressure).powf(1.0 / kappa);
     let ck = p.valve.compression.resistance(vc * speed + closing * ak);
@@ -111,7 +111,7 @@ proptest! {
         let growing = (stored(&p, moved(h)) - stored(&p, moved(-h))) / (2.0 * h);
         let pumped = p.pump.ideal.per_radian() * x[0];
         let (qk, qr) =
-            (pumped - velocity * p.piston.compression_area, -pumped + velocity * p.piston.rebound_area);
+            (pumped - velocity * p.piston.ideal.compression_area, -pumped + velocity * p.piston.ideal.rebound_area);
         let (vk, vr) = (&p.valve.compression, &p.valve.rebound);
         let leak = leakage * (x[1] + vk.pressure_drop(qk) - x[2] - vr.pressure_drop(qr));
         let (qk, qr) = (qk - leak, qr + leak);
@@ -161,6 +161,38 @@ fn a_leak_that_would_feed_energy_in_is_refused() {
     assert_eq!(model.check(&p, &model.derive(&p)), Ok(()));
     p.pump.leakage = 1.1 / 1.6e9;
     assert!(model.check(&p, &model.derive(&p)).unwrap_err().starts_with("pump.leakage"));
+}
+
+#[test]
+fn constants_act_where_their_equations_say() {
+    let (x, u) = ([20.0, 2e5, -1e5], [1.5, 0.2]);
+    let signals = |p: &Parameters<f64>| {
+        let (rates, output) = evaluate(p, x, u);
+        (rates, output.force, output.total_force)
+    };
+    let mut p = parameters();
+    let neutral = signals(&p);
+    p.pump.load = 0.033;
+    // 0.033 N.m on 3.3e-4 kg.m2.
+    let braked = signals(&p);
+    assert!((braked.0.motor.speed - neutral.0.motor.speed + 100.0).abs() < 1e-9);
+    assert_eq!((braked.0.overpressure, braked.1), (neutral.0.overpressure, neutral.1));
+
+    let mut p = parameters();
+    p.piston.preload = 10.0;
+    let pulled = signals(&p);
+    assert!((pulled.1 - neutral.1 + 10.0).abs() < 1e-9 && (pulled.2 - neutral.2 + 10.0).abs() < 1e-9);
+    assert_eq!(pulled.0, neutral.0);
+
+    // The pump's own flow at a speed of 1 rad/s does the same to everything but the power.
+    let mut p = parameters();
+    p.pump.flow_offset = 12e-6 / std::f64::consts::TAU;
+    let (rates, force, _) = signals(&p);
+    let (faster, output) = evaluate(&parameters(), [21.0, x[1], x[2]], u);
+    assert!((force - output.force).abs() < 1e-9 && (force - neutral.1).abs() > 0.1);
+    assert!((rates.overpressure.compression / faster.overpressure.compression - 1.0).abs() < 1e-12);
+    assert!((rates.overpressure.rebound / faster.overpressure.rebound - 1.0).abs() < 1e-12);
+    assert!((rates.motor.speed - faster.motor.speed).abs() < 1e-6);
 }
 
 /// With piston and pump held, only the leak moves oil: κ p_0 C_l (1/V_k + 1/V_r) is 0.156 1/s.

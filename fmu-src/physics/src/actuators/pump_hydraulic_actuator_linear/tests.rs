@@ -46,8 +46,8 @@ fn slopes(areas: f64, direction: [f64; 5]) -> [f64; 3] {
     use strut_model::Settings;
     type P<R> = <PumpHydraulicActuator as Model>::Parameters<R>;
     let mut p: P<f64> = starts();
-    p.piston.compression_area = areas;
-    p.piston.rebound_area = areas;
+    p.piston.ideal.compression_area = areas;
+    p.piston.ideal.rebound_area = areas;
     // An unequal split of volumes: only the sum of p_0/V_0 counts in eq. 18.
     p.gas.rebound_volume = 0.4e-3;
     let mut numbers = Vec::new();

@@ -82,6 +82,10 @@ impl<R: Real> Load<R> {
         let half = self.interval * 0.5;
         let (area, leakage) = (cylinder.cylinder.area, cylinder.cylinder.leakage);
         let compression = half * hydraulics.coefficient;
+        // The piston's constant force is the part of the mean force that does not follow the pressure.
+        let preload = cylinder.cylinder.preload;
+        let acceleration =
+            if preload.vanishes() { acceleration } else { acceleration - preload * self.mobility() };
         let free = now.pressure + compression * (now.flow - area * (velocity + half * acceleration));
         let stiffening = compression * (leakage + half * area * area * self.mobility());
         cylinder.force(free / (stiffening + 1.0))

@@ -172,6 +172,23 @@ fn with_its_load_known_a_held_exchange_converges() {
 }
 
 #[test]
+fn constants_of_the_cylinder_are_part_of_the_mean_force() {
+    let actuator = ServoHydraulicActuator { law: ValveLaw::Linear };
+    let declared = strut_model::Declarations::of::<Parameters<f64>>();
+    let mut p: Parameters<f64> = strut_model::Bundle::from_fn(|i| declared[i].start);
+    (p.load.mass, p.cylinder.preload, p.cylinder.flow_offset) = (10.0, 50.0, 2e-6);
+    let (cylinder, derived) = (p.cylinder(), actuator.derive(&p));
+    let now = Pressed { pressure: 1e6, flow: cylinder.flow(ValveLaw::Linear, &derived, 0.0, 1e6).load };
+    let known = LoadMemory { velocity: 0.01, force: 0.0, acceleration: 0.3 };
+    let force = p.load.force(&cylinder, &derived, now, &known, 0);
+    // The midpoint rule as it is printed, with T = 1 ms, m = 10 kg and a closed valve.
+    let pressure = (force + 50.0) / 0.765_786e-3;
+    let velocity = 0.01 + 0.5e-3 * (force / 10.0 + 0.3);
+    let flow = 2e-6 - 0.765_786e-3 * velocity - 15e-12 * pressure;
+    assert!((1e6 + 0.5e-3 * derived.coefficient * flow - pressure).abs() < 1e-3, "{force} {pressure}");
+}
+
+#[test]
 fn what_cannot_be_is_refused() {
     let interface = Interface::of::<ServoHydraulicActuator>(None, None).unwrap();
     for (name, value) in [

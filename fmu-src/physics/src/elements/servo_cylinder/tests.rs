@@ -172,6 +172,19 @@ proptest! {
 }
 
 #[test]
+fn constants_of_the_cylinder_are_added_to_force_and_flow() {
+    let mut cylinder = declared::<f64>();
+    (cylinder.cylinder.preload, cylinder.cylinder.flow_offset) = (10.0, 2e-6);
+    let hydraulics = cylinder.hydraulics();
+    // 0.765786e-3 m2 times 1 MPa, less 10 N.
+    assert!((cylinder.force(1e6) - 755.786).abs() < 1e-9);
+    for law in LAWS {
+        let (with, without) = (cylinder.flow(law, &hydraulics, 1e-4, 2e6), flow(law, 1e-4, 2e6));
+        assert!((with.load - without.load - 2e-6).abs() < 1e-18 && with.supply == without.supply, "{law:?}");
+    }
+}
+
+#[test]
 fn a_laminar_flow_without_load_is_refused() {
     let mut cylinder = declared::<f64>();
     assert_eq!(cylinder.check("actuator."), Ok(()));

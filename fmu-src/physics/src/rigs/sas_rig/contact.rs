@@ -2,7 +2,7 @@
 
 use strut_model::{Real, Variables};
 
-use crate::effects::{CompressionCurve, Coulomb, LiftOff};
+use crate::effects::{CompressionCurve, Coulomb, LiftOff, with_constant};
 use crate::elements::Tire;
 
 use super::Parameters;
@@ -30,6 +30,9 @@ pub struct WheelTire<R> {
     /// Damping rate (b_t/(R cos(beta - alpha_1)) with b_t = a_2 I_1 in N.s, printed 305.27)
     #[var(unit = N_S_PER_M, start = 1595.557, min = 0.0)]
     pub damping: R,
+    /// Constant force that pushes wheel and eccentric apart
+    #[var(unit = N, start = 0.0, port)]
+    pub preload: R,
     /// Friction
     pub coulomb: Coulomb<R>,
 }
@@ -38,7 +41,7 @@ impl<R: Real> WheelTire<R> {
     /// The force with which it presses on the eccentric.
     #[inline]
     pub fn force(&self, compression: R, thinning: R, lift_off: bool) -> R {
-        let force = self.element().force(compression, thinning, R::from(0.0));
+        let force = self.element().force(compression, thinning, self.preload);
         if !lift_off {
             return force;
         }
@@ -49,13 +52,12 @@ impl<R: Real> WheelTire<R> {
     /// The force at rest.
     #[inline]
     pub fn static_force(&self, compression: R) -> R {
-        self.element().spring().force(compression)
+        with_constant(self.element().spring().force(compression), self.preload)
     }
 
     #[inline]
     fn element(&self) -> Tire<R> {
-        let Self { stiffness, quadratic, damping, coulomb } = *self;
-        let preload = R::from(0.0);
+        let Self { stiffness, quadratic, damping, preload, coulomb } = *self;
         Tire { stiffness, quadratic, damping, preload, coulomb, curve: CompressionCurve::none() }
     }
 }

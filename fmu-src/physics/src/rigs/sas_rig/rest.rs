@@ -4,6 +4,8 @@ use std::f64::consts::PI;
 
 use strut_model::{Real, Variables};
 
+use crate::effects::with_constant;
+
 use super::{Contact, Parameters, SasRig};
 
 /// Static equilibrium.
@@ -69,8 +71,14 @@ impl SasRig {
         let contact = Contact::new(p, wheel, p.rest.eccentric_height);
         let tire = p.tire.static_force(contact.compression) * contact.lever;
         Balance {
-            on_wheel: tire - spring.on_wheel_arm - p.wheel_arm.gravity_moment * contact.cosine,
-            on_body: spring.on_body_arm - p.body_arm.gravity_moment * body.cos(),
+            on_wheel: with_constant(
+                tire - spring.on_wheel_arm - p.wheel_arm.gravity_moment * contact.cosine,
+                p.pivot.preload - p.wheel_arm.load,
+            ),
+            on_body: with_constant(
+                spring.on_body_arm - p.body_arm.gravity_moment * body.cos(),
+                -p.pivot.preload - p.body_arm.load,
+            ),
             // The turning of lever and gravity hardly counts.
             tire_rate: p.tire.stiffness * contact.lever.squared(),
             spring_rates: spring.rates,

@@ -282,6 +282,42 @@ fn a_tyre_that_can_leave_the_eccentric_never_pulls() {
     assert!((rates.wheel_arm.speed - falling).abs() < 1e-6, "{} {falling}", rates.wheel_arm.speed);
 }
 
+/// Changes parameters.
+type Change = fn(&mut Parameters<f64>);
+
+#[test]
+fn constants_act_where_their_equations_say() {
+    let x = [-0.19, 0.3, 0.4, -0.5];
+    let signals = |p: &Parameters<f64>| {
+        let (rates, output) = evaluate(PRINTED, p, x, [0.3, LOWEST, 0.02]);
+        [rates.wheel_arm.speed * 0.2116, rates.body_arm.speed * 1.37, output.tire.force]
+    };
+    let p = parameters();
+    let lever = 0.21 * (0.234_f64 + 0.19).cos();
+    let with: [(Change, [f64; 3]); 4] = [
+        (|p| p.wheel_arm.load = 2.0, [-2.0, 0.0, 0.0]),
+        (|p| p.body_arm.load = 2.0, [0.0, -2.0, 0.0]),
+        (|p| p.pivot.preload = 2.0, [2.0, -2.0, 0.0]),
+        (|p| p.tire.preload = 10.0, [10.0 * lever, 0.0, 10.0]),
+    ];
+    for (put, expected) in with {
+        let mut loaded = p;
+        put(&mut loaded);
+        for ((found, neutral), change) in signals(&loaded).into_iter().zip(signals(&p)).zip(expected) {
+            assert!((found - neutral - change).abs() < 1e-9, "{found} {neutral} {change}");
+        }
+    }
+}
+
+#[test]
+fn with_loads_and_preloads_it_rests_elsewhere() {
+    let mut p = parameters();
+    (p.wheel_arm.load, p.body_arm.load, p.pivot.preload, p.tire.preload) = (-0.5, 1.0, 0.4, 20.0);
+    let x = at_rest(PRINTED, &p);
+    assert!((x[2] - at_rest(PRINTED, &parameters())[2]).abs() > 1e-3);
+    rates(PRINTED, &p, x, IDLE, [LOWEST, 0.0]).iter().for_each(|rate| assert!(rate.abs() < 1e-9, "{rate}"));
+}
+
 /// States around where the arms move.
 fn somewhere() -> impl Strategy<Value = [f64; 4]> {
     [-0.25..-0.1_f64, -1.0..1.0_f64, 0.0..0.9_f64, -3.0..3.0_f64]

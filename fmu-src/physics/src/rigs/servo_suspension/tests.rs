@@ -419,6 +419,33 @@ fn held_for_a_millisecond_it_converges_where_the_actuator_knows_its_load() {
 }
 
 #[test]
+fn constants_act_where_their_equations_say() {
+    let signals = |changes: &[(&str, f64)]| {
+        let p = parameters::<f64>(changes);
+        let x = [0.01, 0.2, 0.005, -0.3, 1e6, 1e-4];
+        let (rates, output) = evaluate(ValveLaw::Nonlinear, &p, x, [1.0, 0.002, 0.1]);
+        let flow = rates.pressure / p.actuator.hydraulics().coefficient;
+        let Output { body, wheel, actuator, .. } = output;
+        [body.acceleration, wheel.acceleration, wheel.force, actuator.force, flow]
+    };
+    let (body, wheel) = (10.0 / 86.0, 10.0 / 11.5);
+    for (port, value, expected) in [
+        ("strut.preload", 10.0, [-body, wheel, 0.0, 0.0, 0.0]),
+        ("guide.preload", 10.0, [-body, 0.0, 0.0, 0.0, 0.0]),
+        ("wheel_guide.preload", 10.0, [0.0, -wheel, 0.0, 0.0, 0.0]),
+        ("tire.preload", 10.0, [0.0, wheel, 10.0, 0.0, 0.0]),
+        ("actuator.cylinder.preload", 10.0, [-body, wheel, 0.0, -10.0, 0.0]),
+        ("actuator.cylinder.flow_offset", 2e-6, [0.0, 0.0, 0.0, 0.0, 2e-6]),
+    ] {
+        let found = signals(&[(port, value)]).into_iter().zip(signals(&[]));
+        for ((found, neutral), change) in found.zip(expected) {
+            let error = (found - neutral - change).abs();
+            assert!(error < 1e-12 * (1.0 + neutral.abs() / 1e-3), "{port}: {found} {neutral} {change}");
+        }
+    }
+}
+
+#[test]
 fn what_cannot_be_is_refused() {
     let error = ServoSuspension { law: ValveLaw::Linear };
     let p = parameters::<f64>(&[("actuator.valve.laminar_pressure", 20e6)]);

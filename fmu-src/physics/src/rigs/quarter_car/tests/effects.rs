@@ -84,6 +84,9 @@ fn guides_act_on_their_own_mass_alone() {
     assert!((acceleration(&p).1 - (neutral.1 + (40.0 * 0.3 + 8.0) / 20.0)).abs() < 1e-9);
 }
 
+/// Changes parameters.
+type Change = fn(&mut Parameters<f64>);
+
 #[test]
 fn constant_forces_act_where_their_equations_say() {
     // In motion and in contact, 100 kg above 20 kg.
@@ -93,7 +96,7 @@ fn constant_forces_act_where_their_equations_say() {
         let (_, output) = evaluate(CAR, p, x, [0.0; 3]);
         [output.body.acceleration, output.wheel.acceleration, output.wheel.force]
     };
-    let with: [(fn(&mut Parameters<f64>), [f64; 3]); 4] = [
+    let with: [(Change, [f64; 3]); 4] = [
         (|p| p.strut.preload = 10.0, [-0.1, 0.5, 0.0]),
         (|p| p.guide.preload = 10.0, [-0.1, 0.0, 0.0]),
         (|p| p.wheel_guide.preload = 10.0, [0.0, -0.5, 0.0]),
