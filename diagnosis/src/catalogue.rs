@@ -102,6 +102,8 @@ pub struct Part {
     pub bounds: (f64, f64),
     /// Values from which it is looked for.
     pub probes: &'static [f64],
+    /// Largest value in the element's typical magnitudes, so that the law acts within the record.
+    pub within: Option<(Scale, f64)>,
     /// Whether it is an amount beside the first parameter's: the law is a sum, of which either may be absent.
     pub addend: bool,
 }
@@ -162,12 +164,17 @@ pub struct Typical {
 
 /// A parameter of a cause.
 const fn part(parameter: &'static str, scale: Scale, bounds: (f64, f64), probes: &'static [f64]) -> Part {
-    Part { parameter, scale, bounds, probes, addend: false }
+    Part { parameter, scale, bounds, probes, within: None, addend: false }
 }
 
 /// A parameter that adds something of its own to what the first one does.
 const fn addend(parameter: &'static str, scale: Scale, bounds: (f64, f64), probes: &'static [f64]) -> Part {
     Part { addend: true, ..part(parameter, scale, bounds, probes) }
+}
+
+/// A parameter of a law that repeats itself, or begins to act, within so many typical magnitudes.
+const fn within(part: Part, scale: Scale, most: f64) -> Part {
+    Part { within: Some((scale, most)), ..part }
 }
 
 /// Every named cause that acts through a plant's parameters.

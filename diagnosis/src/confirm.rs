@@ -8,7 +8,9 @@ use std::collections::BTreeSet;
 
 use rayon::prelude::*;
 
-use crate::estimation::fit::Handle;
+use crate::catalogue::Part;
+use crate::decision::rules::{Amount, CERTAIN, is_determined};
+use crate::estimation::fit::{Handle, Point};
 use crate::estimation::hypothesis::{Fitted, Term, World};
 use crate::estimation::lsq::Stop;
 use crate::explain::selection::Proposal;
@@ -54,20 +56,17 @@ impl World<'_> {
     fn tried(&self, base: &Fitted, null: &Fitted, proposal: &Proposal) -> Tried {
         let mut terms = null.terms.clone();
         terms.push(proposal.term);
-        // From where the smoother is, and from where the fit without the effect is.
+        // From where the fit without the effect is, and from where the smoother is.
         let own = self.own_coordinates(proposal.term);
-        let beside = proposal.starts.iter().map(|start| {
-            let mut point = null.point.clone();
+        let with = |start: &Point, parameters: &[f64]| {
+            let mut point = Point { parameters: parameters.to_vec(), ..null.point.clone() };
             own.iter().for_each(|it| point.set(it.handle, start.get(it.handle)));
             point
-        });
-        let parameters = proposal.starts.iter().map(|start| {
-            let mut point = null.point.clone();
-            point.parameters.clone_from(&start.parameters);
-            own.iter().for_each(|it| point.set(it.handle, start.get(it.handle)));
-            point
-        });
-        let starts: Vec<_> = beside.chain(parameters).collect();
+        };
+        let first = proposal.starts.first();
+        let smoothed = first.map(|start| with(start, &start.parameters));
+        let starts = proposal.starts.iter().map(|start| with(start, &null.point.parameters));
+        let starts: Vec<Point> = starts.chain(smoothed.filter(|_| null.terms.is_empty())).collect();
         let fitted = self.fitted(&terms, &starts, comparing(base, null));
         self.weighed(base, null, proposal.term, fitted)
     }
@@ -85,6 +84,34 @@ impl World<'_> {
         Tried { term, fitted, evidence, score }
     }
 
+    /// How large a term is in a fit, and how sure by the scatter of its blocks.
+    fn amounts(&self, term: Term, fitted: &Fitted, base: &Fitted) -> Vec<Amount> {
+        let covariance = fitted.linear.robust_covariance(&fitted.trace.scores);
+        let half = |index: usize| CERTAIN * covariance[(index, index)].max(0.0).sqrt();
+        let of = |handle: Handle| {
+            let index = fitted.coordinates.iter().position(|it| it.handle == handle)?;
+            let value = fitted.point.get(handle) - base.point.get(handle);
+            Some(Amount { value, bounds: fitted.coordinates[index].bounds, half: half(index) })
+        };
+        self.sizes(term).into_iter().filter_map(of).collect()
+    }
+
+    /// What of a term says how much of it there is; of a curve and of a limit nothing does.
+    pub fn sizes(&self, term: Term) -> Vec<Handle> {
+        let own = self.own_coordinates(term);
+        match term {
+            Term::Cause(cause) => {
+                let adds = |part: &Part| part.addend;
+                let parts =
+                    cause.parts.iter().enumerate().filter(|(number, part)| *number == 0 || adds(part));
+                let index = |(_, part): (usize, &Part)| self.rig.plant.parameter(part.parameter);
+                parts.filter_map(index).map(Handle::Parameter).collect()
+            }
+            Term::Fault(Handle::Input(_, Fault::Limit)) | Term::Table(_) | Term::Response(_) => Vec::new(),
+            Term::Fault(_) => own.into_iter().map(|it| it.handle).collect(),
+        }
+    }
+
     /// Fits what is proposed, the best first.
     pub fn try_all(&self, base: &Fitted, null: &Fitted, proposals: &[Proposal]) -> Vec<Tried> {
         let mut tried: Vec<Tried> = proposals.par_iter().map(|it| self.tried(base, null, it)).collect();
@@ -98,7 +125,10 @@ impl World<'_> {
     /// # Errors
     /// If the model diverges in the close fit.
     pub fn confirmed(&self, base: &Fitted, tried: &[Tried]) -> Result<Option<Confirmed>, String> {
-        let passes = |it: &&Tried| it.fitted.is_ok() && it.evidence.refusal().is_none();
+        let determined = |it: &Tried| {
+            it.fitted.as_ref().is_ok_and(|fitted| is_determined(&self.amounts(it.term, fitted, base)))
+        };
+        let passes = |it: &&Tried| it.evidence.refusal().is_none() && determined(it);
         let passing: Vec<&Tried> = tried.iter().filter(passes).collect();
         let Some(chosen) = self.chosen(base, &passing).cloned() else { return Ok(None) };
         let Ok(fitted) = &chosen.fitted else { return Ok(None) };

@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::confirm::{Accepted, Confirmed, Tried};
 use crate::dataset::recorded::{Recorded, Source};
 use crate::dataset::split::Records;
+use crate::decision::rules::{Amount, is_determined};
 use crate::estimation::fit::{Handle, Point, Residuals};
 use crate::estimation::hypothesis::{Fitted, Term, World};
 use crate::estimation::intervals::Interval;
@@ -12,6 +13,8 @@ use crate::estimation::lsq::Stop;
 use crate::explain::candidates::outputs;
 use crate::explain::describe::{MissingSignal, SMALLEST, Unmodelled};
 use crate::explain::selection::{Choice, Compared, Limits, Score, choose};
+use crate::missing::Missing;
+use crate::missing::locate::Location;
 use crate::plant::Drive;
 use crate::rig::Rig;
 use crate::screening::rms;
@@ -68,6 +71,16 @@ pub struct Found {
     pub tried: Vec<Tried>,
 }
 
+/// What a round of the search has found.
+enum Next {
+    /// An effect with a name.
+    Effect,
+    /// Features without one.
+    Curve(Score),
+    /// Nothing that was recorded explains what is missing, if anything is.
+    Nothing,
+}
+
 /// What is known, and what is looked for.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
@@ -91,9 +104,13 @@ pub fn diagnose<'a>(
     progress("fitting the nominal parameters");
     let (before, base, reversed) = nominal(&mut world)?;
     world.look_at(&base)?;
-    let found = world.identified(base, progress)?;
+    let mut found = world.identified(base, progress)?;
     progress("comparing what each excitation says");
-    let intervals = world.intervals(&found.extended)?;
+    let mut intervals = world.intervals(&found.extended)?;
+    while let Some(doubtful) = world.doubtful(&found, &intervals) {
+        world.drop(&mut found, doubtful)?;
+        intervals = world.intervals(&found.extended)?;
+    }
     Ok(Diagnosis { world, measured: &records.measured, before, found, intervals, reversed })
 }
 
@@ -167,48 +184,116 @@ impl World<'_> {
             }
             progress("comparing what may explain it");
             let candidates = self.candidates(&missing, &signals, &terms);
-            let Some(compared) = self.compared(&missing, candidates, &location.noise()) else { break };
+            let Some(compared) = self.compared(&missing, candidates, &location.background) else { break };
             if found.compared.is_empty() {
                 found.compared = compared.ranking();
             }
-            match choose(&compared.named, &compared.features, Limits::USUAL) {
-                Choice::Nothing => break,
-                Choice::Named(scores) => {
-                    let proposals = compared.proposals(&scores, Limits::USUAL.most);
-                    progress(&format!("fitting {} effects", proposals.len()));
-                    let tried = self.try_all(&found.base, &found.extended, &proposals);
-                    let confirmed = self.confirmed(&found.base, &tried)?;
-                    found.tried.extend(tried);
-                    let Some(Confirmed { accepted, fitted }) = confirmed else { break };
-                    found.accepted.push(accepted);
-                    found.extended = fitted.clone();
-                    found.stages.push(fitted);
+            let named = self.named(&mut found, &compared, progress)?;
+            let goes_on = match named {
+                Next::Effect => true,
+                Next::Curve(score) => self.unmodelled(&mut found, (&missing, &compared), score)?,
+                Next::Nothing => {
+                    let rest = self.remainder(&found.extended, &missing, &location, &compared);
+                    found.unmodelled.extend(rest);
+                    false
                 }
-                Choice::Unmodelled(score) => {
-                    let improvement = self.improvement(&found.extended, score);
-                    if found.unmodelled.len() == PLACES || improvement < SMALLEST {
-                        break;
-                    }
-                    let port =
-                        compared.feature(score.candidate).map(|(port, _)| &missing.setting.ports[port]);
-                    let curve = compared.curve_for(score, port.and_then(|it| it.element));
-                    if let Some((term, own)) = curve
-                        && let Some(Confirmed { accepted, fitted }) =
-                            self.drawn(&mut found, &compared, own)?
-                    {
-                        found.unmodelled.push(Unmodelled::curve(term, own, improvement, &self.rig.plant));
-                        found.accepted.push(accepted);
-                        found.extended = fitted.clone();
-                        found.stages.push(fitted);
-                    } else if let Some(unmodelled) = Unmodelled::of(&missing, &compared, score, improvement) {
-                        found.unmodelled.push(unmodelled);
-                    } else {
-                        break;
-                    }
-                }
+            };
+            if !goes_on {
+                break;
             }
         }
         Ok(found)
+    }
+
+    /// Fits the effects that explain most of what is missing, until one is confirmed.
+    fn named(
+        &self,
+        found: &mut Found,
+        compared: &Compared,
+        progress: &(dyn Fn(&str) + Sync),
+    ) -> Result<Next, String> {
+        let mut names = compared.named.clone();
+        let mut features = &compared.features[..];
+        loop {
+            let scores = match choose(compared.misses, &names, features, Limits::USUAL) {
+                Choice::Nothing => return Ok(Next::Nothing),
+                Choice::Unmodelled(score) => return Ok(Next::Curve(score)),
+                Choice::Named(scores) => scores,
+            };
+            let proposals = compared.proposals(&scores, Limits::USUAL.most);
+            progress(&format!("fitting {} effects", proposals.len()));
+            let tried = self.try_all(&found.base, &found.extended, &proposals);
+            let confirmed = self.confirmed(&found.base, &tried)?;
+            found.tried.extend(tried);
+            if let Some(Confirmed { accepted, fitted }) = confirmed {
+                found.accepted.push(accepted);
+                found.extended = fitted.clone();
+                found.stages.push(fitted);
+                return Ok(Next::Effect);
+            }
+            // What these laws nearly explained is no place without a name.
+            names.retain(|it| !proposals.iter().any(|refused| compared.is_of(it, refused.term)));
+            features = &[];
+        }
+    }
+
+    /// Takes features without a name as explained, as a curve in the model if there is one. Whether to look further.
+    fn unmodelled(
+        &self,
+        found: &mut Found,
+        (missing, compared): (&Missing<'_>, &Compared),
+        score: Score,
+    ) -> Result<bool, String> {
+        let improvement = self.improvement(&found.extended, score.share);
+        if found.unmodelled.len() == PLACES || improvement < SMALLEST {
+            return Ok(false);
+        }
+        let port = compared.feature(score.candidate).map(|(port, _)| &missing.setting.ports[port]);
+        let curve = compared.curve_for(score, port.and_then(|it| it.element));
+        if let Some((term, own)) = curve
+            && let Some(Confirmed { accepted, fitted }) = self.drawn(found, compared, own)?
+        {
+            found.unmodelled.push(Unmodelled::curve(term, own, improvement, &self.rig.plant));
+            found.accepted.push(accepted);
+            found.extended = fitted.clone();
+            found.stages.push(fitted);
+            return Ok(true);
+        }
+        let unmodelled = Unmodelled::of(missing, compared, score, improvement);
+        found.unmodelled.extend(unmodelled.clone());
+        Ok(unmodelled.is_some())
+    }
+
+    /// The last effect whose amount may be nothing by all that is known of it.
+    fn doubtful(&self, found: &Found, intervals: &[Interval]) -> Option<usize> {
+        let amount = |handle: Handle| {
+            let it = intervals.iter().find(|it| it.handle == handle)?;
+            let value = it.value - found.base.point.get(handle);
+            Some(Amount { value, bounds: (f64::NEG_INFINITY, f64::INFINITY), half: it.half })
+        };
+        found.accepted.iter().rposition(|it| {
+            let amounts: Vec<Amount> = self.sizes(it.term).into_iter().filter_map(amount).collect();
+            !is_determined(&amounts)
+        })
+    }
+
+    /// Takes an effect away again.
+    fn drop(&self, found: &mut Found, index: usize) -> Result<(), String> {
+        found.accepted.remove(index);
+        found.stages.truncate(index);
+        let mut last = found.stages.last().unwrap_or(&found.base).clone();
+        for accepted in &found.accepted[index..] {
+            let mut terms = last.terms.clone();
+            terms.push(accepted.term);
+            let mut start = last.point.clone();
+            for own in self.own_coordinates(accepted.term) {
+                start.set(own.handle, found.extended.point.get(own.handle));
+            }
+            last = self.fitted(&terms, &[start], Stop::NOISY)?;
+            found.stages.push(last.clone());
+        }
+        found.extended = last;
+        Ok(())
     }
 
     /// A curve without a name in the model, if the data confirm it.
@@ -224,9 +309,24 @@ impl World<'_> {
         Ok(confirmed)
     }
 
+    /// What is missing although nothing that was recorded explains it.
+    fn remainder(
+        &self,
+        fitted: &Fitted,
+        missing: &Missing<'_>,
+        location: &Location,
+        compared: &Compared,
+    ) -> Option<Unmodelled> {
+        let best = location.ranked.first().filter(|_| compared.misses > 1.0)?;
+        let share = (2.0 * best.gain / compared.left).clamp(0.0, 1.0);
+        let improvement = self.improvement(fitted, share);
+        (improvement >= SMALLEST)
+            .then(|| Unmodelled::remainder(missing, location, best.port, (share, improvement)))
+    }
+
     /// By how much the fit of the worst signal would rise without a share of its error's power.
-    fn improvement(&self, fitted: &Fitted, score: Score) -> f64 {
-        let share = score.share.min(score.validated).clamp(0.0, 1.0);
+    fn improvement(&self, fitted: &Fitted, share: f64) -> f64 {
+        let share = share.clamp(0.0, 1.0);
         let of = |(row, error): (usize, f64)| {
             let values: Vec<f64> = self.train.iter().flat_map(|record| record.bent(row)).collect();
             error / rms(&values).max(f64::MIN_POSITIVE)

@@ -1,6 +1,6 @@
 //! Causes in the guides of drives and in pivots.
 
-use super::{Cause, Element, FRICTION_VELOCITY, Scale, part};
+use super::{Cause, Element, FRICTION_VELOCITY, Scale, part, within};
 
 /// Pole pitches and spindle pitches in m: so close that over a stroke of some periods no phase is lost between two of them.
 const PERIODS: &[f64] = &[
@@ -53,7 +53,8 @@ pub(super) const CAUSES: &[Cause] = &[
         setting: None,
         parts: &[
             part("guide.cogging.force", Scale::FORCE, (0.0, 5.0), &[0.1]),
-            part("guide.cogging.period", Scale::ONE, (2e-3, 0.2), PERIODS),
+            // At least one and a half periods in a stroke of about four root mean squares.
+            within(part("guide.cogging.period", Scale::ONE, (2e-3, 0.2), PERIODS), Scale::DEFLECTION, 2.7),
             part("guide.cogging.phase", Scale::ONE, (-10.0, 10.0), &[0.0, 1.6, 3.1, -1.6]),
         ],
         experiment: "traverse slowly, and draw the force over the position",

@@ -1,4 +1,5 @@
 //! Decisions as pure functions of numbers: no file, no simulation.
 
 pub mod account;
+pub mod rules;
 pub mod verdict;

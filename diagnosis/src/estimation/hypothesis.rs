@@ -284,7 +284,9 @@ impl World<'_> {
                     let (index, unit) = (plant.parameter(part.parameter)?, part.scale.of(&typical));
                     let declared = &plant.parameters[index];
                     let low = (part.bounds.0 * unit).max(declared.min.unwrap_or(f64::NEG_INFINITY));
-                    let high = (part.bounds.1 * unit).min(declared.max.unwrap_or(f64::INFINITY));
+                    let within = part.within.map_or(f64::INFINITY, |(scale, most)| most * scale.of(&typical));
+                    let high = (part.bounds.1 * unit).min(declared.max.unwrap_or(f64::INFINITY)).min(within);
+                    let high = high.max(low);
                     Some(Coordinate { handle: Handle::Parameter(index), bounds: (low, high), prior: None })
                 });
                 parts.collect()

@@ -113,12 +113,12 @@ impl World<'_> {
     pub fn candidates(&self, missing: &Missing<'_>, outputs: &[Signals], explained: &[Term]) -> Candidates {
         let mut all =
             Candidates { columns: vec![Vec::new(); missing.windows.len()], ..Candidates::default() };
-        self.named(missing, explained, &mut all);
+        self.laws(missing, explained, &mut all);
         self.features(missing, outputs, &mut all);
         all
     }
 
-    fn named(&self, missing: &Missing<'_>, explained: &[Term], all: &mut Candidates) {
+    fn laws(&self, missing: &Missing<'_>, explained: &[Term], all: &mut Candidates) {
         let (setting, windows) = (&missing.setting, &missing.windows);
         let terms = self.terms();
         let shapes: Vec<(Term, Probe)> = terms
@@ -160,8 +160,7 @@ impl World<'_> {
                 continue;
             }
             let Some((place, motions)) = motions(self, missing, outputs, number) else { continue };
-            let groups = Group::OF_MOTION.into_iter().chain(commands.iter().map(|it| Group::Command(*it)));
-            for group in groups {
+            for group in Group::all(&commands) {
                 let signals = features(group, &motions, windows);
                 let columns = windows.iter().enumerate().map(|(index, window)| {
                     signals.iter().map(|signal| column(port, place, window, &signal[index])).collect()

@@ -1,18 +1,27 @@
 //! What can be said of a missing signal that no law explains: where, how much of it, on what it depends.
 
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex;
+
 use crate::catalogue::naming::name;
 use crate::estimation::hypothesis::{Term, World};
 use crate::missing::Missing;
-use crate::missing::innovations::Noise;
 use crate::missing::locate::Location;
+use crate::missing::trajectory::Window;
 use crate::plant::{Plant, Signals};
 
 use super::candidates::motions;
-use super::features::{Group, Motion, column, features};
+use super::features::{Group, Motion, RESONANCES, column, features};
 use super::selection::{Compared, Score};
 
-/// Smallest rise of a signal's fit that is worth telling of where no law can be told: what background effects cost.
-pub const SMALLEST: f64 = 0.03;
+/// Smallest rise of a signal's fit that is worth telling of, whether it has a name or not.
+pub const SMALLEST: f64 = 0.015;
+/// Kurtosis beyond which a signal comes in bursts: ten percent of the time hold all of it.
+const BURSTS: f64 = 8.0;
+/// Share of its power that a line has to hold …
+const LINE: f64 = 0.4;
+/// … within so many bins to both sides.
+const WIDTH: usize = 3;
 /// Samples of a missing signal that are shown.
 const SHOWN: usize = 1500;
 
@@ -56,7 +65,10 @@ impl Unmodelled {
             validated: score.validated,
             improvement,
             amount: (amounts.len() == 1).then(|| amounts[0]),
-            frequency: None,
+            frequency: match group {
+                Group::Resonance(number) => Some(RESONANCES[number]),
+                _ => None,
+            },
             curve: None,
         })
     }
@@ -82,11 +94,46 @@ impl Unmodelled {
         }
     }
 
+    /// What follows nothing that was recorded, at its likeliest place: bursts, a line, or neither.
+    pub fn remainder(
+        missing: &Missing<'_>,
+        location: &Location,
+        port: usize,
+        (share, improvement): (f64, f64),
+    ) -> Self {
+        let own = &missing.setting.ports[port];
+        let train = missing.windows.iter().filter(|window| window.record < missing.train);
+        let signals: Vec<(f64, Vec<f64>)> =
+            train.map(|window| (window.step, signal(missing, location, port, window).0)).collect();
+        let frequency = line(&signals);
+        let depends_on = match frequency {
+            Some(_) => vec!["time"],
+            None if kurtosis(&signals) > BURSTS => vec!["bursts"],
+            None => Vec::new(),
+        };
+        Self {
+            place: own.place.clone(),
+            unit: own.unit,
+            features: None,
+            depends_on,
+            share,
+            validated: 0.0,
+            improvement,
+            amount: None,
+            frequency,
+            curve: None,
+        }
+    }
+
     /// What can be said of it in a sentence.
     pub fn description(&self) -> String {
         let what = match (self.depends_on.as_slice(), self.amount) {
             (["acceleration"], Some(amount)) => {
                 format!("a force that follows the acceleration, like an additional mass of {amount:.3} kg")
+            }
+            (["memory"], _) if self.frequency.is_some() => {
+                let frequency = self.frequency.unwrap_or_default();
+                format!("a force that remembers the motion, with a resonance near {frequency:.0} Hz")
             }
             (["bursts"], _) => {
                 "a signal that comes in bursts and follows nothing that was recorded".to_owned()
@@ -130,7 +177,7 @@ fn words(group: Group) -> &'static [&'static str] {
         Group::Deflection => &["deflection"],
         Group::Velocity => &["velocity"],
         Group::Acceleration => &["acceleration"],
-        Group::Memory => &["memory"],
+        Group::Memory | Group::Resonance(_) => &["memory"],
         Group::DeflectionAndVelocity => &["deflection", "velocity"],
         Group::Time => &["time"],
         Group::Command(_) => &["command"],
@@ -165,11 +212,8 @@ impl MissingSignal {
     pub fn of(world: &World<'_>, missing: &Missing<'_>, location: &Location, signals: &[Signals]) -> Self {
         let ports = &missing.setting.ports;
         let Some(best) = location.ranked.first() else { return Self::default() };
-        let noise = location.noise();
         let Some(window) = missing.windows.first() else { return Self::default() };
-        let smoothed =
-            missing.setting.smoothed(window, &noise, &[], &vec![0.0; missing.setting.parameters.len()]);
-        let place = window.states + entered(&noise, best.port);
+        let (value, deviation) = signal(missing, location, best.port, window);
         let motion = motions(world, missing, signals, best.port).and_then(|(_, all)| all.into_iter().next());
         let Motion { deflection, velocity } =
             motion.unwrap_or(Motion { deflection: vec![], velocity: vec![] });
@@ -184,15 +228,69 @@ impl MissingSignal {
             time: thin(
                 (0..window.samples.len()).map(|k| window.step * (window.samples.start + k) as f64).collect(),
             ),
-            value: thin(smoothed.iter().map(|it| it.x[place]).collect()),
-            deviation: thin(smoothed.iter().map(|it| it.variance[place].sqrt()).collect()),
+            value: thin(value),
+            deviation: thin(deviation),
             deflection: thin(deflection),
             velocity: thin(velocity),
         }
     }
 }
 
-/// How many ports before one are in the filter.
-fn entered(noise: &Noise, port: usize) -> usize {
-    noise.ports[..port].iter().filter(|it| **it > 0.0).count()
+/// The missing signal at a port over a window, and its standard deviation.
+fn signal(missing: &Missing<'_>, location: &Location, port: usize, window: &Window) -> (Vec<f64>, Vec<f64>) {
+    let mut noise = location.background.clone();
+    let located = location.ranked.iter().find(|it| it.port == port);
+    noise.ports[port] = noise.ports[port].max(located.map_or(0.0, |it| it.deviation));
+    let before = noise.ports[..port].iter().filter(|it| **it > 0.0).count();
+    let place = window.states + before;
+    let moved = vec![0.0; missing.setting.parameters.len()];
+    let smoothed = missing.setting.smoothed(window, &noise, &[], &moved);
+    (
+        smoothed.iter().map(|it| it.x[place]).collect(),
+        smoothed.iter().map(|it| it.variance[place].sqrt()).collect(),
+    )
+}
+
+/// Fourth moment over the squared second: three for noise, much more where a signal comes in bursts.
+fn kurtosis(signals: &[(f64, Vec<f64>)]) -> f64 {
+    let all = || signals.iter().flat_map(|(_, values)| values.iter());
+    let count = all().count().max(1) as f64;
+    let (two, four) = all().fold((0.0, 0.0), |(two, four), it| (two + it.powi(2), four + it.powi(4)));
+    if two > 0.0 { four * count / (two * two) } else { 0.0 }
+}
+
+/// The frequency in Hz at which a signal has most of its power, if it is a line.
+fn line(signals: &[(f64, Vec<f64>)]) -> Option<f64> {
+    let (step, _) = signals.first()?;
+    let longest = signals.iter().map(|(_, values)| values.len()).max()?;
+    let (mut power, mut planner) = (vec![0.0; longest / 2], FftPlanner::new());
+    let resolution = 1.0 / (step * longest as f64);
+    for (_, values) in signals {
+        let mut bins: Vec<Complex<f64>> = values.iter().map(|it| Complex::from(*it)).collect();
+        bins.resize(longest, Complex::from(0.0));
+        planner.plan_fft_forward(longest).process(&mut bins);
+        power.iter_mut().zip(&bins).skip(1).for_each(|(power, bin)| *power += bin.norm_sqr());
+    }
+    let total: f64 = power.iter().sum();
+    let best = (1..power.len()).max_by(|a, b| power[*a].total_cmp(&power[*b]))?;
+    let near = power[best.saturating_sub(WIDTH)..(best + WIDTH + 1).min(power.len())].iter().sum::<f64>();
+    (near > LINE * total).then_some(best as f64 * resolution)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn signal(of: impl Fn(f64) -> f64) -> Vec<(f64, Vec<f64>)> {
+        vec![(0.01, (0..1000).map(|k| of(0.01 * f64::from(k))).collect())]
+    }
+
+    #[test]
+    fn a_sine_is_a_line_and_bursts_are_none() {
+        let sine = signal(|t| (2.0 * std::f64::consts::PI * 7.3 * t + 1.0).sin());
+        assert!((line(&sine).unwrap() - 7.3).abs() < 0.1);
+        assert!((kurtosis(&sine) - 1.5).abs() < 0.01);
+        let bursts = signal(|t| if t.fract() < 0.05 { 1.0 } else { 0.0 });
+        assert!(line(&bursts).is_none() && kurtosis(&bursts) > BURSTS);
+    }
 }

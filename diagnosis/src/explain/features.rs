@@ -9,6 +9,10 @@ use crate::missing::trajectory::Window;
 const KNOTS: usize = 9;
 /// Time constants of memories in seconds.
 const MEMORIES: [f64; 5] = [0.003, 0.01, 0.03, 0.1, 0.3];
+/// Frequencies of oscillators in Hz, half an octave apart.
+pub const RESONANCES: [f64; 8] = [2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0, 22.0];
+/// Damping ratio of these oscillators: as wide as the steps between them.
+const DAMPING: f64 = 0.15;
 /// Shares of a velocity's root mean square within which friction turns over.
 const TURNS: [f64; 3] = [0.02, 0.1, 0.3];
 
@@ -23,6 +27,8 @@ pub enum Group {
     Acceleration,
     /// What remembers the velocity for some time.
     Memory,
+    /// An oscillator that the motion drives, by its frequency's place among [`RESONANCES`].
+    Resonance(usize),
     /// Products of deflection and velocity.
     DeflectionAndVelocity,
     /// Laws whose size grows or falls with time.
@@ -32,8 +38,15 @@ pub enum Group {
 }
 
 impl Group {
+    /// All of a port.
+    pub fn all(commands: &[usize]) -> Vec<Self> {
+        let resonances = (0..RESONANCES.len()).map(Self::Resonance);
+        let commands = commands.iter().map(|it| Self::Command(*it));
+        Self::OF_MOTION.into_iter().chain(resonances).chain(commands).collect()
+    }
+
     /// Those of a port's own motion and of time.
-    pub const OF_MOTION: [Self; 6] = [
+    const OF_MOTION: [Self; 6] = [
         Self::Deflection,
         Self::Velocity,
         Self::Acceleration,
@@ -73,6 +86,14 @@ pub fn features(group: Group, motions: &[Motion], windows: &[Window]) -> Vec<Vec
             .iter()
             .map(|time| v.iter().zip(windows).map(|(v, window)| relaxed(v, *time, window.step)).collect())
             .collect(),
+        Group::Resonance(number) => {
+            let both: Vec<[Vec<f64>; 2]> = v
+                .iter()
+                .zip(windows)
+                .map(|(v, window)| resonance(v, RESONANCES[number], window.step))
+                .collect();
+            (0..2).map(|part| both.iter().map(|it| it[part].clone()).collect()).collect()
+        }
         Group::DeflectionAndVelocity => {
             let (width, fast) = (size(&x), 0.1 * size(&v));
             vec![
@@ -186,4 +207,20 @@ fn relaxed(velocity: &[f64], time: f64, step: f64) -> Vec<f64> {
             y
         })
         .collect()
+}
+
+/// `y'' + 2 ζ ω y' + ω² y = −v'`: an oscillator's restoring and damping force per mass, `ω² y` and `2 ζ ω y'`.
+fn resonance(velocity: &[f64], frequency: f64, step: f64) -> [Vec<f64>; 2] {
+    let omega = 2.0 * std::f64::consts::PI * frequency;
+    let (mut y, mut rate, mut before) = (0.0, 0.0, velocity.first().copied().unwrap_or_default());
+    let (mut restoring, mut damping) = (Vec::new(), Vec::new());
+    for v in velocity {
+        // Semi-implicit: stable as long as a period has some samples.
+        rate -= (v - before) + step * (omega * omega * y + 2.0 * DAMPING * omega * rate);
+        y += step * rate;
+        before = *v;
+        restoring.push(omega * omega * y);
+        damping.push(2.0 * DAMPING * omega * rate);
+    }
+    [restoring, damping]
 }

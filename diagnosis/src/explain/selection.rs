@@ -62,11 +62,15 @@ impl Limits {
     /// The numbers with their reasons: a twentieth is what background effects make; a law in a rough shape comes within a
     /// third of a free curve through the same data; what explains half as much may be better once it is fitted; another
     /// excitation may show a quarter of it.
-    pub const USUAL: Self = Self { smallest: 0.04, nearly: 0.65, rival: 0.4, confirmed: 0.25, most: 7 };
+    pub const USUAL: Self = Self { smallest: 0.04, nearly: 0.65, rival: 0.5, confirmed: 0.25, most: 6 };
 }
 
-/// Chooses by scores alone; `named` and `features` in any order.
-pub fn choose(named: &[Score], features: &[Score], limits: Limits) -> Choice {
+/// Chooses by scores alone; `misses` is the innovations' mean square in units of the sensors' accuracy, `named` and `features`
+/// are in any order.
+pub fn choose(misses: f64, named: &[Score], features: &[Score], limits: Limits) -> Choice {
+    if misses < 1.0 {
+        return Choice::Nothing;
+    }
     let best = |all: &[Score]| {
         let holds = all.iter().filter(|it| it.is_confirmed(limits)).copied();
         holds.max_by(|a, b| a.share.total_cmp(&b.share))
@@ -106,6 +110,10 @@ pub struct Proposal {
 pub struct Compared {
     /// All candidates.
     pub candidates: Candidates,
+    /// Mean square of the innovations: above one, the sensors' accuracy is exceeded.
+    pub misses: f64,
+    /// Sum of squares that is left of the estimation records.
+    pub left: f64,
     /// Those with a name.
     pub named: Vec<Score>,
     /// Groups of features.
@@ -125,6 +133,12 @@ impl World<'_> {
         let train = Sums::of(blocks.iter().filter(of(true)))?;
         let test = Sums::of(blocks.iter().filter(of(false)));
         let before = train.fitted(&own, &missing.precisions)?;
+        // What is missing beyond measurement noise.
+        let excess = |left: f64, count: usize| {
+            let noise = missing.setting.quiet * count as f64;
+            (left - noise).max(f64::MIN_POSITIVE)
+        };
+        let misses = before.left / (train.count as f64).max(1.0);
         let held_out = test.as_ref().and_then(|sums| Some((sums, sums.fitted(&own, &missing.precisions)?)));
         let (mut named, mut features) = (Vec::new(), Vec::new());
         let (mut all_amounts, mut points) = (Vec::new(), Vec::new());
@@ -142,9 +156,11 @@ impl World<'_> {
             let chance = (candidate.columns.len() as f64) * (train.count as f64).ln();
             let gain = before.left - fitted.left - chance;
             let validated = held_out.as_ref().map_or(0.0, |(sums, before)| {
-                (before.left - with_amounts(sums, missing, &columns, &fitted)) / before.left
+                (before.left - with_amounts(sums, missing, &columns, &fitted))
+                    / excess(before.left, sums.count)
             });
-            let mut score = Score { candidate: number, share: gain / before.left, validated };
+            let mut score =
+                Score { candidate: number, share: gain / excess(before.left, train.count), validated };
             match &candidate.kind {
                 Kind::Named { term, probe } => {
                     let amounts = DVector::from_vec(amounts);
@@ -161,7 +177,15 @@ impl World<'_> {
                 Kind::Feature { .. } => features.push(score),
             }
         }
-        Some(Compared { candidates, named, features, amounts: all_amounts, points })
+        Some(Compared {
+            candidates,
+            misses,
+            left: before.left,
+            named,
+            features,
+            amounts: all_amounts,
+            points,
+        })
     }
 }
 
@@ -253,6 +277,11 @@ impl Compared {
         range.map(|column| self.candidates.columns.iter().map(|all| all[column].clone()).collect()).collect()
     }
 
+    /// Whether a score is that of a term, in any shape.
+    pub fn is_of(&self, score: &Score, term: Term) -> bool {
+        matches!(self.candidates.list[score.candidate].kind, Kind::Named { term: own, .. } if own == term)
+    }
+
     /// Port and group of features.
     pub fn feature(&self, candidate: usize) -> Option<(usize, Group)> {
         match self.candidates.list[candidate].kind {
@@ -300,7 +329,7 @@ mod tests {
     fn a_name_that_explains_nearly_what_free_features_do_is_fitted_with_its_rivals() {
         let named = [score(0, 0.3, 0.2), score(1, 0.5, 0.4), score(2, 0.05, 0.01)];
         let features = [score(3, 0.6, 0.5)];
-        let Choice::Named(tried) = choose(&named, &features, Limits::USUAL) else { panic!("a name") };
+        let Choice::Named(tried) = choose(2.0, &named, &features, Limits::USUAL) else { panic!("a name") };
         assert_eq!(tried.iter().map(|it| it.candidate).collect::<Vec<_>>(), [1, 0]);
     }
 
@@ -308,12 +337,20 @@ mod tests {
     fn what_no_name_explains_is_unmodelled() {
         let named = [score(0, 0.2, 0.2)];
         let features = [score(1, 0.6, 0.5), score(2, 0.7, -0.1)];
-        assert_eq!(choose(&named, &features, Limits::USUAL), Choice::Unmodelled(features[0]));
+        assert_eq!(choose(2.0, &named, &features, Limits::USUAL), Choice::Unmodelled(features[0]));
+    }
+
+    #[test]
+    fn what_is_within_the_sensors_accuracy_is_nothing() {
+        assert_eq!(choose(0.9, &[score(0, 0.9, 0.9)], &[], Limits::USUAL), Choice::Nothing);
     }
 
     #[test]
     fn background_and_what_the_validation_records_deny_is_nothing() {
-        assert_eq!(choose(&[score(0, 0.03, 0.03)], &[score(1, 0.02, 0.1)], Limits::USUAL), Choice::Nothing);
-        assert_eq!(choose(&[score(0, 0.5, -0.2)], &[], Limits::USUAL), Choice::Nothing);
+        assert_eq!(
+            choose(2.0, &[score(0, 0.03, 0.03)], &[score(1, 0.02, 0.1)], Limits::USUAL),
+            Choice::Nothing
+        );
+        assert_eq!(choose(2.0, &[score(0, 0.5, -0.2)], &[], Limits::USUAL), Choice::Nothing);
     }
 }

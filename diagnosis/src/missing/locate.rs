@@ -7,7 +7,7 @@ use super::likelihood::Sums;
 /// Shares of a port's size that are tried as the standard deviation of what is missing there.
 const SHARES: [f64; 3] = [0.1, 0.3, 1.0];
 /// Shares of every port's size that are tried as what every rig lacks a little of.
-const BACKGROUND: [f64; 4] = [3e-3, 1e-2, 3e-2, 1e-1];
+const BACKGROUND: [f64; 3] = [3e-3, 1e-2, 3e-2];
 
 /// How likely it is that a signal is missing at a port.
 #[derive(Clone, Debug)]
@@ -29,17 +29,6 @@ pub struct Location {
     pub log_likelihood: f64,
     /// Every port.
     pub ranked: Vec<Located>,
-}
-
-impl Location {
-    /// What is missing at the likeliest port beside what every rig lacks.
-    pub fn noise(&self) -> Noise {
-        let mut noise = self.background.clone();
-        if let Some(best) = self.ranked.first().filter(|it| it.gain > 0.0) {
-            noise.ports[best.port] = best.deviation;
-        }
-        noise
-    }
 }
 
 impl Missing<'_> {

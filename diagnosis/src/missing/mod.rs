@@ -65,6 +65,8 @@ pub struct Frame {
     /// Whether nominal parameters start from the data sheet, far off perhaps.
     fresh: bool,
     dynamics: Box<dyn Dynamics>,
+    /// Laws that were found, each with the model that has it.
+    laws: Vec<(Term, Box<dyn Dynamics>, Point)>,
     ports: Vec<Port>,
     parameters: Vec<usize>,
     nominal: Vec<f64>,
@@ -92,22 +94,33 @@ impl World<'_> {
                 }
             }
         }
-        let mut parameters = self.rig.base();
-        for coordinate in found.iter().flat_map(|term| self.own_coordinates(*term)) {
-            if let Handle::Parameter(index) = coordinate.handle
-                && !parameters.contains(&index)
-            {
-                parameters.push(index);
-            }
+        // Laws act beside the model, along the trajectory: friction inside a prediction would stick where the rig does not.
+        let mut laws = Vec::new();
+        for term in found.iter().filter(|term| matches!(term, Term::Cause(_) | Term::Table(_))) {
+            laws.push((
+                *term,
+                self.own_coordinates(*term).into_iter().map(|it| it.handle).collect::<Vec<_>>(),
+            ));
         }
+        let fitted = point.clone();
+        for handle in laws.iter().flat_map(|(_, handles)| handles) {
+            point.set(*handle, self.origin().get(*handle));
+        }
+        let with = |(term, handles): (Term, Vec<Handle>)| {
+            let mut point = point.clone();
+            handles.iter().for_each(|handle| point.set(*handle, fitted.get(*handle)));
+            Ok((term, self.dynamics(&[term])?, point))
+        };
+        let laws = laws.into_iter().map(with).collect::<Result<Vec<_>, String>>()?;
         let states = self.rig.plant.states.iter();
         Ok(Frame {
             records,
             point,
             fresh: found.is_empty(),
-            dynamics: self.dynamics(found)?,
+            dynamics: self.dynamics(&[])?,
+            laws,
             ports: Port::all(self.rig, record),
-            parameters,
+            parameters: self.rig.base(),
             nominal: states.map(|it| it.nominal.unwrap_or(1.0)).collect(),
         })
     }
@@ -148,7 +161,15 @@ impl World<'_> {
             round += 1;
             if round > rounds {
                 let train = self.train.len();
-                return Ok(Missing { records, train, setting, windows, precisions });
+                let mut missing = Missing { records, train, setting, windows, precisions };
+                for (term, dynamics, point) in &frame.laws {
+                    let of = |window: &Window| {
+                        missing.setting.changed((records, window), (*term, &**dynamics), point)
+                    };
+                    let columns: Option<Vec<Column>> = missing.windows.iter().map(of).collect();
+                    missing.explain(columns.into_iter());
+                }
+                return Ok(missing);
             }
             let ports = setting.sizes.iter().zip(&frame.ports).enumerate().map(|(number, (size, port))| {
                 if port.is_sensor() || setting.ties[number] != number { 0.0 } else { LOOSE * size }

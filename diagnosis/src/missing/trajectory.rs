@@ -42,6 +42,9 @@ pub struct Setting<'a> {
     pub sizes: Vec<f64>,
     /// Variance of each measured output's noise.
     pub noise: Vec<f64>,
+    /// Mean square of a whitened innovation where nothing but measurement noise is left: less than one, as no sensor is
+    /// believed beyond its accuracy.
+    pub quiet: f64,
 }
 
 /// The model's one-sample predictions about a trajectory over a stretch of a record.
@@ -103,12 +106,11 @@ impl<'a> Setting<'a> {
         dynamics.followed(&point.parameters, start, &drive, (&seeds, &wanted), &mut look);
         let active = look.active(states);
         let magnitudes: Vec<f64> = (0..wanted.len()).map(|row| magnitude(records, row)).collect();
-        let noise = (0..wanted.len())
-            .map(|row| {
-                let floor = records.iter().map(|it| it.measured[row].noise_floor).fold(0.0, f64::max);
-                floor.powi(2) + (ACCURACY * magnitudes[row]).powi(2)
-            })
-            .collect();
+        let floor = |row: usize| records.iter().map(|it| it.measured[row].noise_floor).fold(0.0, f64::max);
+        let noise: Vec<f64> =
+            (0..wanted.len()).map(|row| floor(row).powi(2) + (ACCURACY * magnitudes[row]).powi(2)).collect();
+        let shares = noise.iter().enumerate().map(|(row, noise)| floor(row).powi(2) / noise);
+        let quiet = shares.sum::<f64>() / noise.len().max(1) as f64;
         let mut column = states;
         let columns: Vec<Option<usize>> = ports
             .iter()
@@ -135,7 +137,7 @@ impl<'a> Setting<'a> {
             })
             .collect();
         let point = point.clone();
-        Self { dynamics, point, ports, parameters, nominal, active, ties, sizes, noise }
+        Self { dynamics, point, ports, parameters, nominal, active, ties, sizes, noise, quiet }
     }
 
     /// The ports of the plant.

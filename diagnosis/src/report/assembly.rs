@@ -50,8 +50,11 @@ impl Diagnosis<'_> {
         let base_parameters = self.base_parameters();
         let named: Vec<&Accepted> = self.found.accepted.iter().filter(|it| !has_no_name(it.term)).collect();
         let effects: Vec<Effect> = named.iter().map(|it| self.effect(it)).collect();
-        let unmodelled = self.unmodelled();
+        let mut unmodelled = self.unmodelled();
         let account = self.account(unmodelled.first().map_or(0.0, |it| it.share));
+        // What follows nothing is worth a word where a signal misses more than its noise.
+        let open = account.iter().any(|it| it.open);
+        unmodelled.retain(|it| open || it.validated > 0.0);
         let verdict = verdict(Facts {
             best_fit: self.best(),
             effects: effects.len(),
@@ -60,7 +63,7 @@ impl Diagnosis<'_> {
             unmodelled: unmodelled.first().map_or(0.0, |it| it.share),
             unmodelled_first: self.found.accepted.first().is_none_or(|it| has_no_name(it.term)),
             mismatch: base_parameters.iter().any(|it| it.mismatch),
-            open: account.iter().any(|it| it.open),
+            open,
         });
         let experiment = effects.iter().find_map(|effect| effect.experiment.clone());
         let mut findings = Findings {

@@ -174,7 +174,7 @@ impl Evidence {
     };
 
     /// The same of what every rig has a little of.
-    pub const REQUIRED_OF_USUAL: Self = Self { phi_gain: 0.08, taken: 0.8, usual: true, ..Self::REQUIRED };
+    pub const REQUIRED_OF_USUAL: Self = Self { phi_gain: 0.03, usual: true, ..Self::REQUIRED };
 
     /// What has to be exceeded here.
     pub fn required(&self) -> Self {

@@ -11,6 +11,9 @@ use super::rms;
 /// Relative errors of a sampling rate from which they are looked for.
 const RATES: &[f64] = &[1e-4, 1e-3, -1e-3, 3e-3, -3e-3, 6e-3, -6e-3, 1e-2, -1e-2];
 
+/// Delays and time constants in seconds from which they are looked for: a signal with edges shows a late one only nearby.
+const TIMES: &[f64] = &[1e-3, 3e-3, 8e-3];
+
 /// Shares of the largest command at which its limit is looked for.
 const LIMITS: &[f64] = &[0.5, 0.7, 0.85];
 
@@ -54,6 +57,10 @@ impl World<'_> {
                         let largest = self.largest(input);
                         LIMITS.iter().map(|share| probe(share * largest)).collect()
                     }
+                    Handle::Input(_, Fault::Delay | Fault::Lag)
+                    | Handle::Output(_, Fault::Delay | Fault::Lag) => {
+                        TIMES.iter().map(|time| probe(*time)).collect()
+                    }
                     _ => vec![probe(self.typical_fault(handle))],
                 }
             }
@@ -88,7 +95,9 @@ impl World<'_> {
             } else {
                 let declared = &self.rig.plant.parameters[index];
                 let (low, high) = (declared.min.unwrap_or(f64::MIN), declared.max.unwrap_or(f64::MAX));
-                part.probes.iter().map(|probe| (probe * part.scale.of(&typical)).clamp(low, high)).collect()
+                let within = part.within.map_or(f64::INFINITY, |(scale, most)| most * scale.of(&typical));
+                let values = part.probes.iter().map(|probe| probe * part.scale.of(&typical));
+                values.filter(|value| *value <= within).map(|value| value.clamp(low, high)).collect()
             };
             points = points
                 .iter()

@@ -1,0 +1,60 @@
+//! Rules that hold whatever the method: nothing is identified whose interval holds zero or that stands at a bound.
+
+/// Standard deviations from nothing within which an amount may be nothing.
+pub const CERTAIN: f64 = 2.0;
+
+/// How large an effect is, and how sure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Amount {
+    /// Its value, in the parameter's unit, beyond that of the model without it.
+    pub value: f64,
+    /// Lower and upper end of what is possible.
+    pub bounds: (f64, f64),
+    /// Half the interval in which it is.
+    pub half: f64,
+}
+
+impl Amount {
+    /// Whether it is something, and not as much as may be.
+    pub fn is_determined(&self) -> bool {
+        let (low, high) = self.bounds;
+        let inside = (self.value > low || low == 0.0) && self.value < high;
+        inside && self.value.is_finite() && self.value.abs() > self.half
+    }
+}
+
+/// Whether an effect is determined by its amounts: a sum is, if one of its addends is.
+pub fn is_determined(amounts: &[Amount]) -> bool {
+    amounts.is_empty() || amounts.iter().any(Amount::is_determined)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn what_may_be_nothing_or_stands_at_a_bound_is_not_determined(
+            value in -10.0..10.0_f64, half in 0.0..20.0_f64, bound in 0.1..20.0_f64,
+        ) {
+            let amount = Amount { value, bounds: (-bound, bound), half };
+            if amount.is_determined() {
+                prop_assert!(value - half > 0.0 || value + half < 0.0);
+                prop_assert!(value > -bound && value < bound);
+            }
+            let free = Amount { bounds: (f64::NEG_INFINITY, f64::INFINITY), ..amount };
+            prop_assert_eq!(free.is_determined(), value.abs() > half);
+            prop_assert!(!Amount { half: f64::INFINITY, ..free }.is_determined());
+        }
+    }
+
+    #[test]
+    fn a_sum_is_determined_by_one_of_its_addends() {
+        let sure = Amount { value: 2.0, bounds: (-5.0, 5.0), half: 1.0 };
+        let unsure = Amount { half: 3.0, ..sure };
+        assert!(is_determined(&[unsure, sure]) && !is_determined(&[unsure, unsure]));
+        // A choice of the model has no amount.
+        assert!(is_determined(&[]));
+    }
+}
