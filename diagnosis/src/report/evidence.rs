@@ -7,7 +7,7 @@ const VALIDATION: &str = "Validation";
 const ESTIMATION: &str = "Estimation";
 const P_VALUE: &str = "p-value";
 const EXPLAINED: &str = "Variance explained";
-const IMPROVEMENT: &str = "Smallest improvement of interest";
+const IMPROVEMENT: &str = "Improvement";
 
 /// One test.
 pub struct Gate {
@@ -42,7 +42,7 @@ pub fn gates(evidence: &Evidence) -> [Gate; 6] {
         name,
         meaning,
         found: print(found),
-        required: format!("> {}", print(required)),
+        required: format!("> {}", limit(required, print)),
         passed: found > required,
         waived: waived(name),
     };
@@ -65,7 +65,7 @@ pub fn gates(evidence: &Evidence) -> [Gate; 6] {
             name: P_VALUE,
             meaning: "probability that the best candidate improves the fit this consistently by chance",
             found: number(evidence.chance),
-            required: format!("< {}", number(limits.chance)),
+            required: format!("< {}", limits.chance),
             passed: evidence.chance < limits.chance,
             waived: waived(P_VALUE),
         },
@@ -84,13 +84,18 @@ pub fn gates(evidence: &Evidence) -> [Gate; 6] {
             percent,
         ),
         if evidence.phi_gain <= limits.phi_gain && evidence.taken > limits.taken {
-            let what = "residual reduction (partial R²), the lower of both data sets";
+            let what = "residual reduction (partial R²); limit: smallest improvement of interest";
             gate(IMPROVEMENT, what, evidence.taken, limits.taken, percent)
         } else {
-            let what = "largest rise of a signal’s fit, the lower of both data sets";
+            let what = "largest rise of a signal’s fit; limit: smallest improvement of interest";
             gate(IMPROVEMENT, what, evidence.phi_gain, limits.phi_gain, number)
         },
     ]
+}
+
+/// A limit as it was set, without the digits of a result.
+fn limit(value: f64, print: fn(f64) -> String) -> String {
+    if print(value).ends_with('%') { print(value).replace(".0 %", " %") } else { value.to_string() }
 }
 
 /// Why the effect is believed, in sentences.

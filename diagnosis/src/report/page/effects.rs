@@ -65,10 +65,10 @@ fn alternatives(findings: &Findings, effect: &Effect) -> Markup {
     let experiment = effect.experiment.as_ref().filter(|text| Some(*text) != findings.experiment.as_ref());
     html! {
         @if effect.ambiguous_with.is_empty() {
-            p.alternatives { strong { "Alternatives: " } "none. These data tell every other effect of the catalogue from it." }
+            p.alternatives { strong { "Alternatives: " } "no other effect of the catalogue fits these data as well." }
         } @else {
             div.alternatives {
-                p { strong { "Alternatives" } " that these data cannot tell from it:" }
+                p { strong { "Alternatives" } " that fit these data as well:" }
                 ul { @for key in &effect.ambiguous_with { li { (capitalised(&effect_name(findings, key))) } } }
             }
         }

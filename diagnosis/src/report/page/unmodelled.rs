@@ -35,7 +35,7 @@ fn entry(it: &Unmodelled) -> Markup {
                 }
             }
             @if let Some(curve) = it.curve.as_ref().filter(|curve| !curve.x.is_empty()) {
-                figure {
+                figure.wide {
                     figcaption { (caption(curve)) }
                     (pictures::curve(curve))
                 }
