@@ -116,7 +116,7 @@ fn bar(findings: &Findings, account: &SignalAccount) -> Markup {
                             title=(format!("{}: {}", part.name, percent(part.share))) {
                             @if *width >= NUMBER {
                                 strong {
-                                    @if let Some(rank) = part.rank.filter(|_| *width >= RANK) { (rank) ": " }
+                                    @if let Some(rank) = part.rank.filter(|_| *width >= RANK) { span.nth { (rank) ": " } }
                                     (percent(part.share))
                                 }
                             }
