@@ -135,7 +135,7 @@ impl Lines {
             self.wrapped(
                 "  ",
                 &format!(
-                    "explains {} of the missing signal on the estimation data, {} on the validation data",
+                    "covers {} of the missing signal on the estimation data, {} on the validation data",
                     percent(it.share),
                     percent(it.validated)
                 ),

@@ -29,8 +29,8 @@ fn open(findings: &Findings) -> Option<String> {
     let first = all.first()?.sentence();
     Some(match all.len() - 1 {
         0 => first,
-        1 => format!("{first} So is part of {}.", all[1].signal),
-        more => format!("{first} So are parts of {}.", count(more, "other signal")),
+        1 => format!("{first} Part of {} is unexplained, too.", all[1].signal),
+        more => format!("{first} Parts of {} are unexplained, too.", count(more, "other signal")),
     })
 }
 
@@ -67,11 +67,11 @@ fn unmodelled(findings: &Findings) -> Option<String> {
     let first = findings.verdict == Verdict::Unmodelled;
     let of = |(index, it): (usize, &Unmodelled)| {
         let what = match index {
-            0 if first => "This signal".to_owned(),
-            _ => format!("The model also lacks {}. This signal", it.description),
+            0 if first => "The description".to_owned(),
+            _ => format!("The model also lacks {}. This description", it.description),
         };
         format!(
-            "{what} explains {} of the missing signal on the estimation data and {} on the validation data.",
+            "{what} covers {} of the missing signal on the estimation data and {} on the validation data.",
             percent(it.share),
             percent(it.validated)
         )
@@ -124,7 +124,7 @@ fn noisy(findings: &Findings) -> Option<String> {
     let most = findings.signals.iter().max_by(|a, b| cost(a).total_cmp(&cost(b)))?;
     (cost(most) > NOISY && findings.verdict != Verdict::ModelInadequate).then(|| {
         format!(
-            "Noise of the measured inputs lowers this fit. Without that noise, the fit of {} is {}.",
+            "Noise of the measured inputs lowers the fit. Without that noise, the fit of {} is {}.",
             most.name,
             fit(most.phi_quiet, 2)
         )
@@ -177,7 +177,7 @@ mod tests {
         let first =
             "40 % of body.acceleration is still unexplained on the validation data (20 × sensor noise).";
         assert!(text.starts_with(first), "{text}");
-        assert!(text.contains("So is part of wheel.acceleration."), "{text}");
+        assert!(text.contains("Part of wheel.acceleration is unexplained, too."), "{text}");
         found.account.iter_mut().for_each(|it| it.open = false);
         assert!(!of(&found).contains("unexplained"), "{}", of(&found));
     }
@@ -212,7 +212,7 @@ mod tests {
             ..Unmodelled::default()
         };
         let text = of(&Findings { unmodelled: vec![it.clone(), it], ..findings(Verdict::Unmodelled) });
-        assert!(text.starts_with("This signal explains 88 % of the missing signal"), "{text}");
+        assert!(text.starts_with("The description covers 88 % of the missing signal"), "{text}");
         assert!(text.contains("The model also lacks a signal that follows"), "{text}");
     }
 }

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::pictures;
 use crate::report::findings::{Curve, Findings, Unmodelled};
-use crate::report::words::{capitalised, digits, labelled, list, number, percent, place};
+use crate::report::words::{capitalised, digits, fit, labelled, list, percent, place};
 
 /// All of them, the largest first.
 pub fn section(findings: &Findings) -> Markup {
@@ -27,7 +27,7 @@ fn entry(it: &Unmodelled) -> Markup {
             dl.facts {
                 div { dt { "Estimation data" } dd { (percent(it.share)) } }
                 div { dt { "Validation data" } dd { (percent(it.validated)) } }
-                div { dt { "Possible rise of the fit" } dd { (number(it.improvement)) } }
+                div { dt { "Possible rise of the fit" } dd { (fit(it.improvement, 2)) } }
                 @if let Some(frequency) = it.frequency { div { dt { "Frequency" } dd { (digits(frequency, 3)) " Hz" } } }
                 div {
                     dt { "Depends on" }
