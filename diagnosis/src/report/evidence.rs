@@ -1,40 +1,40 @@
-//! The gates that an effect has to pass, and what they say in words.
+//! The tests that an effect has to pass, and the evidence in words.
 
 use super::words::{number, percent};
 use crate::report::findings::Evidence;
 
-const HELD_OUT: &str = "Held-out data";
-const TRAINING: &str = "Training data";
-const CHANCE: &str = "Chance";
-const SIZE: &str = "Size";
-const RELEVANCE: &str = "Relevance";
+const VALIDATION: &str = "Validation";
+const ESTIMATION: &str = "Estimation";
+const P_VALUE: &str = "p-value";
+const EXPLAINED: &str = "Variance explained";
+const IMPROVEMENT: &str = "Improvement";
 
-/// One gate.
+/// One test.
 pub struct Gate {
-    /// What is looked at.
+    /// Its name.
     pub name: &'static str,
-    /// What it says.
+    /// What it measures.
     pub meaning: &'static str,
-    /// What was found.
+    /// The result.
     pub found: String,
-    /// What is required.
+    /// The limit.
     pub required: String,
-    /// Whether that is exceeded.
+    /// Whether the result is beyond the limit.
     pub passed: bool,
-    /// Why it need not be, if so.
+    /// Why the limit does not apply, if so.
     pub waived: Option<&'static str>,
 }
 
-/// All gates.
+/// All tests.
 pub fn gates(evidence: &Evidence) -> [Gate; 6] {
     let limits = evidence.required();
     let waived = |name: &str| match name {
-        HELD_OUT if evidence.is_no_chance() => Some("so much of the error goes that it is no chance"),
-        TRAINING | CHANCE if evidence.is_steady_enough() => {
-            Some("most of the error goes, so that its gain is as uneven")
+        VALIDATION if evidence.is_no_chance() => Some("the residual reduction is too large for chance"),
+        ESTIMATION | P_VALUE if evidence.is_steady_enough() => {
+            Some("the effect removes most of the error; its improvement varies as the error does")
         }
-        SIZE | RELEVANCE if evidence.grave => {
-            Some("a signal that is so late matters, however little the errors show it")
+        EXPLAINED | IMPROVEMENT if evidence.grave => {
+            Some("a delay of this size matters, even with small errors")
         }
         _ => None,
     };
@@ -42,32 +42,32 @@ pub fn gates(evidence: &Evidence) -> [Gate; 6] {
         name,
         meaning,
         found: print(found),
-        required: format!("> {}", print(required)),
+        required: format!("> {}", limit(required, print)),
         passed: found > required,
         waived: waived(name),
     };
     [
         gate(
-            HELD_OUT,
-            "t of the gain over blocks of another excitation",
+            VALIDATION,
+            "t of the improvement over blocks of the validation data",
             evidence.held_out_t,
             limits.held_out_t,
             number,
         ),
         gate(
-            TRAINING,
-            "t of the gain over blocks of what was learnt from",
+            ESTIMATION,
+            "t of the improvement over blocks of the estimation data",
             evidence.block_t,
             limits.block_t,
             number,
         ),
         Gate {
-            name: CHANCE,
-            meaning: "that the best of all causes gains as steadily there where there is none",
-            found: percent(evidence.chance),
-            required: format!("< {}", percent(limits.chance)),
+            name: P_VALUE,
+            meaning: "probability that the best candidate improves the fit this consistently by chance",
+            found: number(evidence.chance),
+            required: format!("< {}", limits.chance),
             passed: evidence.chance < limits.chance,
-            waived: waived(CHANCE),
+            waived: waived(P_VALUE),
         },
         gate(
             "Parsimony",
@@ -77,46 +77,47 @@ pub fn gates(evidence: &Evidence) -> [Gate; 6] {
             number,
         ),
         gate(
-            SIZE,
-            "share of the starting model’s error power it explains",
+            EXPLAINED,
+            "share of the starting model’s error power, validation data",
             evidence.explained,
             limits.explained,
             percent,
         ),
         if evidence.phi_gain <= limits.phi_gain && evidence.taken > limits.taken {
-            let what = "share that it takes away of the error that was left";
-            gate(RELEVANCE, what, evidence.taken, limits.taken, percent)
+            let what = "residual reduction (partial R²); limit: smallest improvement of interest";
+            gate(IMPROVEMENT, what, evidence.taken, limits.taken, percent)
         } else {
-            let what = "largest rise of Φ among the signals, on either data";
-            gate(RELEVANCE, what, evidence.phi_gain, limits.phi_gain, number)
+            let what = "largest rise of a signal’s fit; limit: smallest improvement of interest";
+            gate(IMPROVEMENT, what, evidence.phi_gain, limits.phi_gain, number)
         },
     ]
+}
+
+/// A limit as it was set, without the digits of a result.
+fn limit(value: f64, print: fn(f64) -> String) -> String {
+    if print(value).ends_with('%') { print(value).replace(".0 %", " %") } else { value.to_string() }
 }
 
 /// Why the effect is believed, in sentences.
 pub fn sentences(evidence: &Evidence) -> Vec<String> {
     let strength = |t: f64| match t {
-        t if t.is_nan() => "which could not be determined",
+        t if t.is_nan() => "not determined",
         t if t > 5.0 => "far beyond chance",
         t if t > 3.0 => "clearly beyond chance",
         t if t > Evidence::REQUIRED.held_out_t => "beyond chance",
-        _ => "which chance can do as well",
+        _ => "within chance",
     };
     let t = |t: f64| format!("t\u{a0}=\u{a0}{}, {}", number(t), strength(t));
     vec![
         format!(
-            "With it, the model fits data that it was not fitted to better, block by block: {}.",
+            "The effect improves the fit of the validation data block by block ({}).",
             t(evidence.held_out_t)
         ),
-        format!("It explains {} of the power of the error there.", percent(evidence.explained)),
+        format!("There it explains {} of the starting model’s error power.", percent(evidence.explained)),
+        format!("It improves the fit of the estimation data, too ({}).", t(evidence.block_t)),
+        format!("The probability of such an improvement by chance is {} (p-value).", number(evidence.chance)),
         format!(
-            "On the data that it was learnt from, the gain over blocks has {}; where there is none, the best of all causes \
-             has as much with a chance of {}.",
-            t(evidence.block_t),
-            percent(evidence.chance)
-        ),
-        format!(
-            "The gain outweighs its additional parameters: the Bayesian information criterion falls by {}.",
+            "The improvement outweighs the additional parameters: the BIC falls by {}.",
             number(evidence.delta_bic)
         ),
     ]

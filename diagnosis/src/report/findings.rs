@@ -21,19 +21,19 @@ pub struct Findings {
     pub format: u32,
     /// The rig, as the user named it.
     pub rig: String,
-    /// Names of the files that were learnt from.
+    /// Names of the estimation records.
     pub train: Vec<String>,
-    /// Names of the files that judge.
+    /// Names of the validation records.
     pub test: Vec<String>,
     /// The verdict.
     pub verdict: Verdict,
     /// The verdict in one or two sentences for an engineer.
     pub summary: String,
-    /// What was found, in the order of its gain.
+    /// The identified effects, the largest first.
     pub effects: Vec<Effect>,
-    /// Parameters of the starting model that were fitted.
+    /// The nominal parameters: those of the starting model that were fitted.
     pub base_parameters: Vec<BaseParameter>,
-    /// The model's errors on the held-out data, before and after.
+    /// The errors of the models on the validation data.
     pub signals: Vec<Signal>,
     /// The extended model's states where the simulation of each held-out stretch starts.
     pub starts: Vec<Start>,
@@ -49,7 +49,7 @@ pub struct Findings {
     pub experiment: Option<String>,
     /// What is wrong with the data.
     pub data_problems: Vec<DataProblem>,
-    /// Every candidate that was looked at.
+    /// Every candidate.
     pub candidates: Vec<Candidate>,
     /// What the pictures show.
     pub pictures: Pictures,
@@ -214,16 +214,15 @@ impl Evidence {
         let Self { delta_bic, block_t, chance, held_out_t, explained, .. } = *self;
         let required = self.required();
         if !explained.is_finite() {
-            Some("diverges on the held-out data".to_owned())
+            Some("diverges on the validation data".to_owned())
         } else if delta_bic.is_nan() || delta_bic <= required.delta_bic {
-            Some(format!("explains too little for its parameters (BIC falls by {delta_bic:.0})"))
+            Some(format!("explains too little for its parameters (the BIC falls by {delta_bic:.0})"))
         } else if !(block_t > required.block_t || self.is_steady_enough()) {
-            Some(format!("no steady gain over the training data (t = {block_t:.1})"))
+            Some(format!("no consistent improvement on the estimation data (t = {block_t:.1})"))
         } else if !(chance < required.chance || self.is_steady_enough()) {
-            let percent = 100.0 * chance;
-            Some(format!("the best of all causes gains as steadily by chance (in {percent:.0} % of cases)"))
+            Some(format!("the improvement may be chance (p-value {chance:.2})"))
         } else if !(held_out_t > required.held_out_t || self.is_no_chance()) {
-            Some(format!("no gain on held-out data (t = {held_out_t:.1})"))
+            Some(format!("no improvement on the validation data (t = {held_out_t:.1})"))
         } else {
             None
         }
@@ -236,10 +235,13 @@ impl Evidence {
         if self.grave {
             None
         } else if explained <= required.explained {
-            Some(format!("too small to matter ({:.1} % of the error)", 100.0 * explained))
+            Some(format!(
+                "below the smallest improvement of interest ({:.1} % of the error)",
+                100.0 * explained
+            ))
         } else if !(phi_gain > required.phi_gain || taken > required.taken) {
             Some(format!(
-                "too small to matter (Φ rises by {phi_gain:.3}, {:.0} % of what was left goes)",
+                "below the smallest improvement of interest (the fit rises by {phi_gain:.3}, residual reduction {:.0} %)",
                 100.0 * taken
             ))
         } else {
@@ -267,7 +269,7 @@ pub struct BaseParameter {
     pub mismatch: bool,
 }
 
-/// The error of one signal, on the held-out data.
+/// The error of one signal, on the validation data.
 #[derive(Clone, Debug, Serialize)]
 pub struct Signal {
     /// As in the FMU.

@@ -1,4 +1,4 @@
-//! What a record of a rig may hold, and what is looked for in it, in plain text.
+//! The signals of a rig, its nominal parameters and the effects of its catalogue, in plain text.
 
 use std::collections::BTreeMap;
 
@@ -12,34 +12,31 @@ use crate::rig::Rig;
 /// Digits of a parameter's value.
 const DIGITS: usize = 4;
 
-/// A rig's signals with their units, as a record may have them, the parameters that are fitted, and the causes that are
-/// looked for in it.
+/// The signals that a record of the rig may hold, with their units; the nominal parameters; the effects of the catalogue.
 pub fn sheet(rig: &Rig) -> String {
     let plant = &rig.plant;
     let mut sheet = format!("{}: a {}, in the FMU {}\n", rig.name, plant.name, rig.fmu);
     let shown = |it: &&Declaration| !rig.kind.trivial.contains(&it.name.as_str());
     let outputs = plant.outputs.iter().filter(shown);
-    section(&mut sheet, "Inputs, of which a record has at least one", plant.inputs.iter(), |it| {
-        signal(rig, it)
-    });
-    section(&mut sheet, "Outputs, of which a record has at least one", outputs, |it| signal(rig, it));
-    section(&mut sheet, "Parameters that are fitted first", rig.base().into_iter(), |index| {
+    section(&mut sheet, "Inputs (a record needs at least one)", plant.inputs.iter(), |it| signal(rig, it));
+    section(&mut sheet, "Outputs (a record needs at least one)", outputs, |it| signal(rig, it));
+    section(&mut sheet, "Nominal parameters", rig.base().into_iter(), |index| {
         let declared = &plant.parameters[index];
         let value = format!("{} {}", digits(rig.parameters[index], DIGITS), unit(declared.unit.symbol));
         (declared.name.clone(), value.trim_end().into(), declared.doc.clone())
     });
-    let mut causes: BTreeMap<(&str, &str), Vec<&str>> = BTreeMap::new();
-    for cause in catalogue::causes(plant) {
-        causes.entry((cause.id, cause.name)).or_default().push(cause.element.name());
+    let mut effects: BTreeMap<(&str, &str), Vec<&str>> = BTreeMap::new();
+    for effect in catalogue::causes(plant) {
+        effects.entry((effect.id, effect.name)).or_default().push(effect.element.name());
     }
-    let title = "Causes that are looked for, by their numbers, beside faults of each sensor";
-    section(&mut sheet, title, causes.into_iter(), |((id, name), elements)| {
+    let title = "Effects of the catalogue by number; every sensor may have a distortion, too";
+    section(&mut sheet, title, effects.into_iter(), |((id, name), elements)| {
         (id.into(), elements.join(", "), name.into())
     });
     sheet
 }
 
-/// Name, unit, and what it is.
+/// Name, unit and description.
 fn signal(rig: &Rig, it: &Declaration) -> (String, String, String) {
     let aliases = rig.kind.aliases.iter().filter(|(name, _)| *name == it.name);
     let others: Vec<String> =
@@ -70,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_rig_has_a_sheet_with_all_that_a_record_may_hold() {
+    fn the_sheet_of_a_rig_lists_every_signal_and_effect() {
         for name in Rig::names() {
             let rig = Rig::published(&name).unwrap();
             let sheet = sheet(&rig);
@@ -78,8 +75,8 @@ mod tests {
             for signal in rig.plant.inputs.iter().chain(outputs) {
                 assert!(sheet.contains(&format!("  {} ", signal.name)), "{name}: {}\n{sheet}", signal.name);
             }
-            for cause in catalogue::causes(&rig.plant) {
-                assert!(sheet.contains(cause.name), "{name}: {}\n{sheet}", cause.name);
+            for effect in catalogue::causes(&rig.plant) {
+                assert!(sheet.contains(effect.name), "{name}: {}\n{sheet}", effect.name);
             }
         }
     }

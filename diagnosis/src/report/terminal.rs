@@ -4,15 +4,19 @@ use textwrap::Options;
 use unicode_width::UnicodeWidthStr;
 
 use super::words::{
-    badge, capitalised, cause, count, digits, fit, headline, interval, located, number, percent, unit,
+    badge, capitalised, count, digits, effect_name, effect_rank, headline, interval, located, number,
+    percent, quantity, unit,
 };
-use crate::report::findings::{Effect, Findings};
+use crate::report::findings::{AccountItem, Effect, Findings, SignalAccount};
 
 /// Columns that a line has at most.
 const WIDTH: usize = 100;
 
 /// Items of a list that are shown; the others are in the page.
 const SHOWN: usize = 6;
+
+/// Columns of a number in the account.
+const CELL: usize = 11;
 
 /// A summary of at most a hundred columns.
 pub fn terminal(findings: &Findings) -> String {
@@ -21,38 +25,27 @@ pub fn terminal(findings: &Findings) -> String {
     if !findings.summary.is_empty() {
         lines.wrapped("  ", &findings.summary);
     }
+    lines.account(findings);
     for effect in findings.effects.iter().take(SHOWN) {
         lines.blank();
         lines.effect(findings, effect);
     }
     lines.more(findings.effects.len());
-    lines.base_parameters(findings);
-    lines.signals(findings);
-    for unmodelled in &findings.unmodelled {
-        lines.blank();
-        lines.wrapped("", &format!("Unmodelled: {}", unmodelled.description));
-    }
+    lines.unmodelled(findings);
+    lines.nominal_parameters(findings);
     if let Some(experiment) = &findings.experiment {
         lines.blank();
-        lines.wrapped("", &format!("To settle it: {experiment}"));
+        lines.wrapped("", &format!("Next experiment: {experiment}"));
     }
-    if !findings.data_problems.is_empty() {
-        lines.blank();
-        lines.wrapped("", "Data:");
-        for problem in findings.data_problems.iter().take(SHOWN) {
-            let kind = if problem.fatal { "unusable" } else { "note" };
-            lines.wrapped("  ", &format!("{kind}: {}, {}: {}", problem.record, problem.signal, problem.text));
-        }
-        lines.more(findings.data_problems.len());
-    }
+    lines.data_problems(findings);
     lines.blank();
     lines.wrapped(
         "",
         &format!(
             "Diagnosed in {} s from {} and {}.",
             digits(findings.seconds, 2),
-            count(findings.train.len(), "training record"),
-            count(findings.test.len(), "held-out record")
+            count(findings.train.len(), "estimation record"),
+            count(findings.test.len(), "validation record")
         ),
     );
     lines.0.join("\n") + "\n"
@@ -67,7 +60,7 @@ impl Lines {
 
     /// A paragraph; lines after its first stand two columns further right.
     fn wrapped(&mut self, indent: &str, text: &str) {
-        // Names come from files: what moves the cursor must not reach the terminal.
+        // Names come from files; control characters must not reach the terminal.
         let text: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         let next = format!("{indent}  ");
         let options = Options::new(WIDTH).initial_indent(indent).subsequent_indent(&next);
@@ -80,94 +73,129 @@ impl Lines {
         }
     }
 
+    /// Where the power of each signal's error goes, in per cent.
+    fn account(&mut self, findings: &Findings) {
+        if findings.account.is_empty() {
+            return;
+        }
+        self.blank();
+        self.wrapped("", "Error power of the starting model on the validation data, in %:");
+        let header =
+            ["signal", "rms error", "noise", "parameters", "effects", "unmodelled", "unexplained", ""];
+        let mut rows = vec![header.map(str::to_owned)];
+        rows.extend(findings.account.iter().take(SHOWN).map(|it| account_row(findings, it)));
+        let width = |column: usize| rows.iter().map(|row| row[column].width()).max().unwrap_or(0);
+        let rest: usize = (1..header.len()).map(|column| width(column) + 2).sum();
+        let name = width(0).min(WIDTH.saturating_sub(rest + 2));
+        for row in &rows {
+            let mut line = format!("  {}", padded(&shortened(&row[0], name), name, false));
+            for (column, cell) in row.iter().enumerate().skip(1) {
+                line += &format!("  {}", padded(cell, width(column), true));
+            }
+            self.0.push(line.trim_end().to_owned());
+        }
+        self.more(findings.account.len());
+    }
+
     fn effect(&mut self, findings: &Findings, effect: &Effect) {
         let evidence = effect.evidence;
         self.wrapped("", &format!("{} {}", effect.id, capitalised(&located(&effect.name, &effect.element))));
         for parameter in &effect.parameters {
             let [value, low, high] = interval(parameter.value, parameter.low, parameter.high);
             let unit = unit(&parameter.unit);
-            self.wrapped("  ", &format!("{} = {value} {unit} [{low}, {high}]", parameter.name));
+            let text = format!("{} = {value} {unit}", parameter.name);
+            self.wrapped("  ", &format!("{} (95 %: {low} … {high})", text.trim_end()));
         }
         self.wrapped(
             "  ",
             &format!(
-                "held-out t = {}, training t = {}, ΔBIC = {}, explains {} of the error’s power",
+                "explains {} of the error power; validation t = {}, p-value = {}, ΔBIC = {}",
+                percent(evidence.explained),
                 number(evidence.held_out_t),
-                number(evidence.block_t),
-                number(evidence.delta_bic),
-                percent(evidence.explained)
+                number(evidence.chance),
+                number(evidence.delta_bic)
             ),
         );
         if !effect.ambiguous_with.is_empty() {
-            let causes: Vec<String> = effect.ambiguous_with.iter().map(|key| cause(findings, key)).collect();
-            self.wrapped("  ", &format!("could also be: {}", causes.join("; ")));
+            let others: Vec<String> =
+                effect.ambiguous_with.iter().map(|key| effect_name(findings, key)).collect();
+            self.wrapped("  ", &format!("could also be: {}", others.join("; ")));
         }
         if let Some(experiment) =
             effect.experiment.as_ref().filter(|text| Some(*text) != findings.experiment.as_ref())
         {
-            self.wrapped("  ", &format!("to tell: {experiment}"));
+            self.wrapped("  ", &format!("to tell them apart: {experiment}"));
         }
     }
 
-    fn base_parameters(&mut self, findings: &Findings) {
+    fn unmodelled(&mut self, findings: &Findings) {
+        for it in findings.unmodelled.iter().take(SHOWN) {
+            self.blank();
+            self.wrapped("", &format!("Unmodelled: {}", it.description));
+            self.wrapped(
+                "  ",
+                &format!(
+                    "covers {} of the missing signal on the estimation data, {} on the validation data",
+                    percent(it.share),
+                    percent(it.validated)
+                ),
+            );
+        }
+        self.more(findings.unmodelled.len());
+    }
+
+    fn nominal_parameters(&mut self, findings: &Findings) {
         let wrong: Vec<_> = findings.base_parameters.iter().filter(|parameter| parameter.mismatch).collect();
         if wrong.is_empty() {
             return;
         }
         self.blank();
-        self.wrapped("", "Parameters that do not fit:");
+        self.wrapped("", "Nominal parameters that differ:");
         for parameter in wrong.iter().take(SHOWN) {
             let [value, low, high] = interval(parameter.after, parameter.low, parameter.high);
             let (before, unit) = (digits(parameter.before, 4), unit(&parameter.unit));
-            self.wrapped("  ", &format!("{}: {before} -> {value} {unit} [{low}, {high}]", parameter.name));
+            let text = format!("{}: {before} -> {value} {unit}", parameter.name);
+            self.wrapped("  ", &format!("{} (95 %: {low} … {high})", text.trim_end()));
         }
         self.more(wrong.len());
     }
 
-    fn signals(&mut self, findings: &Findings) {
-        if findings.signals.is_empty() {
+    fn data_problems(&mut self, findings: &Findings) {
+        if findings.data_problems.is_empty() {
             return;
         }
         self.blank();
-        let header =
-            ["On held-out data", "Φ start", "fitted", "extended", "rms start", "fitted", "extended", "noise"];
-        let mut rows = vec![header.map(str::to_owned)];
-        rows.extend(findings.signals.iter().take(SHOWN).map(|signal| {
-            let unit = unit(&signal.unit);
-            let name =
-                if unit.is_empty() { signal.name.clone() } else { format!("{} [{unit}]", signal.name) };
-            let phi = |value: f64| fit(value, 3);
-            [
-                shortened(&name, 32),
-                phi(signal.phi_before),
-                phi(signal.phi_fitted),
-                phi(signal.phi_after),
-                number(signal.rms_before),
-                number(signal.rms_fitted),
-                number(signal.rms_after),
-                number(signal.noise_floor),
-            ]
-        }));
-        let name_width = rows.iter().map(|row| row[0].width()).max().unwrap_or(0);
-        for row in rows {
-            let mut line = padded(&row[0], name_width, false);
-            for cell in &row[1..] {
-                line.push_str(&padded(cell, 9, true));
-            }
-            self.0.push(line);
+        self.wrapped("", "Data:");
+        for problem in findings.data_problems.iter().take(SHOWN) {
+            let kind = if problem.fatal { "unusable" } else { "note" };
+            self.wrapped("  ", &format!("{kind}: {}, {}: {}", problem.record, problem.signal, problem.text));
         }
-        self.more(findings.signals.len());
+        self.more(findings.data_problems.len());
     }
+}
+
+fn account_row(findings: &Findings, account: &SignalAccount) -> [String; 8] {
+    let unit = findings.signals.iter().find(|it| it.name == account.signal).map_or("", |it| it.unit.as_str());
+    let share = |share: f64| shortened(percent(share).trim_end_matches(" %"), CELL);
+    let (effects, curves): (Vec<&AccountItem>, Vec<&AccountItem>) =
+        account.effects.iter().partition(|item| effect_rank(findings, item).is_some());
+    let sum = |items: &[&AccountItem]| items.iter().map(|it| it.share).sum::<f64>();
+    [
+        account.signal.clone(),
+        shortened(&quantity(account.error, unit), CELL),
+        share(account.noise),
+        share(account.parameters),
+        share(sum(&effects)),
+        share(sum(&curves) + account.unmodelled),
+        share(account.unexplained),
+        if account.open { "open".into() } else { String::new() },
+    ]
 }
 
 /// The text in a field of `width` columns.
 fn padded(text: &str, width: usize, right: bool) -> String {
     let room = " ".repeat(width.saturating_sub(text.width()));
-    if right {
-        format!("{}{room}{text}", if room.is_empty() { " " } else { "" })
-    } else {
-        format!("{text}{room}")
-    }
+    if right { format!("{room}{text}") } else { format!("{text}{room}") }
 }
 
 /// A name that fits into `width` columns, its end replaced if need be.

@@ -1,7 +1,7 @@
 //! A quarter car on a bumpy road, so that the samples' curves look like what a rig gives.
 
 use strut_diagnosis::report::findings::{
-    Binned, Coherence, Mark, Parity, Periodogram, Signal, Spectrum, Trace,
+    Binned, Coherence, Mark, Missing, Parity, Periodogram, PlaceLikelihood, Signal, Spectrum, Trace,
 };
 
 /// In seconds.
@@ -272,5 +272,34 @@ pub fn binned(variable: &str, unit: &str, over: impl Fn(&Run, usize) -> f64) -> 
         rising: sums.iter().map(|[rising, _]| mean(rising)).collect(),
         falling: sums.iter().map(|[_, falling]| mean(falling)).collect(),
         two_sigma: sums.iter().map(|[rising, _]| width(rising)).collect(),
+    }
+}
+
+/// The missing force of the car at its strut over ten seconds.
+pub fn missing() -> Missing {
+    let run = run(57.0, 420.0, 10.5);
+    let samples = || (0..1500).map(|index| 7 * index);
+    let force = |index: usize| 57.0 * (run.speed[index] / 0.008).tanh() + 6.0 * noise(index);
+    let place =
+        |(place, log_likelihood): (&str, f64)| PlaceLikelihood { place: place.into(), log_likelihood };
+    Missing {
+        place: "strut".into(),
+        unit: "N".into(),
+        ties: vec![],
+        places: [
+            ("strut", 2241.3),
+            ("guide", 1712.8),
+            ("tire", 690.2),
+            ("body.acceleration", 112.0),
+            ("wheel.acceleration", 61.5),
+            ("suspension.deflection", 4.2),
+        ]
+        .map(place)
+        .into(),
+        time: samples().map(|index| index as f64 * STEP).collect(),
+        value: samples().map(force).collect(),
+        deviation: samples().map(|index| 4.0 + 2.0 * noise(index + 7).abs()).collect(),
+        deflection: samples().map(|index| run.deflection[index]).collect(),
+        velocity: samples().map(|index| run.speed[index]).collect(),
     }
 }

@@ -1,50 +1,83 @@
 //! The verdict in a few sentences, with the numbers that matter.
 
-use crate::report::findings::{Effect, Findings, Signal, Verdict};
-use crate::report::words::{digits, sized, value};
+use crate::report::findings::{Effect, Findings, Signal, Unmodelled, Verdict};
+use crate::report::words::{
+    count, digits, effect_name, fit, list, located, open_signals, percent, sized, value,
+};
 
-/// Errors that exceed a signal's noise by this factor are told as not explained …
-const ABOVE_NOISE: f64 = 3.0;
-/// … if they are more than this share of the signal.
-const VISIBLE: f64 = 0.1;
-/// Φ that the noise of the inputs costs, to be worth a word.
+/// Fit that the noise of the inputs costs, to be worth a sentence.
 const NOISY: f64 = 0.1;
+/// Improvement of the fit that is worth a sentence.
+const IMPROVED: f64 = 0.005;
 
 /// The summary of findings that are complete otherwise.
 pub(super) fn of(findings: &Findings) -> String {
-    let Findings { effects, unmodelled, .. } = findings;
-    let text = match findings.verdict {
-        Verdict::NoEffect => "No cause could be shown by these records.".to_owned(),
-        Verdict::ParameterMismatch => "No cause beyond parameters could be shown.".to_owned(),
-        Verdict::Identified | Verdict::Ambiguous => format!("The model lacks: {}.", list(effects)),
-        Verdict::SensorFault => format!("The measurement is wrong, not the plant: {}.", list(effects)),
-        Verdict::Unmodelled if effects.is_empty() => String::new(),
-        Verdict::Unmodelled => format!("Beside it: {}.", list(effects)),
-        Verdict::ModelInadequate => {
-            "The model explains too little of the held-out data, and nothing that was looked for explains the rest: \
-             check the rig, the signals' names, units and signs. If they are right, something acts that is not in the \
-             catalogue."
-                .to_owned()
-        }
-        Verdict::BadData => "The data cannot be used.".to_owned(),
-    };
-    let more = unmodelled.iter().skip(usize::from(findings.verdict == Verdict::Unmodelled));
-    let more: Vec<String> = more.map(|it| format!("Also missing: {}.", it.description)).collect();
-    let curve = Some(more.join(" "));
-    let sentences =
-        [parameters(findings), Some(text), curve, gained(findings), noisy(findings), left(findings)];
-    sentences.into_iter().flatten().filter(|it| !it.is_empty()).collect::<Vec<_>>().join(" ")
+    let parts = [
+        open(findings),
+        parameters(findings),
+        effects(findings),
+        unmodelled(findings),
+        improvement(findings),
+        noisy(findings),
+    ];
+    parts.into_iter().flatten().filter(|it| !it.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
-fn list(effects: &[Effect]) -> String {
-    let told = effects.iter().map(|effect| {
-        let sized = sized(effect);
-        match effect.ambiguous_with.as_slice() {
-            [] => sized,
-            rivals => format!("{sized}, which these records cannot tell from {}", rivals.join(", ")),
+/// The error that no known effect explains comes first, whatever was found.
+fn open(findings: &Findings) -> Option<String> {
+    let all = open_signals(findings);
+    let first = all.first()?.sentence();
+    Some(match all.len() - 1 {
+        0 => first,
+        1 => format!("{first} Part of {} is unexplained, too.", all[1].signal),
+        more => format!("{first} Parts of {} are unexplained, too.", count(more, "other signal")),
+    })
+}
+
+fn effects(findings: &Findings) -> Option<String> {
+    let effects = &findings.effects;
+    match findings.verdict {
+        Verdict::NoEffect => Some("No effect beyond the model improves the fit.".to_owned()),
+        Verdict::ParameterMismatch => Some("No effect beyond these parameters improves the fit.".to_owned()),
+        Verdict::ModelInadequate => Some(
+            "The model predicts too little of the validation data. No effect of the catalogue explains the rest. \
+             Check the rig, the signal names, the units and the signs. If they are right, an effect outside the \
+             catalogue acts."
+                .to_owned(),
+        ),
+        Verdict::BadData => Some("The data cannot be used.".to_owned()),
+        Verdict::Identified | Verdict::Ambiguous | Verdict::SensorFault | Verdict::Unmodelled => {
+            let sizes: Vec<String> = effects.iter().map(sized).collect();
+            let noun = if effects.len() == 1 { "Identified effect" } else { "Identified effects" };
+            let rivals = effects.iter().filter(|it| !it.ambiguous_with.is_empty()).map(|it| rivals(findings, it));
+            let sentences = [format!("{noun}: {}.", sizes.join("; "))].into_iter().chain(rivals);
+            (!effects.is_empty()).then(|| sentences.collect::<Vec<_>>().join(" "))
         }
-    });
-    told.collect::<Vec<_>>().join("; ")
+    }
+}
+
+fn rivals(findings: &Findings, effect: &Effect) -> String {
+    let others: Vec<String> = effect.ambiguous_with.iter().map(|key| effect_name(findings, key)).collect();
+    let own = located(&effect.name, &effect.element);
+    format!("These records cannot tell {own} from {}.", list(&others, "or"))
+}
+
+/// What a headline on it does not say.
+fn unmodelled(findings: &Findings) -> Option<String> {
+    let first = findings.verdict == Verdict::Unmodelled;
+    let of = |(index, it): (usize, &Unmodelled)| {
+        let what = match index {
+            0 if first => "The description".to_owned(),
+            _ => format!("The model also lacks {}. This description", it.description),
+        };
+        format!(
+            "{what} covers {} of the missing signal on the estimation data and {} on the validation data.",
+            percent(it.share),
+            percent(it.validated)
+        )
+    };
+    let all: Vec<String> = findings.unmodelled.iter().enumerate().map(of).collect();
+    (!all.is_empty()).then(|| all.join(" "))
 }
 
 fn parameters(findings: &Findings) -> Option<String> {
@@ -58,93 +91,128 @@ fn parameters(findings: &Findings) -> Option<String> {
     (!changed.is_empty()).then(|| format!("Parameters: {}.", changed.join("; ")))
 }
 
-fn gained(findings: &Findings) -> Option<String> {
-    let gain = |signal: &Signal| signal.phi_after - signal.phi_fitted;
-    let most = findings.signals.iter().max_by(|a, b| gain(a).total_cmp(&gain(b)))?;
-    let Signal { name, phi_fitted, phi_after, .. } = most;
-    let text = format!("On held-out data Φ of {name} rises from {phi_fitted:.3} to {phi_after:.3}.");
-    (gain(most) > 0.0).then_some(text)
+/// The fit of the signal that improves most; a fit below zero is no number to compare with.
+fn improvement(findings: &Findings) -> Option<String> {
+    let improvement = |signal: &Signal| signal.phi_after.max(0.0) - signal.phi_before.max(0.0);
+    let known = findings.signals.iter().filter(|it| it.phi_before.is_finite() && it.phi_after.is_finite());
+    let most = known.max_by(|a, b| improvement(a).total_cmp(&improvement(b)))?;
+    let Signal { name, phi_before, phi_after, .. } = most;
+    if *phi_before < 0.0 && *phi_after < IMPROVED {
+        return (findings.verdict != Verdict::BadData).then(|| {
+            format!("The starting model does not predict {name} at all (fit {}).", fit(*phi_before, 1))
+        });
+    }
+    if improvement(most) < IMPROVED {
+        return None;
+    }
+    let after = fit(*phi_after, 2);
+    Some(match *phi_before < 0.0 {
+        true => format!(
+            "The starting model does not predict {name} at all (fit {}). The final model reaches a fit of {after} \
+             on the validation data.",
+            fit(*phi_before, 1)
+        ),
+        false => {
+            format!("The fit of {name} on the validation data rises from {} to {after}.", fit(*phi_before, 2))
+        }
+    })
 }
 
-/// Where the noise of what drives the model, as of the position that a velocity is derived from, hides how good it is.
+/// The cost of noise in the measured inputs, such as a position from which a velocity is derived.
 fn noisy(findings: &Findings) -> Option<String> {
     let cost = |signal: &Signal| signal.phi_quiet - signal.phi_after;
     let most = findings.signals.iter().max_by(|a, b| cost(a).total_cmp(&cost(b)))?;
     (cost(most) > NOISY && findings.verdict != Verdict::ModelInadequate).then(|| {
         format!(
-            "The noise of the measured inputs costs much of it: without, Φ of {} is {:.3}.",
-            most.name, most.phi_quiet
+            "Noise of the measured inputs lowers the fit. Without that noise, the fit of {} is {}.",
+            most.name,
+            fit(most.phi_quiet, 2)
         )
     })
-}
-
-/// Where nothing is found although the errors are no noise, that is told, too.
-fn left(findings: &Findings) -> Option<String> {
-    if !matches!(findings.verdict, Verdict::NoEffect | Verdict::ParameterMismatch) {
-        return None;
-    }
-    // What the inputs' noise brings is no lack of the model.
-    let missed = |it: &Signal| (1.0 - it.phi_quiet).min(1.0 - it.phi_after);
-    let error = |it: &Signal| it.rms_after * missed(it) / (1.0 - it.phi_after).max(f64::MIN_POSITIVE);
-    let visible = |it: &&Signal| {
-        error(it) > ABOVE_NOISE * it.noise_floor && missed(it) > VISIBLE && it.noise_floor > 0.0
-    };
-    let most = findings.signals.iter().filter(visible).max_by(|a, b| missed(a).total_cmp(&missed(b)))?;
-    Some(format!(
-        "Yet {:.0} % of {} is missed on held-out data, {:.0} times its noise: something is left that none of the \
-         candidates explains well enough to be told.",
-        100.0 * missed(most),
-        most.name,
-        error(most) / most.noise_floor
-    ))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::findings::SignalAccount;
 
     fn findings(verdict: Verdict) -> Findings {
         Findings { verdict, ..Findings::of_bad_data("rig", vec![], vec![], vec![]) }
     }
 
-    fn signal(phi_after: f64, noise_floor: f64) -> Signal {
+    fn signal(phi_before: f64, phi_after: f64) -> Signal {
         Signal {
             name: "body.acceleration".into(),
             unit: "m/s2".into(),
-            phi_before: 0.1,
+            phi_before,
             phi_fitted: phi_after,
             phi_after,
             phi_quiet: phi_after,
             rms_before: 8.0,
             rms_fitted: 4.0,
             rms_after: 4.0,
-            noise_floor,
+            noise_floor: 0.1,
             repeatability: None,
         }
     }
 
-    #[test]
-    fn errors_beyond_the_noise_are_told_where_nothing_is_found() {
-        let of = |phi, floor| {
-            of(&Findings { signals: vec![signal(phi, floor)], ..findings(Verdict::ParameterMismatch) })
-        };
-        let text = of(0.7, 1.0);
-        assert!(text.contains("Yet 30 % of body.acceleration"), "{text}");
-        assert!(text.contains("4 times its noise"), "{text}");
-        // What is little beside the signal, or about as large as its noise, is not worth a word.
-        assert!(!of(0.95, 1.0).contains("Yet") && !of(0.7, 2.0).contains("Yet"));
+    fn open() -> SignalAccount {
+        SignalAccount {
+            signal: "body.acceleration".into(),
+            error: 8.0,
+            noise: 0.001,
+            parameters: 0.2,
+            effects: vec![],
+            unmodelled: 0.0,
+            unexplained: 0.4,
+            open: true,
+        }
     }
 
     #[test]
-    fn what_the_noise_of_the_inputs_brings_is_not_left_over() {
-        let of = |phi_quiet| {
-            let signals = vec![Signal { phi_quiet, ..signal(0.2, 0.1) }];
-            of(&Findings { signals, ..findings(Verdict::NoEffect) })
+    fn an_open_signal_comes_first_whatever_was_identified() {
+        let mut found = Findings { signals: vec![signal(0.1, 0.6)], ..findings(Verdict::Identified) };
+        found.account = vec![open(), SignalAccount { signal: "wheel.acceleration".into(), ..open() }];
+        let text = of(&found);
+        let first =
+            "40 % of body.acceleration is still unexplained on the validation data (20 × sensor noise).";
+        assert!(text.starts_with(first), "{text}");
+        assert!(text.contains("Part of wheel.acceleration is unexplained, too."), "{text}");
+        found.account.iter_mut().for_each(|it| it.open = false);
+        assert!(!of(&found).contains("unexplained"), "{}", of(&found));
+    }
+
+    #[test]
+    fn a_fit_below_zero_is_no_number_to_compare_with() {
+        let of = |before, after| {
+            of(&Findings { signals: vec![signal(before, after)], ..findings(Verdict::Identified) })
         };
-        let text = of(0.95);
-        assert!(text.contains("without, Φ of body.acceleration is 0.950") && !text.contains("Yet"), "{text}");
-        let text = of(0.6);
-        assert!(text.contains("is 0.600") && text.contains("Yet 40 % of body.acceleration"), "{text}");
-        assert!(text.contains("20 times its noise"), "{text}");
+        assert_eq!(
+            of(-15.9, -0.57),
+            "The starting model does not predict body.acceleration at all (fit −15.9)."
+        );
+        assert!(of(-15.9, 0.8).contains("(fit −15.9). The final model reaches a fit of 0.80"));
+        assert!(of(0.3, 0.8).contains("rises from 0.30 to 0.80"));
+        assert!(of(0.8, 0.8).is_empty());
+    }
+
+    #[test]
+    fn noise_of_the_inputs_is_no_lack_of_the_model() {
+        let signals = vec![Signal { phi_quiet: 0.95, ..signal(0.1, 0.2) }];
+        let text = of(&Findings { signals, ..findings(Verdict::NoEffect) });
+        assert!(text.contains("Without that noise, the fit of body.acceleration is 0.95."), "{text}");
+    }
+
+    #[test]
+    fn a_signal_without_a_name_has_shares_of_both_data() {
+        let it = Unmodelled {
+            description: "a signal that follows the velocity at the strut".into(),
+            share: 0.88,
+            validated: 0.81,
+            ..Unmodelled::default()
+        };
+        let text = of(&Findings { unmodelled: vec![it.clone(), it], ..findings(Verdict::Unmodelled) });
+        assert!(text.starts_with("The description covers 88 % of the missing signal"), "{text}");
+        assert!(text.contains("The model also lacks a signal that follows"), "{text}");
     }
 }

@@ -1,18 +1,18 @@
-//! The effects: why they are believed, what else they could be, what was added.
+//! The identified effects: value, law, evidence, alternatives.
 
 use maud::{Markup, html};
 
 use crate::report::evidence::{gates, sentences};
 use crate::report::findings::{Effect, Evidence, Findings};
-use crate::report::words::{capitalised, cause, interval, located, unit};
+use crate::report::words::{capitalised, effect_name, interval, located, unit};
 
-/// All effects that were found.
+/// All identified effects.
 pub fn section(findings: &Findings) -> Markup {
     let several = findings.effects.len() > 1;
     html! {
         @if !findings.effects.is_empty() {
             section {
-                h2 { @if several { "What was found" } @else { "Why we think so" } }
+                h2 { @if several { "Identified effects" } @else { "Identified effect" } }
                 @for (index, effect) in findings.effects.iter().enumerate() {
                     article.effect {
                         h3 {
@@ -20,14 +20,15 @@ pub fn section(findings: &Findings) -> Markup {
                             (capitalised(&located(&effect.name, &effect.element)))
                             span.id { "catalogue " (effect.id) }
                         }
+                        (added(findings, effect))
                         div.columns {
                             div {
+                                h4 { "Evidence" }
                                 ul.reasons { @for sentence in sentences(&effect.evidence) { li { (sentence) } } }
                                 (alternatives(findings, effect))
                             }
                             (evidence(&effect.evidence))
                         }
-                        (added(findings, effect))
                     }
                 }
             }
@@ -35,11 +36,11 @@ pub fn section(findings: &Findings) -> Markup {
     }
 }
 
-/// The gates as a table.
+/// The tests as a table.
 fn evidence(evidence: &Evidence) -> Markup {
     html! {
         table.gates {
-            thead { tr { th { "Gate" } th.number { "found" } th.number { "required" } th {} } }
+            thead { tr { th { "Test" } th.number { "result" } th.number { "limit" } th {} } }
             tbody {
                 @for gate in gates(evidence) {
                     tr {
@@ -49,7 +50,7 @@ fn evidence(evidence: &Evidence) -> Markup {
                         td {
                             @match (gate.passed, gate.waived) {
                                 (true, _) => span.yes { "✓ passed" },
-                                (false, Some(reason)) => { "not asked for" div.small { (reason) } },
+                                (false, Some(reason)) => { "not required" div.small { (reason) } },
                                 (false, None) => span.no { "✗ not passed" },
                             }
                         }
@@ -64,11 +65,11 @@ fn alternatives(findings: &Findings, effect: &Effect) -> Markup {
     let experiment = effect.experiment.as_ref().filter(|text| Some(*text) != findings.experiment.as_ref());
     html! {
         @if effect.ambiguous_with.is_empty() {
-            p.alternatives { strong { "What else it could be: " } "nothing else in the catalogue; these data tell all other causes from it." }
+            p.alternatives { strong { "Alternatives: " } "no other effect of the catalogue fits these data as well." }
         } @else {
             div.alternatives {
-                p { strong { "What else it could be" } ", as far as these data can tell:" }
-                ul { @for key in &effect.ambiguous_with { li { (capitalised(&cause(findings, key))) } } }
+                p { strong { "Alternatives" } " that fit these data as well:" }
+                ul { @for key in &effect.ambiguous_with { li { (capitalised(&effect_name(findings, key))) } } }
             }
         }
         @if let Some(experiment) = experiment {
@@ -77,15 +78,18 @@ fn alternatives(findings: &Findings, effect: &Effect) -> Markup {
     }
 }
 
-/// What the model got.
+/// The law and the values of its parameters.
 fn added(findings: &Findings, effect: &Effect) -> Markup {
     let outside = findings.corrections.iter().any(|it| it.signal == effect.element);
     html! {
         @if !effect.equation.is_empty() || !effect.parameters.is_empty() {
             div.added {
-                h4 { @if outside { "What the signal passes" } @else { "What was added to the model" } }
+                h4 { @if outside { "Signal distortion" } @else { "Extension of the model" } }
                 @if outside {
-                    p { "It lies outside of the model: " code { "extended.fmu" } " does not hold it. " code { "report.json" } " has it among " code { "corrections" } "." }
+                    p {
+                        "The distortion acts outside the model. " code { "extended.fmu" } " does not contain it; "
+                        code { "report.json" } " lists it under " code { "corrections" } "."
+                    }
                 }
                 @if !effect.equation.is_empty() { pre { (effect.equation) } }
                 @if !effect.parameters.is_empty() {

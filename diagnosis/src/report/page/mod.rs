@@ -1,14 +1,17 @@
 //! The page: one file, readable in a minute.
 
+mod account;
 mod effects;
-mod gain;
+mod fit;
+mod missing;
 mod pictures;
 mod schematic;
 mod tables;
+mod unmodelled;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::words::{badge, capitalised, cause, count, digits, headline, labelled};
+use super::words::{badge, count, digits, headline};
 use crate::report::findings::{Findings, Verdict};
 
 const STYLE: &str = include_str!("style.css");
@@ -31,12 +34,14 @@ pub fn html(findings: &Findings) -> String {
                 @let parameters_first = findings.verdict == Verdict::ParameterMismatch;
                 main {
                     (tables::fatal_problems(findings))
-                    @if parameters_first { (tables::base_parameters(findings)) }
+                    (account::section(findings))
+                    @if parameters_first { (tables::nominal_parameters(findings)) }
+                    (missing::section(findings))
                     (effects::section(findings))
-                    (unmodelled(findings))
+                    (unmodelled::section(findings))
                     (experiment(findings))
-                    (gain::section(findings))
-                    @if !parameters_first { (tables::base_parameters(findings)) }
+                    (fit::section(findings))
+                    @if !parameters_first { (tables::nominal_parameters(findings)) }
                     (pictures::section(findings))
                     (tables::candidates(findings))
                     (tables::other_problems(findings))
@@ -55,14 +60,14 @@ fn header(findings: &Findings, word: &str) -> Markup {
             p.top {
                 span.badge { (word) }
                 span.rig { (findings.rig) }
-                @if !findings.train.is_empty() { span { "learnt from " (files(&findings.train)) } }
-                @if !findings.test.is_empty() { span { "judged on " (files(&findings.test)) } }
+                @if !findings.train.is_empty() { span { "estimation data " (files(&findings.train)) } }
+                @if !findings.test.is_empty() { span { "validation data " (files(&findings.test)) } }
             }
             div.hero {
                 div {
                     h1 { (headline(findings)) }
                     @if !findings.summary.is_empty() { p.lead { (findings.summary) } }
-                    (gain::facts(findings))
+                    (fit::facts(findings))
                 }
                 (schematic::figure(findings))
             }
@@ -84,35 +89,12 @@ fn extended(findings: &Findings) -> bool {
     !findings.effects.is_empty() || findings.unmodelled.iter().any(|it| it.curve.is_some())
 }
 
-/// What is missing and in no catalogue.
-fn unmodelled(findings: &Findings) -> Markup {
-    html! {
-        @for it in &findings.unmodelled {
-            section {
-                h2 { "Not in the catalogue" }
-                p { (capitalised(&it.description)) "." }
-                @if let Some(curve) = it.curve.as_ref().filter(|curve| !curve.x.is_empty()) {
-                    figure {
-                        figcaption { (labelled(&format!("Missing {}", curve.quantity), &curve.unit)) " with its 95 % band" }
-                        (pictures::unnamed(curve))
-                    }
-                }
-            }
-        }
-    }
-}
-
 fn experiment(findings: &Findings) -> Markup {
-    let known: Vec<String> = findings
-        .effects
-        .iter()
-        .flat_map(|effect| &effect.ambiguous_with)
-        .map(|key| cause(findings, key))
-        .collect();
+    let ambiguous = findings.effects.iter().any(|effect| !effect.ambiguous_with.is_empty());
     html! {
         @if let Some(experiment) = &findings.experiment {
             section.experiment {
-                h2 { @if known.is_empty() { "What to measure next" } @else { "The experiment that would settle it" } }
+                h2 { @if ambiguous { "Experiment to tell the alternatives apart" } @else { "Next experiment" } }
                 p { (experiment) }
             }
         }
@@ -124,9 +106,9 @@ fn footer(findings: &Findings) -> Markup {
     html! {
         footer {
             "Diagnosed in " (digits(findings.seconds, 2)) " s from "
-            (count(findings.train.len(), "training record")) " and " (count(findings.test.len(), "held-out record"))
-            @if problems > 0 && findings.verdict != Verdict::BadData { ", with " (count(problems, "remark")) " on the data" }
-            ". The same findings for programs: " code { "report.json" } ", format version " (findings.format) "."
+            (count(findings.train.len(), "estimation record")) " and " (count(findings.test.len(), "validation record"))
+            @if problems > 0 && findings.verdict != Verdict::BadData { ", with " (count(problems, "note")) " on the data" }
+            ". " code { "report.json" } " holds the same findings for programs (format " (findings.format) ")."
         }
     }
 }

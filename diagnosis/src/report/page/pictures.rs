@@ -1,4 +1,4 @@
-//! The pictures: traces, binned scatter, the curve without a name, and what the errors look like.
+//! The pictures: traces, binned scatter, curves, and the errors over frequency.
 
 mod frequency;
 mod parity;
@@ -11,10 +11,10 @@ use crate::report::plot::{Axis, Edge, Plot, Shape};
 use crate::report::words::{digits, labelled, list, unit};
 
 /// Width and height of a picture over the whole page, in pixels.
-const WIDE: (f64, f64) = (1000.0, 250.0);
+pub const WIDE: (f64, f64) = (1000.0, 250.0);
 const STRIP: (f64, f64) = (1000.0, 150.0);
 /// The same of one of two beside each other.
-const HALF: (f64, f64) = (490.0, 300.0);
+pub const HALF: (f64, f64) = (490.0, 300.0);
 
 /// A longer trace than this, in seconds, gets a picture of a part.
 const WHOLE: f64 = 6.0;
@@ -31,11 +31,11 @@ pub fn section(findings: &Findings) -> Markup {
     html! {
         @if !pictures.scatters.is_empty() {
             section {
-                h2 { "What the error depends on" }
+                h2 { "Error over the motion" }
                 p.note {
-                    "Mean of the error of the model with fitted parameters, over bins, with a band of two standard "
-                    "errors. Where rising and falling differ, there is hysteresis or friction; a curve away from zero "
-                    "is a law that is missing."
+                    "Mean error of the model with fitted parameters in bins, with a band of two standard errors. \
+                    A curve away from zero is a missing law. A difference between rising and falling is hysteresis or \
+                    friction."
                 }
                 ul.legend { li.rising { "▲ rising" } li.falling { "▼ falling" } }
                 (folded(&pictures.scatters, OPEN_PLOTS, "pairs", scatter))
@@ -52,7 +52,7 @@ pub fn section(findings: &Findings) -> Markup {
         }
         @if !pictures.parity.is_empty() || !pictures.spectra.is_empty() {
             section {
-                h2 { "What the errors look like" }
+                h2 { "Error analysis" }
                 (parity::balances(&pictures.parity, extended))
                 (frequency::frequencies(pictures, extended))
             }
@@ -101,7 +101,7 @@ fn scatter(binned: &Binned) -> Markup {
 }
 
 /// Values on an axis need a word even if they have no unit.
-fn unit_or_none(symbol: &str) -> String {
+pub fn unit_or_none(symbol: &str) -> String {
     let unit = unit(symbol);
     if unit.is_empty() { "–".into() } else { unit }
 }
@@ -146,8 +146,8 @@ fn trace(trace: &Trace, extended: bool) -> Markup {
             figcaption {
                 code { (trace.signal) }
                 @if is_part {
-                    " from " (seconds(from)) " to " (seconds(to)) " s, where the fitted model’s error is largest; "
-                    "below, the error over the whole record"
+                    " from " (seconds(from)) " to " (seconds(to)) " s, where the error of the fitted model is largest. \
+                    The lower plot shows the error over the whole record."
                 }
             }
             (signals.svg())
@@ -160,7 +160,7 @@ fn is_largest(mark: &Mark) -> bool {
     mark.what == LARGEST
 }
 
-/// What the marks on the traces mean.
+/// The legend of the marks.
 fn marked(traces: &[Trace]) -> Markup {
     let marks = || traces.iter().flat_map(|trace| &trace.marks);
     let mut active: Vec<String> =
@@ -168,7 +168,7 @@ fn marked(traces: &[Trace]) -> Markup {
     active.sort();
     active.dedup();
     html! {
-        @if marks().any(is_largest) { li.largest { "largest errors left" } }
+        @if marks().any(is_largest) { li.largest { "largest remaining errors" } }
         @if !active.is_empty() { li.active { (list(&active, "or")) } }
     }
 }
@@ -208,13 +208,25 @@ fn part(time: &[f64], errors: &[f64]) -> (f64, f64) {
     (from, (from + length).min(last))
 }
 
-/// The curve without a name and its band.
-pub fn unnamed(curve: &Curve) -> Markup {
+/// An unmodelled curve and its band.
+pub fn curve(curve: &Curve) -> Markup {
     let all = curve.y.iter().chain(&curve.low).chain(&curve.high).copied();
     let x = Axis::linear(&labelled(&curve.variable, &curve.variable_unit), curve.x.iter().copied(), 8);
     let y = Axis::linear(unit_or_none(&curve.unit).as_str(), all.chain([0.0]), 5);
-    let plot = Plot::new(format!("What is missing over {}", curve.variable), (1000.0, 330.0), x, y).zero();
+    let plot =
+        Plot::new(format!("Missing {} over {}", curve.quantity, curve.variable), (1000.0, 330.0), x, y)
+            .zero();
     plot.band("after", &curve.x, &curve.low, &curve.high).curve("after", &curve.x, &curve.y).svg()
+}
+
+/// Unit of a power spectral density.
+pub fn density(symbol: &str) -> String {
+    let unit = unit(symbol);
+    match unit.as_str() {
+        "" => "1/Hz".to_owned(),
+        plain if plain.chars().all(char::is_alphabetic) => format!("{plain}²/Hz"),
+        composed => format!("({composed})²/Hz"),
+    }
 }
 
 #[cfg(test)]

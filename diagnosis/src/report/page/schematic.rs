@@ -1,4 +1,4 @@
-//! A schematic of the rig with the place of the cause in it, and the sensors beside it.
+//! A schematic of the rig with the places of the effects, and the sensors beside it.
 
 use maud::{Markup, html};
 
@@ -9,7 +9,7 @@ use crate::report::words::{Part, element, part, place};
 /// Sensors that have room.
 const SENSORS: usize = 9;
 
-/// What is drawn; the rigs differ in what can be at fault in them.
+/// The parts that are drawn; the rigs differ in them.
 struct Drawing {
     upper: &'static str,
     lower: &'static str,
@@ -25,8 +25,8 @@ impl Drawing {
         let has = |wanted: Part| {
             let candidates = findings.candidates.iter().map(|candidate| candidate.element.as_str());
             let effects = findings.effects.iter().map(|effect| effect.element.as_str());
-            let unnamed = findings.unmodelled.iter().map(|it| it.place.as_str());
-            candidates.chain(effects).chain(unnamed).any(|element| part(element) == Some(wanted))
+            let unmodelled = findings.unmodelled.iter().map(|it| it.place.as_str());
+            candidates.chain(effects).chain(unmodelled).any(|element| part(element) == Some(wanted))
         };
         let (strut, tire, actuator) = (has(Part::Strut), has(Part::Tire), has(Part::Actuator));
         let guide = has(Part::Guide);
@@ -46,9 +46,9 @@ impl Drawing {
 #[derive(Clone, Copy, PartialEq)]
 enum Mark {
     None,
-    /// A cause is there.
+    /// An effect acts there.
     Found,
-    /// A cause is there or elsewhere.
+    /// An effect acts there or elsewhere.
     Possible,
 }
 
@@ -62,17 +62,17 @@ impl Mark {
     }
 }
 
-/// The elements at which the findings place a cause, or a parameter that does not fit if that is the verdict.
+/// The elements of effects and missing signals; of mismatched parameters if those are the verdict.
 fn marked(findings: &Findings) -> Vec<&str> {
     let effects = findings.effects.iter().map(|effect| effect.element.as_str());
-    let unnamed = findings.unmodelled.iter().map(|it| it.place.as_str());
+    let unmodelled = findings.unmodelled.iter().map(|it| it.place.as_str());
     let wrong = findings
         .base_parameters
         .iter()
         .filter(|parameter| findings.verdict == Verdict::ParameterMismatch && parameter.mismatch);
     let owners = wrong.filter_map(|parameter| parameter.name.split('.').next());
     let mut elements = Vec::new();
-    for element in effects.chain(unnamed).chain(owners.filter(|owner| part(owner).is_some())) {
+    for element in effects.chain(unmodelled).chain(owners.filter(|owner| part(owner).is_some())) {
         if !elements.contains(&element) {
             elements.push(element);
         }
@@ -80,7 +80,7 @@ fn marked(findings: &Findings) -> Vec<&str> {
     elements
 }
 
-/// The schematic, if the findings tell enough of the rig.
+/// The schematic, if the findings name parts of the rig.
 pub fn figure(findings: &Findings) -> Markup {
     let Some(drawing) = Drawing::of(findings) else {
         return html! {};
@@ -96,8 +96,11 @@ pub fn figure(findings: &Findings) -> Markup {
         }
     };
     let places: Vec<String> = marked.iter().map(|element| place(element)).collect();
-    let alt =
-        if places.is_empty() { "The rig".to_owned() } else { format!("The cause is {}", places.join(", ")) };
+    let alt = if places.is_empty() {
+        "The rig".to_owned()
+    } else {
+        format!("The rig; an effect acts {}", places.join(", "))
+    };
     let height = if drawing.tire { 372 } else { 270 };
     html! {
         figure.schematic {
@@ -217,10 +220,10 @@ fn station(name: &str) -> (f64, f64) {
     }
 }
 
-/// The signals with lines to where they are measured; those at fault in colour.
+/// The signals with lines to where they are measured; distorted ones in colour.
 fn sensors(findings: &Findings, marked: &[&str]) -> Markup {
-    let faulty = marked.iter().copied().filter(|element| part(element).is_none());
-    let mut names: Vec<&str> = faulty.collect();
+    let distorted = marked.iter().copied().filter(|element| part(element).is_none());
+    let mut names: Vec<&str> = distorted.collect();
     for signal in findings.signals.iter().map(|signal| signal.name.as_str()) {
         if !names.contains(&signal) && names.len() < SENSORS {
             names.push(signal);

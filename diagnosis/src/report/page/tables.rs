@@ -1,4 +1,4 @@
-//! Tables: parameters of the starting model, candidates, problems of the data.
+//! Tables: nominal parameters, candidates, problems of the data.
 
 use maud::{Markup, html};
 
@@ -8,14 +8,14 @@ use crate::report::words::{capitalised, count, digits, interval, number, percent
 /// Rows that a table shows before the rest is folded away.
 const OPEN_ROWS: usize = 12;
 
-/// What makes the data unusable comes first.
+/// Problems that make the data unusable.
 pub fn fatal_problems(findings: &Findings) -> Markup {
-    problems(findings, true, "What is wrong with the data")
+    problems(findings, true, "Data errors")
 }
 
-/// What is only worth knowing comes last.
+/// Problems that the diagnosis can work around.
 pub fn other_problems(findings: &Findings) -> Markup {
-    problems(findings, false, "Remarks on the data")
+    problems(findings, false, "Notes on the data")
 }
 
 fn problems(findings: &Findings, fatal: bool, title: &str) -> Markup {
@@ -23,7 +23,7 @@ fn problems(findings: &Findings, fatal: bool, title: &str) -> Markup {
     let table = |problems: &[&DataProblem]| {
         html! {
             table {
-                thead { tr { th { "Record" } th { "Signal" } th { "What is wrong, and what to do" } } }
+                thead { tr { th { "Record" } th { "Signal" } th { "Problem and remedy" } } }
                 tbody {
                     @for problem in problems {
                         tr { td { code { (problem.record) } } td { code { (problem.signal) } } td { (problem.text) } }
@@ -50,16 +50,16 @@ fn folded<'a, T>(rows: &[&'a T], noun: &str, table: impl Fn(&[&'a T]) -> Markup)
     }
 }
 
-/// What the model started with and what the data say.
-pub fn base_parameters(findings: &Findings) -> Markup {
-    // What does not fit comes first; otherwise the order stays.
+/// Starting and fitted values of the nominal parameters.
+pub fn nominal_parameters(findings: &Findings) -> Markup {
+    // Mismatches come first; otherwise the order stays.
     let mut all: Vec<&BaseParameter> = findings.base_parameters.iter().collect();
     all.sort_by_key(|parameter| !parameter.mismatch);
     let table = |parameters: &[&BaseParameter]| {
         html! {
             table {
                 thead { tr {
-                    th { "Parameter" } th.number { "Before" } th.number { "After" } th.number { "95 % interval" }
+                    th { "Parameter" } th.number { "Start" } th.number { "Fitted" } th.number { "95 % interval" }
                     th { "Unit" } th.number { "Change" } th {}
                 } }
                 tbody { @for parameter in parameters {
@@ -80,8 +80,8 @@ pub fn base_parameters(findings: &Findings) -> Markup {
     html! {
         @if !all.is_empty() {
             section {
-                h2 { "Parameters of the starting model" }
-                p.note { "“Mismatch” marks a difference that is both significant and large enough to matter." }
+                h2 { "Nominal parameters" }
+                p.note { "A mismatch is a significant difference that is large enough to matter." }
                 (folded(&all, "parameters", table))
             }
         }
@@ -99,7 +99,7 @@ fn site(element: &str) -> String {
     place(element).trim_start_matches("in the ").trim_start_matches("measurement of ").to_owned()
 }
 
-/// Everything that was looked at.
+/// All candidates with their share of the missing signal.
 pub fn candidates(findings: &Findings) -> Markup {
     let all = &findings.candidates;
     if all.is_empty() {
@@ -108,22 +108,29 @@ pub fn candidates(findings: &Findings) -> Markup {
     let fitted = all.iter().filter(|candidate| candidate.fitted).count();
     html! {
         section {
-            h2 { "All candidates" }
+            h2 { "Candidates" }
+            p.note {
+                "“Share” is the part of the missing signal that a candidate explains on its own, on the estimation data. \
+                “Validated” is the part on the validation data, with the same values. “Variance explained” and the tests \
+                are results of the fit."
+            }
             details {
                 summary {
                     (count(all.len(), "candidate")) ": " (fitted) " fitted, " (all.len() - fitted) " compared only"
                 }
                 div.scroll { table {
                     thead { tr {
-                        th { "No." } th { "Effect" } th { "Where" } th { "Outcome" } th.number { "Held-out t" }
-                        th.number { "Training t" } th.number { "ΔBIC" } th.number { "Explains" }
-                        th.number { "Share" } th.number { "Validated" }
+                        th { "No." } th { "Effect" } th { "Place" } th.number { "Share" } th.number { "Validated" } th { "Outcome" }
+                        th.number { "Validation t" } th.number { "Estimation t" } th.number { "ΔBIC" }
+                        th.number { "Variance explained" }
                     } }
                     tbody { @for candidate in all {
                         tr class=(if candidate.outcome == "accepted" { "accepted" } else { "" }) {
                             td { (candidate.id) }
                             td { (capitalised(&candidate.name)) }
                             td { (site(&candidate.element)) }
+                            td.number { (percent(candidate.share)) }
+                            td.number { (percent(candidate.validated)) }
                             td { (candidate.outcome) @if !candidate.fitted { span.small { " (compared)" } } }
                             @if let Some(evidence) = candidate.evidence {
                                 td.number { (number(evidence.held_out_t)) }
@@ -131,8 +138,6 @@ pub fn candidates(findings: &Findings) -> Markup {
                                 td.number { (number(evidence.delta_bic)) }
                                 td.number { (percent(evidence.explained)) }
                             } @else { td.number {} td.number {} td.number {} td.number {} }
-                            td.number { (percent(candidate.share)) }
-                            td.number { (percent(candidate.validated)) }
                         }
                     } }
                 } }

@@ -13,8 +13,11 @@ const RIGHT: f64 = 14.0;
 const TOP: f64 = 24.0;
 const BOTTOM: f64 = 40.0;
 
-/// Points that a plot draws one by one; more could not be told apart.
+/// Points that a plot draws one by one; more would hide each other.
 const POINTS: usize = 200;
+
+/// Dots that a plot draws at most.
+const DOTS: usize = 1500;
 
 /// Shape of a point.
 #[derive(Clone, Copy)]
@@ -25,7 +28,7 @@ pub enum Shape {
     Down,
 }
 
-/// Where along the frame stretches of the x axis are marked.
+/// Where along the frame segments of the x axis are marked.
 #[derive(Clone, Copy)]
 pub enum Edge {
     /// Along its top.
@@ -48,7 +51,7 @@ pub struct Plot {
 }
 
 impl Plot {
-    /// An empty plot of a size in pixels; its title is read to those who cannot see it.
+    /// An empty plot of a size in pixels; screen readers read the title.
     pub fn new(title: String, (width, height): (f64, f64), x: Axis, y: Axis) -> Self {
         Self { title, width, height, x, y, layers: Vec::new() }
     }
@@ -88,9 +91,18 @@ impl Plot {
         self
     }
 
-    /// A stretch of the x axis that is shown in another plot.
+    /// Small dots; at most fifteen hundred of them, evenly taken.
+    pub fn dots(mut self, class: &str, x: &[f64], y: &[f64]) -> Self {
+        let stride = x.len().min(y.len()).div_ceil(DOTS).max(1);
+        let points = x.iter().zip(y).step_by(stride).filter_map(|(x, y)| self.point(*x, *y));
+        let d: String = points.map(|(x, y)| format!("M{} {}h0", px(x), px(y))).collect();
+        self.layers.push(html! { path class=(format!("dots {class}")) d=(d) {} });
+        self
+    }
+
+    /// A segment of the x axis that is shown in another plot.
     pub fn window(mut self, from: f64, to: f64) -> Self {
-        if let Some((x, width)) = self.stretch(from, to) {
+        if let Some((x, width)) = self.segment(from, to) {
             self.layers.push(html! {
                 rect class="window" x=(px(x)) y=(px(TOP)) width=(px(width)) height=(px(self.bottom() - TOP)) {}
             });
@@ -98,15 +110,15 @@ impl Plot {
         self
     }
 
-    /// Stretches of the x axis in which something is to be seen.
-    pub fn marks(mut self, class: &str, edge: Edge, stretches: impl IntoIterator<Item = (f64, f64)>) -> Self {
+    /// Marks at segments of the x axis.
+    pub fn marks(mut self, class: &str, edge: Edge, segments: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let y = match edge {
             Edge::Top => TOP,
             Edge::Bottom => self.bottom() - MARK,
         };
-        for (from, to) in stretches {
-            if let Some((x, width)) = self.stretch(from, to) {
-                // The shortest one is still to be seen.
+        for (from, to) in segments {
+            if let Some((x, width)) = self.segment(from, to) {
+                // The shortest one stays visible.
                 let width = px(width.max(1.5));
                 self.layers.push(html! {
                     rect class=(format!("mark {class}")) x=(px(x)) y=(px(y)) width=(width) height=(px(MARK)) {}
@@ -116,8 +128,8 @@ impl Plot {
         self
     }
 
-    /// Where a stretch of the x axis begins and how wide it is, in pixels; none if none of it is in sight.
-    fn stretch(&self, from: f64, to: f64) -> Option<(f64, f64)> {
+    /// Start and width of a segment of the x axis in pixels; none if it is out of sight.
+    fn segment(&self, from: f64, to: f64) -> Option<(f64, f64)> {
         let (from, to) = (self.x.share(from)?, self.x.share(to)?);
         let (from, to) = (from.clamp(0.0, 1.0), to.clamp(0.0, 1.0));
         let inner = self.width - LEFT - RIGHT;
@@ -200,7 +212,7 @@ mod tests {
                 Plot::new("odd".into(), (300.0, 200.0), x, y).zero().window(f64::NAN, 1.0).level(f64::NAN);
             let plot = plot.marks("m", Edge::Top, [(f64::NAN, 1.0), (f64::MIN, f64::MAX), (2.0, 1.0)]);
             let plot = plot.curve("a", &odd, &odd).band("b", &odd, &odd, &odd);
-            let text = plot.points("c", Shape::Up, &odd, &odd).svg().into_string();
+            let text = plot.points("c", Shape::Up, &odd, &odd).dots("d", &odd, &odd).svg().into_string();
             assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
         }
     }

@@ -12,7 +12,7 @@ pub fn px(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// What a curve does within one column of pixels.
+/// A curve within one column of pixels.
 struct Column {
     index: f64,
     low: Point,
@@ -72,25 +72,25 @@ pub fn curve(points: impl IntoIterator<Item = Option<Point>>) -> String {
 /// The area between two curves, given as x, lower and upper y in pixels; several where points are missing.
 pub fn band(points: impl IntoIterator<Item = Option<(f64, f64, f64)>>) -> String {
     let mut path = String::new();
-    let mut stretch: Vec<(f64, f64, f64)> = Vec::new();
+    let mut segment: Vec<(f64, f64, f64)> = Vec::new();
     for point in points.into_iter().chain([None]) {
-        match (point, stretch.last_mut()) {
+        match (point, segment.last_mut()) {
             (Some((x, low, high)), Some(last)) if last.0.floor() == x.floor() => {
                 last.1 = last.1.min(low);
                 last.2 = last.2.max(high);
             }
-            (Some(point), _) => stretch.push(point),
+            (Some(point), _) => segment.push(point),
             (None, _) => {
-                let forth = stretch.iter().map(|(x, low, _)| (x, low));
-                let back = stretch.iter().rev().map(|(x, _, high)| (x, high));
+                let forth = segment.iter().map(|(x, low, _)| (x, low));
+                let back = segment.iter().rev().map(|(x, _, high)| (x, high));
                 for (index, (x, y)) in forth.chain(back).enumerate() {
                     let command = if index == 0 { 'M' } else { 'L' };
                     let _ = write!(path, "{command}{} {}", px(*x), px(*y));
                 }
-                if !stretch.is_empty() {
+                if !segment.is_empty() {
                     path.push('Z');
                 }
-                stretch.clear();
+                segment.clear();
             }
         }
     }

@@ -1,16 +1,16 @@
-//! Errors over frequency: their power, whether an input drives them, whether they are white.
+//! Errors over frequency: power, coherence with the inputs, whiteness.
 
 use maud::{Markup, html};
 
-use super::{HALF, folded};
+use super::{HALF, density, folded};
 use crate::report::findings::{Coherence, Periodogram, Pictures, Spectrum};
 use crate::report::plot::{Axis, Plot};
-use crate::report::words::{digits, unit};
+use crate::report::words::digits;
 
 /// Signals whose pictures are shown before the rest is folded away.
 const OPEN: usize = 1;
 
-/// All that there is over frequency, signal by signal.
+/// All plots over frequency, signal by signal.
 pub(super) fn frequencies(pictures: &Pictures, extended: bool) -> Markup {
     let signal = |spectrum: &Spectrum| {
         let coherences = pictures.coherences.iter().filter(|it| it.signal == spectrum.signal);
@@ -36,14 +36,14 @@ pub(super) fn frequencies(pictures: &Pictures, extended: bool) -> Markup {
             ul.explained {
                 @if !pictures.periodograms.is_empty() {
                     li {
-                        strong { "Is it noise? " } "White noise gathers its power evenly and stays in the grey band; a step is a \
-                        frequency at which something is left."
+                        strong { "Is it noise? " } "The cumulative power of white noise stays in the grey band. A step marks a \
+                        frequency of the remaining error."
                     }
                 }
                 @if !pictures.coherences.is_empty() {
                     li {
-                        strong { "Is it driven? " } "Above the dashed line, what is left still follows from that input by a \
-                        linear law; below it, it is noise or follows by a law that is not linear."
+                        strong { "Is it driven? " } "Above the dashed line, the remaining error follows from that input by a \
+                        linear law. Below it, the error is noise or follows by a nonlinear law."
                     }
                 }
             }
@@ -67,14 +67,8 @@ fn power(spectrum: &Spectrum, extended: bool) -> Markup {
     let mut curves = vec![("measured", &spectrum.measured)];
     curves.extend(both(&spectrum.before, &spectrum.after, extended));
     let all = curves.iter().flat_map(|(_, values)| values.iter().copied());
-    let unit = unit(&spectrum.unit);
-    let label = match unit.as_str() {
-        "" => "1/Hz".to_owned(),
-        plain if plain.chars().all(char::is_alphabetic) => format!("{plain}²/Hz"),
-        composed => format!("({composed})²/Hz"),
-    };
     let title = format!("Power spectral density of {}", spectrum.signal);
-    let mut plot = Plot::new(title, HALF, x, Axis::logarithmic(&label, all, 0.05));
+    let mut plot = Plot::new(title, HALF, x, Axis::logarithmic(&density(&spectrum.unit), all, 0.05));
     for (class, values) in curves {
         plot = plot.curve(class, &spectrum.frequency, values);
     }
@@ -102,8 +96,8 @@ fn cumulative(periodogram: &Periodogram, extended: bool) -> Markup {
         figure {
             figcaption {
                 "Is it noise? "
-                @if distance <= periodogram.limit { "Yes, as far as can be told" }
-                @else { "No: " (digits(distance, 2)) " off, chance makes " (digits(periodogram.limit, 2)) }
+                @if distance <= periodogram.limit { "Yes, within the band" }
+                @else { "No: distance " (digits(distance, 2)) ", limit " (digits(periodogram.limit, 2)) }
             }
             (plot.svg())
         }

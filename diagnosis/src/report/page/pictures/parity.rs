@@ -1,4 +1,4 @@
-//! The balances of what was measured.
+//! Balances of measured signals.
 
 use maud::{Markup, html};
 
@@ -13,28 +13,28 @@ const SIZE: (f64, f64) = (490.0, 170.0);
 /// Times the noise up to which a balance holds.
 const HOLDS: f64 = 2.0;
 
-/// All balances: those that can be formed with their pictures, then the others.
+/// All balances: those with a picture first.
 pub(super) fn balances(all: &[Parity], extended: bool) -> Markup {
     let (formed, unformed): (Vec<&Parity>, Vec<&Parity>) = all.iter().partition(|it| it.needs.is_none());
     html! {
         @if !all.is_empty() {
-            h3 { "Which balances hold" }
+            h3 { "Balances" }
             p.note {
-                "Each adds up what a few sensors say, with at most one law of the model. What is left should be no more than the \
-                sensors’ noise makes of it; a balance that does not hold says where to look."
+                "Each balance combines a few sensors with at most one law of the model. Its residual should be sensor noise. \
+                A balance that does not hold shows where to look."
                 @if let Some(one) = formed.first() {
-                    " On held-out data; all terms pass the same filter, up to " (digits(one.band, 2)) " Hz."
+                    " On the validation data; all terms pass the same filter, up to " (digits(one.band, 2)) " Hz."
                 }
             }
             @if !formed.is_empty() {
-                ul.legend { li.before { "fitted" } @if extended { li.after { "extended" } } li.white { "twice the sensors’ noise" } }
+                ul.legend { li.before { "fitted" } @if extended { li.after { "extended" } } li.white { "twice the sensor noise" } }
                 div.plots { @for one in formed { (balance(one, extended)) } }
             }
             @if !unformed.is_empty() {
                 ul.explained {
                     @for one in unformed {
                         li {
-                            strong { (one.id) " " (one.name) } " cannot be formed: it needs "
+                            strong { (one.id) " " (one.name) } " is not available; it needs "
                             (one.needs.as_deref().unwrap_or_default()) "."
                         }
                     }
@@ -57,7 +57,7 @@ fn balance(parity: &Parity, extended: bool) -> Markup {
     let shown = before.iter().chain(&after).chain(&high).chain(&low).copied();
     let x = Axis::tight("time / s", time.iter().copied(), 6);
     let y = Axis::linear(&unit_or_none(&parity.unit), shown, 4);
-    let plot = Plot::new(format!("What is left of {}", parity.equation), SIZE, x, y).zero();
+    let plot = Plot::new(format!("Residual of {}", parity.equation), SIZE, x, y).zero();
     let plot = plot.band("white", &time, &low, &high).curve("before", &time, &before);
     let plot = if extended { plot.curve("after", &time, &after) } else { plot };
     let times = |rms: f64| format!("{} × noise", digits(rms / parity.noise, 2));

@@ -1,0 +1,159 @@
+//! Signals with errors that no known effect explains.
+
+use super::{digits, percent};
+use crate::report::findings::{Findings, SignalAccount};
+
+/// A ratio to the noise above which its digits mean nothing.
+const FAR: f64 = 1000.0;
+
+/// The unexplained error of a signal, on the validation data.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OpenSignal {
+    /// As in the FMU.
+    pub signal: String,
+    /// Its root mean square as a share of the signal's; not a number if the fit is not known.
+    pub share: f64,
+    /// The same as a multiple of the sensor's noise; infinite without noise.
+    pub noise: f64,
+    /// Fit of the extended model, without the noise of the measured inputs.
+    pub fit: f64,
+    /// Whether a description covers part of it, although no effect of the catalogue does.
+    pub described: bool,
+}
+
+/// The signals whose account is open, the largest share of a signal first.
+pub fn open_signals(findings: &Findings) -> Vec<OpenSignal> {
+    let mut all: Vec<OpenSignal> =
+        findings.account.iter().filter_map(|account| open_signal(findings, account)).collect();
+    let key = |it: &OpenSignal| if it.share.is_finite() { it.share } else { -1.0 };
+    all.sort_by(|a, b| key(b).total_cmp(&key(a)));
+    all
+}
+
+/// The unexplained error of one account, if it is open.
+pub fn open_signal(findings: &Findings, account: &SignalAccount) -> Option<OpenSignal> {
+    let left = account.unmodelled.max(0.0) + account.unexplained.max(0.0);
+    let noise = account.noise.max(0.0);
+    let fit =
+        findings.signals.iter().find(|it| it.name == account.signal).map_or(f64::NAN, |it| it.phi_quiet);
+    account.open.then(|| OpenSignal {
+        signal: account.signal.clone(),
+        // The remaining error is noise and the rest, which add up in power.
+        share: (1.0 - fit) * (left / (left + noise)).sqrt(),
+        noise: (left / noise).sqrt(),
+        fit,
+        described: account.unmodelled > 0.0,
+    })
+}
+
+impl OpenSignal {
+    /// How much of the signal it is, if the model predicts the signal at all.
+    fn part(&self) -> Option<String> {
+        (self.share.is_finite() && self.share < 1.0).then(|| percent(self.share))
+    }
+
+    /// `12 × sensor noise`; nothing if that is not known.
+    pub fn times_noise(&self) -> Option<String> {
+        match self.noise {
+            times if times > FAR => Some(format!("more than {FAR} × sensor noise")),
+            times if times.is_finite() => Some(format!("{} × sensor noise", digits(times, 2))),
+            _ => None,
+        }
+    }
+
+    /// One sentence.
+    pub fn sentence(&self) -> String {
+        let noise = self.times_noise().map_or(String::new(), |times| format!(" ({times})"));
+        let Self { signal, .. } = self;
+        match (self.part(), self.described) {
+            (Some(part), false) => {
+                format!("{part} of {signal} is still unexplained on the validation data{noise}.")
+            }
+            (Some(part), true) => {
+                format!("No known effect explains {part} of {signal} on the validation data{noise}.")
+            }
+            (None, _) if self.fit < 0.0 => {
+                format!("The model does not predict {signal} at all on the validation data{noise}.")
+            }
+            (None, _) => format!("{signal} is still unexplained on the validation data{noise}."),
+        }
+    }
+
+    /// The same beside the signal's name, without a verb.
+    pub fn note(&self) -> String {
+        let what = if self.described { "no known effect" } else { "still unexplained" };
+        let part = match self.part() {
+            Some(part) => format!("{part} of the signal"),
+            None => "the signal as a whole".to_owned(),
+        };
+        let noise = self.times_noise().map_or(String::new(), |times| format!(", {times}"));
+        format!("{what}: {part}{noise}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::findings::{Signal, Verdict};
+
+    fn findings(noise: f64, unmodelled: f64, unexplained: f64, phi: f64) -> Findings {
+        let account = SignalAccount {
+            signal: "body.acceleration".into(),
+            error: 1.0,
+            noise,
+            parameters: 0.0,
+            effects: vec![],
+            unmodelled,
+            unexplained,
+            open: true,
+        };
+        let signal = Signal {
+            name: "body.acceleration".into(),
+            unit: "m/s2".into(),
+            phi_before: 0.1,
+            phi_fitted: phi,
+            phi_after: phi,
+            phi_quiet: phi,
+            rms_before: 8.0,
+            rms_fitted: 4.0,
+            rms_after: 4.0,
+            noise_floor: 0.1,
+            repeatability: None,
+        };
+        let mut findings = Findings::of_bad_data("rig", vec![], vec![], vec![]);
+        findings.verdict = Verdict::Identified;
+        (findings.account, findings.signals) = (vec![account], vec![signal]);
+        findings
+    }
+
+    #[test]
+    fn an_open_signal_has_its_share_and_its_multiple_of_the_noise() {
+        let all = open_signals(&findings(0.001, 0.0, 0.4, 0.6));
+        assert!((all[0].share - 0.4).abs() < 1e-3 && (all[0].noise - 20.0).abs() < 1e-9, "{all:?}");
+        let text = all[0].sentence();
+        assert_eq!(
+            text,
+            "40 % of body.acceleration is still unexplained on the validation data (20 × sensor noise)."
+        );
+    }
+
+    #[test]
+    fn a_description_is_no_explanation() {
+        let text = open_signals(&findings(0.001, 0.3, 0.1, 0.6))[0].sentence();
+        assert!(text.starts_with("No known effect explains 40 % of body.acceleration"), "{text}");
+    }
+
+    #[test]
+    fn a_fit_below_zero_is_said_in_words() {
+        let all = open_signals(&findings(0.0, 0.0, 0.4, -15.9));
+        assert!(all[0].sentence().starts_with("The model does not predict body.acceleration at all"));
+        assert!(!all[0].note().contains("inf") && !all[0].note().contains("15"), "{}", all[0].note());
+    }
+
+    #[test]
+    fn a_closed_account_is_not_open() {
+        let mut closed = findings(0.5, 0.0, 0.1, 0.9);
+        closed.account[0].open = false;
+        assert!(open_signals(&closed).is_empty());
+    }
+}

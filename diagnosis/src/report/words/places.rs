@@ -1,0 +1,112 @@
+//! Effects and the places where they act.
+
+use super::value;
+use crate::report::findings::{AccountItem, Effect, Findings};
+
+/// A part of the rig.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The body's mass.
+    Body,
+    /// The body's or the wheel's guide.
+    Guide,
+    /// Spring and damper between body and wheel.
+    Strut,
+    /// The actuator.
+    Actuator,
+    /// The wheel's mass.
+    Wheel,
+    /// The tyre.
+    Tire,
+    /// The road.
+    Road,
+}
+
+/// The part that an element's name means; none for a sensor.
+pub fn part(element: &str) -> Option<Part> {
+    Some(match element {
+        "body" => Part::Body,
+        "guide" | "body_guide" | "wheel_guide" => Part::Guide,
+        "strut" => Part::Strut,
+        "actuator" => Part::Actuator,
+        "wheel" => Part::Wheel,
+        "tire" => Part::Tire,
+        "road" => Part::Road,
+        _ => return None,
+    })
+}
+
+/// An element as a place: `in the strut`, `at body.acceleration`.
+pub fn place(element: &str) -> String {
+    match (part(element), element) {
+        (Some(Part::Tire), _) => "in the tyre".into(),
+        (Some(_), "body_guide") => "in the body’s guide".into(),
+        (Some(_), "wheel_guide") => "in the wheel’s guide".into(),
+        (Some(_), _) | (None, "pump" | "valve") => format!("in the {element}"),
+        (None, _) => format!("at {element}"),
+    }
+}
+
+/// An effect with its place, which a name such as `guide friction` holds already.
+pub fn located(name: &str, element: &str) -> String {
+    match name.split(' ').any(|word| word == element) {
+        true => name.to_owned(),
+        false => format!("{name} {}", place(element)),
+    }
+}
+
+/// An effect with its place and its first parameter: `friction in the strut (strut.coulomb.force = 61.2 N)`.
+pub fn sized(effect: &Effect) -> String {
+    let named = located(&effect.name, &effect.element);
+    match effect.parameters.first() {
+        Some(it) => format!("{named} ({} = {})", it.name, value(it.value, &it.unit)),
+        None => named,
+    }
+}
+
+/// Number and element of an effect that is given as `01 strut`.
+fn split(key: &str) -> (&str, &str) {
+    let key = key.trim();
+    let (id, element) = key.split_once([' ', '@', ':', '/']).unwrap_or((key, ""));
+    (id, element.trim())
+}
+
+/// The element of an effect that is given as `01 strut`.
+pub fn element(key: &str) -> &str {
+    split(key).1
+}
+
+/// The name of an effect that is given by number and place, as `01 strut`, if a candidate has them.
+pub fn effect_name(findings: &Findings, key: &str) -> String {
+    let (id, element) = split(key);
+    let known = findings.candidates.iter().filter(|candidate| candidate.id == id);
+    match known.max_by_key(|candidate| candidate.element == element) {
+        Some(known) if element.is_empty() => located(&known.name, &known.element),
+        Some(known) => located(&known.name, element),
+        None => key.to_owned(),
+    }
+}
+
+/// The number of an account's item in the list of effects, from one; a curve, which is unmodelled, has none.
+pub fn effect_rank(findings: &Findings, item: &AccountItem) -> Option<usize> {
+    let of_item = |effect: &Effect| located(&effect.name, &effect.element) == item.name;
+    findings.effects.iter().position(of_item).map(|index| index + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_is_named_once() {
+        let names = [("viscous guide", "guide"), ("constant force", "guide"), ("soft mount", "strut")];
+        let located = names.map(|(name, element)| located(name, element));
+        assert_eq!(located, ["viscous guide", "constant force in the guide", "soft mount in the strut"]);
+    }
+
+    #[test]
+    fn the_inside_of_an_actuator_is_no_sensor() {
+        let places = ["pump", "valve", "tire", "motor.speed"].map(place);
+        assert_eq!(places, ["in the pump", "in the valve", "in the tyre", "at motor.speed"]);
+    }
+}
