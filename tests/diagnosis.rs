@@ -54,10 +54,10 @@ fn a_hidden_friction_is_found_and_the_extended_model_has_the_errors_that_are_tol
             .arg(&out),
     );
     let terminal = String::from_utf8_lossy(&output.stdout);
-    assert!(terminal.starts_with("NAMED: The model lacks Coulomb friction in the strut."), "{terminal}");
+    assert!(terminal.starts_with("IDENTIFIED: The model lacks Coulomb friction in the strut."), "{terminal}");
 
     let report = report(&out);
-    assert_eq!(report["verdict"], "named", "{terminal}");
+    assert_eq!(report["verdict"], "identified", "{terminal}");
     assert_eq!(named(&report), ["01"]);
     let force = &report["effects"][0]["parameters"][0];
     assert_eq!(force["name"], "strut.coulomb.force");
@@ -120,9 +120,9 @@ fn a_sensor_s_response_without_a_name_is_told_by_its_curve() {
     let output = strut::run(command.arg("--test").arg(records.join("test.csv")).arg("--out").arg(&out));
     let terminal = String::from_utf8_lossy(&output.stdout);
     let report = report(&out);
-    assert_eq!(report["verdict"], "unnamed", "{terminal}");
+    assert_eq!(report["verdict"], "unmodelled", "{terminal}");
     assert!(named(&report).is_empty(), "{terminal}");
-    let curve = &report["unnamed"];
+    let curve = &report["unmodelled"][0]["curve"];
     assert_eq!((&curve["location"], &curve["variable"]), (&"body.acceleration".into(), &"time".into()));
     let list = |field: &str| {
         let values = curve[field].as_array().expect("a list").iter();

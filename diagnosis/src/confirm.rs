@@ -63,10 +63,11 @@ impl World<'_> {
             own.iter().for_each(|it| point.set(it.handle, start.get(it.handle)));
             point
         };
-        let first = proposal.starts.first();
-        let smoothed = first.map(|start| with(start, &start.parameters));
-        let starts = proposal.starts.iter().map(|start| with(start, &null.point.parameters));
-        let starts: Vec<Point> = starts.chain(smoothed.filter(|_| null.terms.is_empty())).collect();
+        let start = &proposal.start;
+        let mut starts = vec![with(start, &null.point.parameters)];
+        if null.terms.is_empty() {
+            starts.push(with(start, &start.parameters));
+        }
         let fitted = self.fitted(&terms, &starts, comparing(base, null));
         self.weighed(base, null, proposal.term, fitted)
     }

@@ -32,6 +32,8 @@ const STEADILY: f64 = 4.0;
 
 /// Effects at most.
 const MOST: usize = 4;
+/// How often other effects are fitted where the first ones are not confirmed.
+const ATTEMPTS: usize = 2;
 /// Unmodelled places at most.
 const PLACES: usize = 2;
 
@@ -214,12 +216,16 @@ impl World<'_> {
     ) -> Result<Next, String> {
         let mut names = compared.named.clone();
         let mut features = &compared.features[..];
-        loop {
+        for _ in 0..ATTEMPTS {
             let scores = match choose(compared.misses, &names, features, Limits::USUAL) {
                 Choice::Nothing => return Ok(Next::Nothing),
                 Choice::Unmodelled(score) => return Ok(Next::Curve(score)),
                 Choice::Named(scores) => scores,
             };
+            // A fit is not worth its time where no signal would gain.
+            if scores.first().is_none_or(|it| self.improvement(&found.extended, it.share) < SMALLEST) {
+                return Ok(Next::Nothing);
+            }
             let proposals = compared.proposals(&scores, Limits::USUAL.most);
             progress(&format!("fitting {} effects", proposals.len()));
             let tried = self.try_all(&found.base, &found.extended, &proposals);
@@ -235,6 +241,7 @@ impl World<'_> {
             names.retain(|it| !proposals.iter().any(|refused| compared.is_of(it, refused.term)));
             features = &[];
         }
+        Ok(Next::Nothing)
     }
 
     /// Takes features without a name as explained, as a curve in the model if there is one. Whether to look further.
@@ -259,9 +266,12 @@ impl World<'_> {
             found.stages.push(fitted);
             return Ok(true);
         }
+        // Without a curve in the model that the data confirm, its place and its variable are known all the same.
+        let curve = curve.map(|(term, own)| Unmodelled::curve(term, own, improvement, &self.rig.plant));
         let unmodelled = Unmodelled::of(missing, compared, score, improvement);
-        found.unmodelled.extend(unmodelled.clone());
-        Ok(unmodelled.is_some())
+        let goes_on = unmodelled.is_some();
+        found.unmodelled.extend(unmodelled.or(curve));
+        Ok(goes_on)
     }
 
     /// The last effect whose amount may be nothing by all that is known of it.

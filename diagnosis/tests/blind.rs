@@ -1,5 +1,5 @@
-//! The compact blind benchmark: causes that another program has hidden, with noise and small effects that no model
-//! knows, are found through the command line.
+//! A few cases of the blind benchmark: effects that another program has hidden, with noise and small effects that no model
+//! knows, are found through the command line. The whole list is a command of its own (`tests/blind`).
 
 use std::fs;
 use std::path::Path;
@@ -45,51 +45,23 @@ macro_rules! named {
 
 named! {
     coulomb_friction: "single-01";
-    an_asymmetric_damper: "single-04";
-    a_damper_knee: "single-05";
-    a_maxwell_branch: "single-07";
-    a_maxwell_branch_that_is_no_bush_with_play: "common-07";
-    a_nonlinear_spring: "single-08";
-    a_bump_stop: "single-09";
+    play_in_a_damper_bush: "single-12";
     an_actuator_delay: "single-23";
     friction_and_a_nonlinear_spring: "pair-01-08";
-    an_offset_that_drifts: "sensor-33";
-    a_clock_that_is_off: "sensor-36";
-    a_sampling_rate_that_is_off: "sensor-40";
-    a_saturated_actuator: "single-26";
-    a_force_that_cannot_change_fast: "single-26s";
-    a_limited_voltage: "servo-26v";
-    a_pump_that_leaks: "pump-30p";
-    an_overlapped_valve: "servo-28";
-    a_valve_with_hysteresis: "servo-28h";
-    a_force_cell_with_hysteresis: "sensor-41h";
-    friction_on_a_dyno: "dyno-01";
-    breakaway_friction_of_a_drive: "drive-02g";
-    plain_friction_of_a_drive: "drive-16";
-    cogging_of_a_drive: "drive-27";
-    friction_of_a_drive_and_a_constant_force: "drive-16-33g";
-    a_frame_s_mode_behind_a_late_command: "behind-18";
-    a_late_deflection_behind_a_curved_spring: "behind-36";
-    a_lag_whose_work_another_cause_had_done: "behind-35";
-    breakaway_friction_that_is_no_plain_friction_besides: "resized-02g";
-    friction_of_a_strut_whose_position_is_noisy: "noisy-01";
-    friction_behind_play: "single-03b";
-    friction_of_a_guide_under_state_feedback: "regulated-16";
+    friction_of_a_drive: "drive-16";
 }
 
-/// Nothing is there, or nothing that matters: no cause is claimed.
+/// Nothing is there, or nothing that matters: no effect is claimed.
 #[test]
 fn nothing_is_claimed_where_nothing_is_hidden() {
-    for name in ["none", "none-cluttered", "mismatch"] {
-        let score = diagnosed(name);
-        assert_eq!(score.outcome, Outcome::Correct, "{score:?}");
-    }
+    let score = diagnosed("none-cluttered");
+    assert_eq!(score.outcome, Outcome::Correct, "{score:?}");
 }
 
-/// A cause that is in no catalogue gets no name, and is found in its place: in the strut, and in a sensor.
+/// What is in no catalogue gets no name, and is found in its place with what it depends on: an inertial coupling, an absorber, drop-outs.
 #[test]
-fn a_cause_without_a_name_gets_none() {
-    for name in ["unnamed-U1", "driven-U1", "unnamed-U5", "answering-U6"] {
+fn what_is_in_no_catalogue_gets_no_name() {
+    for name in ["unnamed-U7", "unnamed-U9", "unnamed-U10", "mass-U16"] {
         let score = diagnosed(name);
         assert!(matches!(score.outcome, Outcome::Correct | Outcome::Unnamed), "{score:?}");
         assert_eq!((score.location_right, score.variable_right), (Some(true), Some(true)), "{score:?}");

@@ -7,6 +7,7 @@ use strut_diagnosis::catalogue::naming::{handle, name};
 use strut_diagnosis::data::map::Map;
 use strut_diagnosis::dataset::import::{align, choose_drive, import};
 use strut_diagnosis::dataset::recorded::Recorded;
+use strut_diagnosis::dataset::split::Records;
 use strut_diagnosis::diagnosis::{Options, diagnose};
 use strut_diagnosis::estimation::fit::Handle;
 use strut_diagnosis::rig::Rig;
@@ -83,10 +84,8 @@ impl Case {
         }
         align(&mut records).unwrap();
         let test = records.split_off(1);
-        let conditioned =
-            |records: &[Recorded]| records.iter().map(Recorded::conditioned).collect::<Vec<_>>();
-        let (train, judging) = (conditioned(&records), conditioned(&test));
-        let diagnosis = diagnose(&rig, &train, &judging, &test, Options::default(), &|_| {}).unwrap();
+        let records = Records::new(&records, test);
+        let diagnosis = diagnose(&rig, &records, Options::default(), &|_| {}).unwrap();
         let terms = diagnosis.found.accepted.iter().map(|it| name(it.term, &rig.plant).short()).collect();
         let named = |of: Handle| handle(of, &rig.plant).0;
         let (extended, intervals) = (&diagnosis.found.extended, &diagnosis.intervals);

@@ -2,6 +2,7 @@
 
 use strut_diagnosis::catalogue::naming::name;
 use strut_diagnosis::dataset::recorded::{Measured, Recorded, Source, derivative};
+use strut_diagnosis::dataset::split::Records;
 use strut_diagnosis::diagnosis::{Diagnosis, Options, diagnose};
 use strut_diagnosis::estimation::fit::Handle;
 use strut_diagnosis::plant::{Between, Drive};
@@ -114,15 +115,15 @@ fn seen(rig: &Rig, seed: u64, changes: &[(&str, f64)], push: f64, sensors: &[&st
 
 /// Numbers and places of all that is told.
 fn told(diagnosis: &Diagnosis<'_>) -> Vec<String> {
-    let all = diagnosis.found.accepted.iter().chain(&diagnosis.rooted);
+    let all = diagnosis.found.accepted.iter();
     all.map(|it| name(it.term, &diagnosis.world.rig.plant).short()).collect()
 }
 
 /// Numbers and places of what is found on held-out data, and the values of the extended model's parameters.
 fn found(changes: &[(&str, f64)]) -> (Vec<String>, Vec<(String, f64)>) {
     let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
-    let (train, test) = ([record(&rig, 1, changes)], [record(&rig, 20, changes)]);
-    let diagnosis = diagnose(&rig, &train, &test, &test, Options::default(), &|_| {}).unwrap();
+    let records = Records::new(&[record(&rig, 1, changes)], [record(&rig, 20, changes)].to_vec());
+    let diagnosis = diagnose(&rig, &records, Options::default(), &|_| {}).unwrap();
     let terms = diagnosis.found.accepted.iter().map(|it| name(it.term, &rig.plant).short());
     let point = &diagnosis.found.extended.point;
     let values = rig.plant.parameters.iter().zip(&point.parameters);
@@ -180,8 +181,8 @@ fn one_late_actuator_is_simpler_than_every_sensor_being_late() {
         }
         record
     };
-    let (train, test) = ([late(1)], [late(20)]);
-    let diagnosis = diagnose(&rig, &train, &test, &test, Options::default(), &|_| {}).unwrap();
+    let records = Records::new(&[late(1)], [late(20)].to_vec());
+    let diagnosis = diagnose(&rig, &records, Options::default(), &|_| {}).unwrap();
     assert_eq!(told(&diagnosis), ["23 actuator.force"]);
     let delay = Handle::Input(rig.plant.input("actuator.force").unwrap(), Fault::Delay);
     assert!((diagnosis.found.extended.point.get(delay) - 2.0 * STEP).abs() < 0.2 * STEP);
@@ -204,8 +205,8 @@ fn a_very_late_sensor_is_not_a_slightly_late_command() {
         late.values.rotate_right(2);
         record
     };
-    let (train, test) = ([record(1)], [record(20)]);
-    let diagnosis = diagnose(&rig, &train, &test, &test, Options::default(), &|_| {}).unwrap();
+    let records = Records::new(&[record(1)], [record(20)].to_vec());
+    let diagnosis = diagnose(&rig, &records, Options::default(), &|_| {}).unwrap();
     assert_eq!(told(&diagnosis), ["36 suspension.deflection"]);
 }
 
@@ -216,11 +217,11 @@ fn what_was_weighed_is_believed() {
     let mut rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
     let mass = rig.plant.parameter("sprung_mass").unwrap();
     let record = |seed: u64| record(&rig, seed, &[("sprung_mass", 100.0)]);
-    let (train, test) = ([record(1)], [record(20)]);
+    let records = Records::new(&[record(1)], [record(20)].to_vec());
     for (sheet, value, blamed) in [(94.38, 100.0, false), (94.38, 94.0, true), (2.0, 100.0, false)] {
         rig.parameters[mass] = sheet;
         let options = Options { known: vec![(mass, value, 0.1)], ..Options::default() };
-        let diagnosis = diagnose(&rig, &train, &test, &test, options, &|_| {}).unwrap();
+        let diagnosis = diagnose(&rig, &records, options, &|_| {}).unwrap();
         assert_eq!(!told(&diagnosis).is_empty(), blamed, "{value} kg, {sheet} kg in the sheet");
         let interval = diagnosis.intervals.iter().find(|it| it.handle == Handle::Parameter(mass)).unwrap();
         assert!(
@@ -243,8 +244,8 @@ fn a_small_input_is_turned_over_before_anything_is_claimed() {
             }
             record
         };
-        let (train, test) = ([record(1)], [record(20)]);
-        let diagnosis = diagnose(&rig, &train, &test, &test, Options::default(), &|_| {}).unwrap();
+        let records = Records::new(&[record(1)], [record(20)].to_vec());
+        let diagnosis = diagnose(&rig, &records, Options::default(), &|_| {}).unwrap();
         assert_eq!(diagnosis.reversed, reversed);
         assert_eq!(told(&diagnosis), ["01 strut"]);
     }
@@ -257,9 +258,9 @@ fn sensors_are_not_late_where_a_law_does_as_well() {
     let rig = Rig::published("quanser-quarter-car").unwrap();
     let hidden = [("guide.coulomb.force", 3.0), ("wheel_guide.coulomb.force", 3.0)];
     let record = |seed: u64| seen(&rig, seed, &hidden, 0.01, &["body.position", "wheel.position"]);
-    let (train, test) = ([record(1)], [record(20)]);
+    let records = Records::new(&[record(1)], [record(20)].to_vec());
     let options = Options { only: vec!["15".into()], ..Options::default() };
-    let diagnosis = diagnose(&rig, &train, &test, &test, options, &|_| {}).unwrap();
+    let diagnosis = diagnose(&rig, &records, options, &|_| {}).unwrap();
     let told = told(&diagnosis);
     assert!(!told.is_empty() && told.iter().all(|it| it.starts_with("15 ")), "{told:?}");
 }

@@ -1,8 +1,8 @@
-"""The extended model of a diagnosis, through FMPy on the held-out records.
+"""The extended model of a diagnosis, through FMPy on the validation records.
 
     python diagnosed.py REPORT RECORDS     # the folder of the report, that of the records
 
-Whoever runs `extended.fmu` on a held-out record, and lets its signals pass the `corrections`, finds the errors that
+Whoever runs `extended.fmu` on a validation record, and lets its signals pass the `corrections`, finds the errors that
 `report.json` tells.
 """
 
@@ -125,7 +125,7 @@ def simulate(fmu, rows, step, start, names):
 
 
 def errors(fmu, report, folder, changed):
-    """Root mean square of each signal's error over all held-out stretches."""
+    """Root mean square of each signal's error over all validation segments."""
     names = [signal["name"] for signal in report["signals"]]
     left = [[] for _ in names]
     for stretch in report["starts"]:
@@ -152,7 +152,7 @@ def check_errors(fmu, report, folder):
     if report["effects"]:
         first, place = report["effects"][0]["parameters"][0]["name"], report["effects"][0]["element"]
     else:
-        first = place = report["unnamed"]["location"]
+        first = place = report["unmodelled"][0]["place"]
     others = [it for it in report["corrections"] if it["signal"] != place]
     if len(others) < len(report["corrections"]):
         without = errors(fmu, report | {"corrections": others}, folder, {})

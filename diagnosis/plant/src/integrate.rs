@@ -104,7 +104,8 @@ impl<'a, M: Model, R: Scalar> Run<'a, M, R> {
         self.pace.reach(&self.state);
         let state = self.state;
         loop {
-            let need = self.advance(sample, first, rates, |share| M::Input::<R>::from_fn(|i| input(i, share)));
+            let need =
+                self.advance(sample, first, rates, |share| M::Input::<R>::from_fn(|i| input(i, share)));
             if !self.pace.refuse(need) {
                 break;
             }
@@ -121,12 +122,7 @@ impl<'a, M: Model, R: Scalar> Run<'a, M, R> {
     }
 
     /// Goes from the state at a sample to the next one and hands out the states there, by their index.
-    pub fn advanced(
-        &mut self,
-        sample: usize,
-        input: impl Fn(usize, f64) -> R,
-        put: impl FnMut(usize, R),
-    ) {
+    pub fn advanced(&mut self, sample: usize, input: impl Fn(usize, f64) -> R, put: impl FnMut(usize, R)) {
         let (first, rates) = self.outputs(sample, &input, |_, _| {});
         self.reach_next(sample, &first, &rates, input);
         self.state.for_each(put);

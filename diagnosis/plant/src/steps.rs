@@ -74,7 +74,9 @@ pub(super) fn followed<M: Model>(
         let own = lane.iter().position(|seed| seeds[*seed] == Seed::State(state));
         own.map_or(Jet::from(value), |index| Jet { value, slopes: direction(index) })
     };
-    let input = |seeding: &Seeding<'_>, (i, sample, share): (usize, usize, f64)| seeding.value(drive, i, sample, share);
+    let input = |seeding: &Seeding<'_>, (i, sample, share): (usize, usize, f64)| {
+        seeding.value(drive, i, sample, share)
+    };
     follow(lanes.collect(), start, drive, (seeds.len(), wanted), follower, seeded, input);
 }
 
@@ -115,12 +117,16 @@ fn follow<M: Model, R: Scalar>(
         let mut next = state.clone();
         for lane in &mut lanes {
             lane.run.place(|i| seeded(state[i], i, &lane.seeds));
-            lane.run.advanced(sample, |i, share| input(&lane.seeding, (i, sample, share)), |index, value| {
-                next[index] = value.number();
-                for (seed, slope) in lane.seeds.iter().zip(value.slopes()) {
-                    advanced[index * seeds + seed] = *slope;
-                }
-            });
+            lane.run.advanced(
+                sample,
+                |i, share| input(&lane.seeding, (i, sample, share)),
+                |index, value| {
+                    next[index] = value.number();
+                    for (seed, slope) in lane.seeds.iter().zip(value.slopes()) {
+                        advanced[index * seeds + seed] = *slope;
+                    }
+                },
+            );
         }
         follower.advanced(sample, &next, &advanced);
         state = next;

@@ -130,8 +130,8 @@ pub(super) const CAUSES: &[Cause] = &[
         setting: None,
         parts: &[
             part("strut.stop.stiffness", Scale::STIFFNESS, (0.0, 300.0), &[2.0]),
-            part("strut.stop.compression_clearance", Scale::DEFLECTION, (0.3, 20.0), &[1.2, 2.0]),
-            part("strut.stop.rebound_clearance", Scale::DEFLECTION, (0.3, 20.0), &[1.2, 2.0]),
+            part("strut.stop.compression_clearance", Scale::DEFLECTION, (0.3, 20.0), &[1.2, 1.8, 2.4, 3.2]),
+            part("strut.stop.rebound_clearance", Scale::DEFLECTION, (0.3, 20.0), &[1.2, 1.8, 2.4, 3.2]),
         ],
         experiment: "move slowly to both ends of the stroke",
     },

@@ -40,7 +40,7 @@ impl World<'_> {
 
     /// Where a limit is, with a little of what a law has more.
     fn beside(&self, limit: &Fitted, screened: &Proposal) -> Option<Point> {
-        let first = screened.starts.first()?;
+        let first = &screened.start;
         let mut start = limit.point.clone();
         let known = parts(limit);
         let own = self.own_coordinates(screened.term);

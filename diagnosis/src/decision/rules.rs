@@ -45,7 +45,8 @@ mod tests {
             }
             let free = Amount { bounds: (f64::NEG_INFINITY, f64::INFINITY), ..amount };
             prop_assert_eq!(free.is_determined(), value.abs() > half);
-            prop_assert!(!Amount { half: f64::INFINITY, ..free }.is_determined());
+            let unknown = Amount { half: f64::INFINITY, ..free };
+            prop_assert!(!unknown.is_determined());
         }
     }
 

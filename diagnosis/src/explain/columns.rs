@@ -63,10 +63,10 @@ impl Along<'_> {
         let mut next = Vec::with_capacity(self.rates.len());
         for (sample, pair) in self.rates.windows(2 * n).step_by(n).enumerate() {
             let (before, after) = pair.split_at(n);
-            for state in 0..n {
+            for (state, after) in after.iter().enumerate() {
                 let slopes = &self.window.next_slopes[(sample * n + state) * width..][..n];
                 let moved: f64 = slopes.iter().zip(before).map(|(slope, rate)| slope * rate).sum();
-                next.push((half * (moved + after[state])) as f32);
+                next.push((half * (moved + after)) as f32);
             }
         }
         next

@@ -100,8 +100,8 @@ pub fn choose(misses: f64, named: &[Score], features: &[Score], limits: Limits) 
 pub struct Proposal {
     /// The effect.
     pub term: Term,
-    /// Points from which it is to be fitted.
-    pub starts: Vec<Point>,
+    /// The point from which it is to be fitted.
+    pub start: Point,
     /// How well it explains what is missing.
     pub score: Score,
 }
@@ -217,13 +217,11 @@ fn with_amounts(sums: &Sums, missing: &Missing<'_>, columns: &[usize], fitted: &
             moved.normal[(other, 0)] += value * sums.normal[(other, *column)];
         }
     }
+    let own = || columns.iter().zip(fitted.values.iter()).skip(known);
     let mut corner = sums.normal[(0, 0)];
-    for (i, (a, x)) in columns.iter().zip(fitted.values.iter()).enumerate().skip(known) {
+    for (a, x) in own() {
         corner += 2.0 * x * sums.normal[(*a, 0)];
-        for (b, y) in columns.iter().zip(fitted.values.iter()).skip(known) {
-            corner += x * y * sums.normal[(*a, *b)];
-        }
-        let _ = i;
+        corner += own().map(|(b, y)| x * y * sums.normal[(*a, *b)]).sum::<f64>();
     }
     moved.normal[(0, 0)] = corner;
     moved.fitted(&columns[..known], &missing.precisions).map_or(f64::INFINITY, |it| it.left)
@@ -239,12 +237,8 @@ impl Compared {
             else {
                 continue;
             };
-            if let Some(known) = all.iter_mut().find(|it| it.term == *term) {
-                if known.starts.len() < 2 {
-                    known.starts.push(point.clone());
-                }
-            } else if all.len() < most {
-                all.push(Proposal { term: *term, starts: vec![point.clone()], score: *score });
+            if all.len() < most && !all.iter().any(|it| it.term == *term) {
+                all.push(Proposal { term: *term, start: point.clone(), score: *score });
             }
         }
         all

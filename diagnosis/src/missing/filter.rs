@@ -97,14 +97,14 @@ impl Filter {
                 }
             }
         }
-        for i in 0..n {
+        for (i, driven) in driven.iter().enumerate() {
             let product = &self.product[i * n..(i + 1) * n];
             for j in 0..=i {
                 let row = &a[j * n..(j + 1) * n];
                 let value: f64 = product.iter().zip(row).map(|(p, a)| p * a).sum();
                 (self.p[i * n + j], self.p[j * n + i]) = (value, value);
             }
-            self.p[i * n + i] += driven[i];
+            self.p[i * n + i] += driven;
         }
     }
 }

@@ -80,19 +80,6 @@ impl Sums {
         })
     }
 
-    /// What amounts found elsewhere leave of the sum of squares here.
-    pub fn left_with(&self, amounts: &Amounts) -> f64 {
-        let mut left = self.normal[(0, 0)];
-        for (i, (column, value)) in amounts.columns.iter().zip(amounts.values.iter()).enumerate() {
-            left += 2.0 * value * self.normal[(*column, 0)];
-            for (j, other) in amounts.columns.iter().enumerate() {
-                left += value * amounts.values[j] * self.normal[(*column, *other)];
-            }
-            let _ = i;
-        }
-        left
-    }
-
     /// Logarithm of the likelihood, the first `parameters` columns behind the record being fitted.
     pub fn log_likelihood(&self, precisions: &[f64]) -> f64 {
         let columns: Vec<usize> = (1..=precisions.len()).collect();
