@@ -278,7 +278,6 @@ fn keys(value: &serde_json::Value, found: &mut std::collections::BTreeSet<String
 }
 
 #[test]
-#[ignore = "the README still describes format 1"]
 fn every_field_and_verdict_is_described_in_the_readme() {
     let readme = include_str!("../../README.md");
     let section = readme.split("## report.json, version 2").nth(1).expect("the section on report.json");
