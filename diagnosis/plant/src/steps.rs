@@ -56,9 +56,11 @@ pub(super) fn followed<M: Model>(
         return follow(vec![lane], start, drive, (0, wanted), follower, |value, _, _| value, input);
     }
     let lanes = seeds.chunks(DIRECTIONS).enumerate().map(|(number, chunk)| {
-        let parameter = |i: usize| match chunk.iter().position(|seed| *seed == Seed::Parameter(i)) {
-            Some(index) => Jet { value: parameters[i], slopes: direction(index) },
-            None => Jet::from(parameters[i]),
+        // A parameter may be asked for twice: as a port, and as what is fitted.
+        let asked = |i: usize, seed: usize| chunk.get(seed) == Some(&Seed::Parameter(i));
+        let parameter = |i: usize| Jet {
+            value: parameters[i],
+            slopes: std::array::from_fn(|seed| f64::from(asked(i, seed))),
         };
         let run = Run::<M, Jet<DIRECTIONS>>::new(
             model,

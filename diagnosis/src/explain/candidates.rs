@@ -40,6 +40,8 @@ pub struct Candidate {
     pub kind: Kind,
     /// Which columns are its, among all candidates'.
     pub columns: Range<usize>,
+    /// Largest magnitude of each feature over the size of a signal that may be missing at its port.
+    pub peaks: Vec<f64>,
 }
 
 /// All candidates.
@@ -52,13 +54,13 @@ pub struct Candidates {
 }
 
 impl Candidates {
-    fn add(&mut self, kind: Kind, columns: Vec<Vec<Column>>) {
+    fn add(&mut self, kind: Kind, columns: Vec<Vec<Column>>, peaks: Vec<f64>) {
         let first = self.columns.first().map_or(0, Vec::len);
         let count = columns.first().map_or(0, Vec::len);
         for (all, own) in self.columns.iter_mut().zip(columns) {
             all.extend(own);
         }
-        self.list.push(Candidate { kind, columns: first..first + count });
+        self.list.push(Candidate { kind, columns: first..first + count, peaks });
     }
 }
 
@@ -140,7 +142,7 @@ impl World<'_> {
         let made: Vec<Option<Vec<Vec<Column>>>> = shapes.par_iter().map(columns).collect();
         for ((term, probe), columns) in shapes.into_iter().zip(made) {
             if let Some(columns) = columns {
-                all.add(Kind::Named { term, probe }, columns);
+                all.add(Kind::Named { term, probe }, columns, Vec::new());
             }
         }
     }
@@ -165,7 +167,12 @@ impl World<'_> {
                 let columns = windows.iter().enumerate().map(|(index, window)| {
                     signals.iter().map(|signal| column(port, place, window, &signal[index])).collect()
                 });
-                all.add(Kind::Feature { port: number, group }, columns.collect());
+                let size = setting.sizes[number].max(f64::MIN_POSITIVE);
+                let peak = |signal: &Vec<Vec<f64>>| {
+                    signal.iter().flatten().fold(0.0_f64, |most, it| most.max(it.abs())) / size
+                };
+                let peaks = signals.iter().map(peak).collect();
+                all.add(Kind::Feature { port: number, group }, columns.collect(), peaks);
             }
         }
     }

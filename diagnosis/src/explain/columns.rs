@@ -59,6 +59,9 @@ impl Along<'_> {
     /// missing signal would soon leave it, and meet friction on the wrong side.
     fn increments(&self) -> Vec<f32> {
         let (n, width) = (self.window.states, self.window.width);
+        if n == 0 {
+            return Vec::new();
+        }
         let half = 0.5 * self.window.step;
         let mut next = Vec::with_capacity(self.rates.len());
         for (sample, pair) in self.rates.windows(2 * n).step_by(n).enumerate() {

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use crate::catalogue::{Element, Scale, Table};
 use crate::confirm::has_no_name;
-use crate::estimation::fit::Point;
+use crate::estimation::fit::{Coordinate, Handle, Point};
 use crate::estimation::hypothesis::{Term, World};
 use crate::missing::Missing;
 use crate::missing::innovations::{Block, Noise};
@@ -64,6 +64,9 @@ impl Limits {
     /// excitation may show a quarter of it.
     pub const USUAL: Self = Self { smallest: 0.04, nearly: 0.65, rival: 0.5, confirmed: 0.25, most: 6 };
 }
+
+/// Largest magnitude of a missing force, in the root mean square of what would move the rig as it moves.
+const BEYOND: f64 = 10.0;
 
 /// Chooses by scores alone; `misses` is the innovations' mean square in units of the sensors' accuracy, `named` and `features`
 /// are in any order.
@@ -172,9 +175,11 @@ impl World<'_> {
                     points[number] = Some(point);
                     if has_no_name(*term) { &mut features } else { &mut named }.push(score);
                 }
-                // No body is lighter for what acts on it.
-                Kind::Feature { group: Group::Acceleration, .. } if amounts[0] < 0.0 => {}
-                Kind::Feature { .. } => features.push(score),
+                Kind::Feature { group, .. } => {
+                    if is_possible(*group, &amounts, &candidate.peaks) {
+                        features.push(score);
+                    }
+                }
             }
         }
         Some(Compared {
@@ -190,7 +195,8 @@ impl World<'_> {
 }
 
 impl World<'_> {
-    /// Share of the best amount of a single column that a start within bounds has.
+    /// Share of the best amount of a single column that a start within bounds has; of several columns, whether all are
+    /// within bounds.
     fn within(
         &self,
         term: Term,
@@ -199,11 +205,34 @@ impl World<'_> {
         (start, at): (&Point, &Point),
     ) -> f64 {
         let own = self.own_coordinates(term);
+        let moved = |handle: Handle| -> f64 {
+            let each = probe.points.iter().zip(amounts.iter());
+            each.map(|(tried, amount)| amount * (tried.get(handle) - at.get(handle))).sum()
+        };
+        let possible = |it: &Coordinate| {
+            let value = at.get(it.handle) + moved(it.handle);
+            value >= it.bounds.0.min(at.get(it.handle)) && value <= it.bounds.1.max(at.get(it.handle))
+        };
+        if probe.points.len() > 1 {
+            return f64::from(own.iter().all(possible));
+        }
         let (Some(first), [tried]) = (own.first(), probe.points.as_slice()) else { return 1.0 };
         let wanted = amounts[0] * (tried.get(first.handle) - at.get(first.handle));
         let had = start.get(first.handle) - at.get(first.handle);
         if wanted == 0.0 { 1.0 } else { (had / wanted).clamp(0.0, 1.0) }
     }
+}
+
+/// Whether features may act: no body is lighter for what acts on it, and no force is far beyond what moves the rig. Where a
+/// trajectory is followed closely, "the body has no mass, and the command does nothing" would explain it, too.
+fn is_possible(group: Group, amounts: &[f64], peaks: &[f64]) -> bool {
+    let light = match group {
+        Group::Acceleration => amounts[0] < 0.0,
+        // An oscillator's pull is its mass times what drives it, against the motion.
+        Group::Resonance(_) => amounts[0] > 0.0,
+        _ => false,
+    };
+    !light && amounts.iter().zip(peaks).all(|(amount, peak)| amount.abs() * peak < BEYOND)
 }
 
 /// What is left of other records with a candidate's amounts, nuisances being fitted there.

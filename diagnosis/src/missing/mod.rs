@@ -162,6 +162,17 @@ impl World<'_> {
             if round > rounds {
                 let train = self.train.len();
                 let mut missing = Missing { records, train, setting, windows, precisions };
+                // Where nothing needs to be missing, a trajectory that follows the sensors follows their noise.
+                let location = missing.located();
+                let likely = location.ranked.iter().filter(|it| it.gain > 0.0).take(1);
+                missing.setting.free.clone_from(&location.background.ports);
+                for it in likely.filter(|it| !frame.ports[it.port].is_sensor()) {
+                    missing.setting.free[it.port] = it.deviation;
+                }
+                let windows = self.windows(&missing.setting, (records, &stretches), &timing, &point);
+                if windows.len() == missing.windows.len() {
+                    missing.windows = windows;
+                }
                 for (term, dynamics, point) in &frame.laws {
                     let of = |window: &Window| {
                         missing.setting.changed((records, window), (*term, &**dynamics), point)

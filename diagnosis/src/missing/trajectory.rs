@@ -15,8 +15,10 @@ use super::ports::{Entry, Port};
 pub const MEMORY: f64 = 0.3;
 /// Samples over which the states that matter are looked for.
 const LOOK: usize = 400;
-/// Accuracy of a sensor beside its noise, in shares of its signal's root mean square: none is calibrated better.
-const ACCURACY: f64 = 1e-2;
+/// Standard deviations of its noise to which a sensor is believed: what filters and even sampling do to a signal is as large.
+const BELIEVED: f64 = 2.0;
+/// Resolution of a signal without noise, in shares of its root mean square.
+const RESOLUTION: f64 = 1e-4;
 /// Share of what a port does that another one does not, below which the two are one place.
 const TIED: f64 = 1e-6;
 /// Share of a state's nominal value by which the model's own integration may be wrong in a sample.
@@ -40,6 +42,8 @@ pub struct Setting<'a> {
     pub ties: Vec<usize>,
     /// Size of each port's signal that would be as large as what the sensors show.
     pub sizes: Vec<f64>,
+    /// Standard deviation of each port's missing signal while the trajectory is smoothed.
+    pub free: Vec<f64>,
     /// Variance of each measured output's noise.
     pub noise: Vec<f64>,
     /// Mean square of a whitened innovation where nothing but measurement noise is left: less than one, as no sensor is
@@ -107,8 +111,9 @@ impl<'a> Setting<'a> {
         let active = look.active(states);
         let magnitudes: Vec<f64> = (0..wanted.len()).map(|row| magnitude(records, row)).collect();
         let floor = |row: usize| records.iter().map(|it| it.measured[row].noise_floor).fold(0.0, f64::max);
-        let noise: Vec<f64> =
-            (0..wanted.len()).map(|row| floor(row).powi(2) + (ACCURACY * magnitudes[row]).powi(2)).collect();
+        let noise: Vec<f64> = (0..wanted.len())
+            .map(|row| (BELIEVED * floor(row)).powi(2) + (RESOLUTION * magnitudes[row]).powi(2))
+            .collect();
         let shares = noise.iter().enumerate().map(|(row, noise)| floor(row).powi(2) / noise);
         let quiet = shares.sum::<f64>() / noise.len().max(1) as f64;
         let mut column = states;
@@ -126,7 +131,7 @@ impl<'a> Setting<'a> {
         let ties =
             (0..ports.len()).map(|port| (0..port).find(|it| same(*it, port)).unwrap_or(port)).collect();
         let mut own = states;
-        let sizes = ports
+        let sizes: Vec<f64> = ports
             .iter()
             .map(|port| match port.entry {
                 Entry::Sensor(row) => magnitudes[row],
@@ -137,7 +142,8 @@ impl<'a> Setting<'a> {
             })
             .collect();
         let point = point.clone();
-        Self { dynamics, point, ports, parameters, nominal, active, ties, sizes, noise, quiet }
+        let free = sizes.clone();
+        Self { dynamics, point, ports, parameters, nominal, active, ties, sizes, free, noise, quiet }
     }
 
     /// The ports of the plant.
@@ -165,7 +171,7 @@ impl<'a> Setting<'a> {
         let mut seeds = self.seeds(&drive);
         let wanted: Vec<usize> = own.measured.iter().map(|it| it.output).collect();
         let (n, moving) = (self.active.len(), self.moving().count());
-        let ports: Vec<f64> = self.moving().map(|(port, _)| self.sizes[port]).collect();
+        let ports: Vec<f64> = self.moving().map(|(port, _)| self.free[port]).collect();
         let variances =
             self.active.iter().map(|it| self.nominal[*it].powi(2)).chain(ports.iter().map(|it| it * it));
         let variances: Vec<f64> = variances.collect();
