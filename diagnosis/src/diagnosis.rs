@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::confirm::{Accepted, Confirmed, Tried};
 use crate::dataset::recorded::{Recorded, Source};
 use crate::dataset::split::Records;
+use crate::decision::account::account;
 use crate::decision::rules::{Amount, is_determined};
 use crate::estimation::fit::{Handle, Point, Residuals};
 use crate::estimation::hypothesis::{Fitted, Term, World};
@@ -186,7 +187,11 @@ impl World<'_> {
             }
             progress("comparing what may explain it");
             let candidates = self.candidates(&missing, &signals, &terms);
-            let Some(compared) = self.compared(&missing, candidates, &location.background) else { break };
+            let Some(mut compared) = self.compared(&missing, candidates, &location.background) else { break };
+            // A little missing everywhere may be as likely as much of it in one place, but not while a simulation goes astray.
+            if self.is_open(&found.extended) {
+                compared.misses = compared.misses.max(1.0);
+            }
             if found.compared.is_empty() {
                 found.compared = compared.ranking();
             }
@@ -327,11 +332,20 @@ impl World<'_> {
         location: &Location,
         compared: &Compared,
     ) -> Option<Unmodelled> {
-        let best = location.ranked.first().filter(|_| compared.misses > 1.0)?;
+        let best = location.ranked.first().filter(|_| compared.misses >= 1.0)?;
         let share = (2.0 * best.gain / compared.left).clamp(0.0, 1.0);
         let improvement = self.improvement(fitted, share);
         (improvement >= SMALLEST)
             .then(|| Unmodelled::remainder(missing, location, best.port, (share, improvement)))
+    }
+
+    /// Whether a signal of the estimation records misses more than three times its noise and a tenth of itself.
+    fn is_open(&self, fitted: &Fitted) -> bool {
+        let errors = self.errors(&fitted.train).mean_squares();
+        errors.into_iter().zip(&self.floor).enumerate().any(|(row, (error, floor))| {
+            let values: Vec<f64> = self.train.iter().flat_map(|record| record.bent(row)).collect();
+            account(error, error, &[], floor * floor, 0.0).is_open(rms(&values).powi(2))
+        })
     }
 
     /// By how much the fit of the worst signal would rise without a share of its error's power.

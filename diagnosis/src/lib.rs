@@ -1,9 +1,9 @@
-//! From measured data to a named cause, an extended model and a measured gain.
+//! From measured data to an identified effect, an extended model and a measured gain.
 //!
 //! [`data`] reads and checks records, [`dataset`] puts them on a [`rig`]'s inputs and outputs. [`diagnosis`] fits the
-//! starting model ([`estimation`], [`plant`]), compares every cause of the [`catalogue`] to what is missing
-//! ([`screening`]) and lets those in that pass all gates ([`search`]). [`report`] shows what comes
-//! out and writes the extended model.
+//! starting model ([`estimation`], [`plant`]), estimates what signal is [`missing`] and where, compares the effects of the
+//! [`catalogue`] and features without a name to it ([`explain`]), lets the data [`confirm`] them and makes the account and
+//! the verdict ([`decision`]). [`report`] shows what comes out and writes the extended model.
 
 pub mod app;
 pub mod catalogue;

@@ -103,7 +103,7 @@ def diagnosed(program, records, out, rig):
     assert failed == 1 and rows.keys() == {"broken", "friction"}, rows
     assert "exit code 1" in rows["broken"]["error"] and "train.csv" in rows["broken"]["error"], rows
     named = rows["friction"]
-    assert named["verdict"] == "named" and named["parameter"] == "strut.coulomb.force", named
+    assert named["verdict"] == "identified" and named["parameter"] == "strut.coulomb.force", named
     assert named["low"] <= 60.0 <= named["high"], named
     # The command finds it all there, as what it is told to hand on is the same.
     command = [sys.executable, diagnoses.__file__, records, "--diagnose", program, "--rig", rig, "--workers", "1"]

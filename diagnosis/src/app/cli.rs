@@ -49,11 +49,11 @@ pub struct DiagnosisArguments {
     #[arg(long, value_name = "FILE")]
     pub parameters: Option<PathBuf>,
 
-    /// Record to learn from; several times for several
+    /// Estimation record; several times for several
     #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
     pub train: Vec<PathBuf>,
 
-    /// Record of another excitation, to judge by; several times for several
+    /// Validation record, of another excitation; several times for several
     #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
     pub test: Vec<PathBuf>,
 
