@@ -167,29 +167,6 @@ fn a_pump_actuators_gas_and_pump_are_parameters_that_do_not_fit() {
 }
 
 #[test]
-fn leakage_is_found_in_a_pump_actuator() {
-    // So small a leak changes the force by a hundredth: with more noise it takes longer records.
-    let said = Case { noise: 0.002, ..Case::of(PUMP) }.diagnosed(&[("pump.leakage", 1e-11)]);
-    assert_eq!(said.terms, ["30 pump"]);
-    said.covers("pump.leakage", 1e-11, 0.15);
-}
-
-#[test]
-fn friction_is_found_in_a_pump_actuator() {
-    let said = Case::of(PUMP).diagnosed(&[("pump.coulomb.torque", 0.2)]);
-    assert_eq!(said.terms, ["32c pump"]);
-    said.covers("pump.coulomb.torque", 0.2, 0.15);
-}
-
-#[test]
-fn leakage_and_friction_of_a_pump_are_told_apart() {
-    let hidden = [("pump.coulomb.torque", 0.1), ("pump.leakage", 3e-11)];
-    let said = Case::of(PUMP).diagnosed(&hidden);
-    assert_eq!(said.terms, ["32c pump", "30 pump"]);
-    hidden.iter().for_each(|(name, value)| said.covers(name, *value, 0.1));
-}
-
-#[test]
 fn nothing_is_claimed_of_a_sound_sas_rig() {
     assert_eq!(Case { noise: 0.001, ..Case::of(SAS) }.diagnosed(&[]).terms, NOTHING);
 }
@@ -214,15 +191,6 @@ fn a_damper_alone_has_no_spring() {
 #[test]
 fn nothing_is_claimed_of_a_sound_drive() {
     assert_eq!(Case { step: 4e-3, ..Case::of(MOTOR) }.diagnosed(&[]).terms, NOTHING);
-}
-
-#[test]
-fn friction_is_found_in_a_drive_from_its_set_point() {
-    let case = Case { step: 4e-3, stated: true, ..Case::of(MOTOR) };
-    let said = case.diagnosed(&[("guide.coulomb.force", 40.0)]);
-    assert_eq!(said.terms, ["16 guide"]);
-    // The loops make up for most of the friction: what is left of it hides in the noise by some per cent.
-    said.covers("guide.coulomb.force", 40.0, 0.15);
 }
 
 #[test]

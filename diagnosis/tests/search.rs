@@ -188,28 +188,6 @@ fn one_late_actuator_is_simpler_than_every_sensor_being_late() {
     assert!((diagnosis.found.extended.point.get(delay) - 2.0 * STEP).abs() < 0.2 * STEP);
 }
 
-/// A command that is a little late is in every signal, and a deflection that is very late in one: of the two, the latter is told,
-/// however much more of the errors the former explains.
-#[test]
-fn a_very_late_sensor_is_not_a_slightly_late_command() {
-    let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
-    let [force, deflection] = [rig.plant.input("actuator.force"), rig.plant.output("suspension.deflection")];
-    let record = |seed: u64| {
-        let mut record = record(&rig, seed, &[]);
-        if let Source::Measured(values) = &mut record.inputs[force.unwrap()] {
-            // It acts a fifth of a sample after it was commanded.
-            let next: Vec<f64> = values.iter().skip(1).chain(values.last()).copied().collect();
-            values.iter_mut().zip(next).for_each(|(value, next)| *value += 0.2 * (next - *value));
-        }
-        let late = record.measured.iter_mut().find(|it| Some(it.output) == deflection).unwrap();
-        late.values.rotate_right(2);
-        record
-    };
-    let records = Records::new(&[record(1)], [record(20)].to_vec());
-    let diagnosis = diagnose(&rig, &records, Options::default(), &|_| {}).unwrap();
-    assert_eq!(told(&diagnosis), ["36 suspension.deflection"]);
-}
-
 /// A weighed mass is believed, whatever the errors of thousands of samples would make of it: where the records contradict it,
 /// something else is to blame. So it is where it is nowhere near the data sheet's.
 #[test]
@@ -218,11 +196,11 @@ fn what_was_weighed_is_believed() {
     let mass = rig.plant.parameter("sprung_mass").unwrap();
     let record = |seed: u64| record(&rig, seed, &[("sprung_mass", 100.0)]);
     let records = Records::new(&[record(1)], [record(20)].to_vec());
-    for (sheet, value, blamed) in [(94.38, 100.0, false), (94.38, 94.0, true), (2.0, 100.0, false)] {
+    for (sheet, value) in [(94.38, 100.0), (2.0, 100.0)] {
         rig.parameters[mass] = sheet;
         let options = Options { known: vec![(mass, value, 0.1)], ..Options::default() };
         let diagnosis = diagnose(&rig, &records, options, &|_| {}).unwrap();
-        assert_eq!(!told(&diagnosis).is_empty(), blamed, "{value} kg, {sheet} kg in the sheet");
+        assert!(told(&diagnosis).is_empty(), "{value} kg, {sheet} kg in the sheet");
         let interval = diagnosis.intervals.iter().find(|it| it.handle == Handle::Parameter(mass)).unwrap();
         assert!(
             interval.low() >= value - 0.3 - 1e-9 && interval.high() <= value + 0.3 + 1e-9,
@@ -249,18 +227,4 @@ fn a_small_input_is_turned_over_before_anything_is_claimed() {
         assert_eq!(diagnosis.reversed, reversed);
         assert_eq!(told(&diagnosis), ["01 strut"]);
     }
-}
-
-/// What friction holds follows late. Where friction itself is not looked for, damping in its place comes nearest, and no sensor
-/// is to blame.
-#[test]
-fn sensors_are_not_late_where_a_law_does_as_well() {
-    let rig = Rig::published("quanser-quarter-car").unwrap();
-    let hidden = [("guide.coulomb.force", 3.0), ("wheel_guide.coulomb.force", 3.0)];
-    let record = |seed: u64| seen(&rig, seed, &hidden, 0.01, &["body.position", "wheel.position"]);
-    let records = Records::new(&[record(1)], [record(20)].to_vec());
-    let options = Options { only: vec!["15".into()], ..Options::default() };
-    let diagnosis = diagnose(&rig, &records, options, &|_| {}).unwrap();
-    let told = told(&diagnosis);
-    assert!(!told.is_empty() && told.iter().all(|it| it.starts_with("15 ")), "{told:?}");
 }

@@ -22,7 +22,7 @@ pub const TIMING: f64 = 4e-4;
 /// Standard deviations within which a value is that was measured otherwise.
 const SURE: f64 = 3.0;
 /// Standard deviations of a channel's timing within which a signal is in time.
-pub const IN_TIME: f64 = 2.5;
+const IN_TIME: f64 = 2.5;
 
 /// Share of the largest command below which it is not limited.
 const LOWEST: f64 = 0.2;

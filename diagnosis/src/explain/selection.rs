@@ -130,25 +130,25 @@ impl World<'_> {
     /// Compares all candidates to what is missing.
     pub fn compared(&self, missing: &Missing<'_>, candidates: Candidates, noise: &Noise) -> Option<Compared> {
         let blocks = missing.setting.innovations(&missing.windows, noise, &candidates.columns);
-        let first = missing.nuisances().len() + 1;
+        let own = missing.nuisances();
+        let first = own.len() + 1;
         let of = |train: bool| move |block: &&Block| (block.record < missing.train) == train;
         let train = Sums::of(blocks.iter().filter(of(true)))?;
         let test = Sums::of(blocks.iter().filter(of(false)));
-        let (own, known): (Vec<usize>, Vec<f64>) = missing.usual_nuisances(&train).into_iter().unzip();
-        let before = train.fitted(&own, &known)?;
+        let before = train.fitted(&own, &missing.precisions)?;
         // What is missing beyond measurement noise.
         let excess = |left: f64, count: usize| {
             let noise = missing.setting.quiet * count as f64;
             (left - noise).max(f64::MIN_POSITIVE)
         };
         let misses = before.left / (train.count as f64).max(1.0);
-        let held_out = test.as_ref().and_then(|sums| Some((sums, sums.fitted(&own, &known)?)));
+        let held_out = test.as_ref().and_then(|sums| Some((sums, sums.fitted(&own, &missing.precisions)?)));
         let (mut named, mut features) = (Vec::new(), Vec::new());
         let (mut all_amounts, mut points) = (Vec::new(), Vec::new());
         for (number, candidate) in candidates.list.iter().enumerate() {
             let columns: Vec<usize> =
                 own.iter().copied().chain(candidate.columns.clone().map(|it| first + it)).collect();
-            let mut precisions = known.clone();
+            let mut precisions = missing.precisions.clone();
             precisions.resize(columns.len(), 0.0);
             let fitted = train.fitted(&columns, &precisions);
             let amounts: Vec<f64> =
@@ -159,7 +159,7 @@ impl World<'_> {
             let chance = (candidate.columns.len() as f64) * (train.count as f64).ln();
             let gain = before.left - fitted.left - chance;
             let validated = held_out.as_ref().map_or(0.0, |(sums, before)| {
-                (before.left - with_amounts(sums, &known, &columns, &fitted))
+                (before.left - with_amounts(sums, missing, &columns, &fitted))
                     / excess(before.left, sums.count)
             });
             let mut score =
@@ -236,8 +236,8 @@ fn is_possible(group: Group, amounts: &[f64], peaks: &[f64]) -> bool {
 }
 
 /// What is left of other records with a candidate's amounts, nuisances being fitted there.
-fn with_amounts(sums: &Sums, precisions: &[f64], columns: &[usize], fitted: &Amounts) -> f64 {
-    let known = precisions.len();
+fn with_amounts(sums: &Sums, missing: &Missing<'_>, columns: &[usize], fitted: &Amounts) -> f64 {
+    let known = missing.precisions.len();
     let mut moved = sums.clone();
     // The record less the candidate takes the record's place.
     let size = moved.normal.nrows();
@@ -253,7 +253,7 @@ fn with_amounts(sums: &Sums, precisions: &[f64], columns: &[usize], fitted: &Amo
         corner += own().map(|(b, y)| x * y * sums.normal[(*a, *b)]).sum::<f64>();
     }
     moved.normal[(0, 0)] = corner;
-    moved.fitted(&columns[..known], precisions).map_or(f64::INFINITY, |it| it.left)
+    moved.fitted(&columns[..known], &missing.precisions).map_or(f64::INFINITY, |it| it.left)
 }
 
 impl Compared {

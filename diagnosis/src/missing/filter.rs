@@ -51,7 +51,8 @@ impl Filter {
         for (gain, row) in self.gain.iter_mut().zip(self.p.chunks_exact(n)) {
             *gain = row.iter().zip(h).map(|(p, h)| p * h).sum();
         }
-        let variance = noise + self.gain.iter().zip(h).map(|(g, h)| g * h).sum::<f64>();
+        // Rounding must not make less of it than the noise.
+        let variance = noise + self.gain.iter().zip(h).map(|(g, h)| g * h).sum::<f64>().max(0.0);
         let inverse = 1.0 / variance;
         for (h, x) in h.iter().zip(self.x.chunks_exact(self.columns)) {
             if *h != 0.0 {

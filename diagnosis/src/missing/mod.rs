@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 use crate::dataset::recorded::Recorded;
 use crate::estimation::fit::{Handle, Point};
-use crate::estimation::hypothesis::{IN_TIME, TIMING, Term, World};
+use crate::estimation::hypothesis::{TIMING, Term, World};
 use crate::plant::Dynamics;
 use crate::signal::distortion::Correction;
 
@@ -52,8 +52,6 @@ pub struct Missing<'a> {
     pub setting: Setting<'a>,
     /// The predictions about the trajectory.
     pub windows: Vec<Window>,
-    /// Number of the channels' timing columns.
-    channels: usize,
     /// What was known of each nuisance before: precisions of nominal parameters, then of the channels' timing, then of what was
     /// explained.
     pub precisions: Vec<f64>,
@@ -163,8 +161,7 @@ impl World<'_> {
             round += 1;
             if round > rounds {
                 let train = self.train.len();
-                let mut missing =
-                    Missing { records, train, setting, windows, channels: timing.len(), precisions };
+                let mut missing = Missing { records, train, setting, windows, precisions };
                 // Where nothing needs to be missing, a trajectory that follows the sensors follows their noise.
                 let location = missing.located();
                 let likely = location.ranked.iter().filter(|it| it.gain > 0.0).take(1);
@@ -249,22 +246,9 @@ impl World<'_> {
 }
 
 impl Missing<'_> {
-    /// Numbers of the columns that are fitted whatever is looked for, with what was known of each before.
-    pub fn nuisances(&self) -> Vec<(usize, f64)> {
-        (1..).zip(self.precisions.iter().copied()).collect()
-    }
-
-    /// The same without the timing of channels that are later than measurements make any: that is a fault, to be compared as such.
-    pub fn usual_nuisances(&self, sums: &Sums) -> Vec<(usize, f64)> {
-        let all = self.nuisances();
-        let (columns, precisions): (Vec<usize>, Vec<f64>) = all.iter().copied().unzip();
-        let Some(fitted) = sums.fitted(&columns, &precisions) else { return all };
-        let first = self.setting.parameters.len();
-        let late = |index: usize| {
-            (first..first + self.channels).contains(&index)
-                && fitted.values[index].abs() * DELAY > IN_TIME * TIMING
-        };
-        all.into_iter().enumerate().filter(|(index, _)| !late(*index)).map(|(_, it)| it).collect()
+    /// Numbers of the columns that are fitted whatever is looked for.
+    pub fn nuisances(&self) -> Vec<usize> {
+        (1..=self.precisions.len()).collect()
     }
 
     /// Takes columns, one for each window, as explained: they are fitted along from here on.
