@@ -139,7 +139,7 @@ fn the_notebook_runs_from_top_to_bottom() {
     let arguments = [notebook.as_os_str(), out.as_os_str(), fmus.as_ref(), diagnose.as_ref()];
     let text = strut::python("tests/masters/notebook.py", arguments);
     for part in
-        ["actuator.force", "rig.body.position", "NAMED: The model lacks Coulomb friction in the strut."]
+        ["actuator.force", "rig.body.position", "IDENTIFIED: The model lacks Coulomb friction in the strut."]
     {
         assert!(text.contains(part), "{part:?} is missing in\n{text}");
     }
