@@ -283,17 +283,26 @@ impl Look {
         aa > 0.0 && bb > 0.0 && ab * ab > (1.0 - TIED) * aa * bb
     }
 
-    /// The size of a port's signal that moves what the sensors show, or else the states, as far as it moves.
+    /// The size of a port's signal that moves what the sensors show as far as it moves; where a port shows more by what it
+    /// does to the states within a sample than at once, the size that moves the states as far as the inputs do.
     fn size(&self, port: usize, states: usize, magnitudes: &[f64]) -> f64 {
-        let shown = self.outputs.chunks_exact(self.width).zip(magnitudes);
-        let shown = shown.filter(|(row, _)| row[port] > 0.0).map(|(row, size)| size / row[port]);
+        let least = |slope: &dyn Fn(&[f64]) -> f64| {
+            let shown = self.outputs.chunks_exact(self.width).zip(magnitudes);
+            let shown = shown.map(|(row, size)| (slope(row), size)).filter(|(slope, _)| *slope > 0.0);
+            shown.map(|(slope, size)| size / slope).fold(f64::INFINITY, f64::min)
+        };
+        let next = || self.next.chunks_exact(self.width).map(|row| row[port]);
+        let at_once = least(&|row| row[port]);
+        let by_states = least(&|row| row[..states].iter().zip(next()).map(|(h, next)| h * next).sum());
+        if at_once.is_finite() && at_once <= by_states {
+            return at_once;
+        }
         let inputs = states..self.width;
         let driven = self.next.chunks_exact(self.width).filter(|row| row[port] > 0.0);
         let driven = driven.flat_map(|row| {
             inputs.clone().filter(|it| *it != port).map(|it| row[it] / row[port]).collect::<Vec<_>>()
         });
-        let least = shown.fold(f64::INFINITY, f64::min);
-        if least.is_finite() { least } else { driven.fold(0.0, f64::max).max(f64::MIN_POSITIVE) }
+        driven.fold(0.0, f64::max).max(f64::MIN_POSITIVE)
     }
 }
 
