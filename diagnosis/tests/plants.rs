@@ -167,6 +167,29 @@ fn a_pump_actuators_gas_and_pump_are_parameters_that_do_not_fit() {
 }
 
 #[test]
+fn leakage_is_found_in_a_pump_actuator() {
+    // So small a leak changes the force by a hundredth: with more noise it takes longer records.
+    let said = Case { noise: 0.002, ..Case::of(PUMP) }.diagnosed(&[("pump.leakage", 1e-11)]);
+    assert_eq!(said.terms, ["30 pump"]);
+    said.covers("pump.leakage", 1e-11, 0.15);
+}
+
+#[test]
+fn friction_is_found_in_a_pump_actuator() {
+    let said = Case::of(PUMP).diagnosed(&[("pump.coulomb.torque", 0.2)]);
+    assert_eq!(said.terms, ["32c pump"]);
+    said.covers("pump.coulomb.torque", 0.2, 0.15);
+}
+
+#[test]
+fn leakage_and_friction_of_a_pump_are_told_apart() {
+    let hidden = [("pump.coulomb.torque", 0.1), ("pump.leakage", 3e-11)];
+    let said = Case::of(PUMP).diagnosed(&hidden);
+    assert_eq!(said.terms, ["32c pump", "30 pump"]);
+    hidden.iter().for_each(|(name, value)| said.covers(name, *value, 0.1));
+}
+
+#[test]
 fn nothing_is_claimed_of_a_sound_sas_rig() {
     assert_eq!(Case { noise: 0.001, ..Case::of(SAS) }.diagnosed(&[]).terms, NOTHING);
 }
@@ -219,4 +242,13 @@ fn a_limit_of_the_current_is_found_in_a_drive_from_its_force() {
     let said = case.diagnosed(&[("continuous_current", 0.7), ("peak_current", 0.701)]);
     assert_eq!(said.terms, ["26 command.force"]);
     said.meets("command.force.limit", 0.7 * 93.0, 0.01);
+}
+
+#[test]
+fn friction_is_found_in_a_drive_from_its_set_point() {
+    let case = Case { step: 4e-3, stated: true, ..Case::of(MOTOR) };
+    let said = case.diagnosed(&[("guide.coulomb.force", 40.0)]);
+    assert_eq!(said.terms, ["16 guide"]);
+    // The loops make up for most of the friction: what is left of it hides in the noise by some per cent.
+    said.covers("guide.coulomb.force", 40.0, 0.15);
 }

@@ -136,11 +136,6 @@ impl World<'_> {
         let train = Sums::of(blocks.iter().filter(of(true)))?;
         let test = Sums::of(blocks.iter().filter(of(false)));
         let before = train.fitted(&own, &missing.precisions)?;
-        // What is missing beyond measurement noise.
-        let excess = |left: f64, count: usize| {
-            let noise = missing.setting.quiet * count as f64;
-            (left - noise).max(f64::MIN_POSITIVE)
-        };
         let misses = before.left / (train.count as f64).max(1.0);
         let held_out = test.as_ref().and_then(|sums| Some((sums, sums.fitted(&own, &missing.precisions)?)));
         let (mut named, mut features) = (Vec::new(), Vec::new());
@@ -159,11 +154,10 @@ impl World<'_> {
             let chance = (candidate.columns.len() as f64) * (train.count as f64).ln();
             let gain = before.left - fitted.left - chance;
             let validated = held_out.as_ref().map_or(0.0, |(sums, before)| {
-                (before.left - with_amounts(sums, missing, &columns, &fitted))
-                    / excess(before.left, sums.count)
+                before.left - with_amounts(sums, missing, &columns, &fitted)
             });
-            let mut score =
-                Score { candidate: number, share: gain / excess(before.left, train.count), validated };
+            // Falls of the sums of squares, until all are known.
+            let mut score = Score { candidate: number, share: gain, validated };
             match &candidate.kind {
                 Kind::Named { term, probe } => {
                     let amounts = DVector::from_vec(amounts);
@@ -182,6 +176,9 @@ impl World<'_> {
                 }
             }
         }
+        let quiet = missing.setting.quiet;
+        let held_out = held_out.map_or((0.0, 0), |(sums, before)| (before.left, sums.count));
+        in_shares(&mut [&mut named, &mut features], quiet, [(before.left, train.count), held_out]);
         Some(Compared {
             candidates,
             misses,
@@ -220,6 +217,21 @@ impl World<'_> {
         let wanted = amounts[0] * (tried.get(first.handle) - at.get(first.handle));
         let had = start.get(first.handle) - at.get(first.handle);
         if wanted == 0.0 { 1.0 } else { (had / wanted).clamp(0.0, 1.0) }
+    }
+}
+
+/// Turns falls of the estimation and validation records' sums of squares into shares of what is missing: what is left beyond
+/// measurement noise, and not less than some candidate explains.
+fn in_shares(scores: &mut [&mut Vec<Score>; 2], quiet: f64, [train, test]: [(f64, usize); 2]) {
+    let largest = |of: &dyn Fn(&Score) -> f64| {
+        scores.iter().flat_map(|all| all.iter()).map(of).fold(f64::MIN_POSITIVE, f64::max)
+    };
+    let excess = |(left, count): (f64, usize), most: f64| (left - quiet * count as f64).max(most);
+    let train = excess(train, largest(&|it| it.share));
+    let test = excess(test, largest(&|it| it.validated));
+    for score in scores.iter_mut().flat_map(|all| all.iter_mut()) {
+        score.share /= train;
+        score.validated /= test;
     }
 }
 
@@ -361,6 +373,14 @@ mod tests {
         let named = [score(0, 0.2, 0.2)];
         let features = [score(1, 0.6, 0.5), score(2, 0.7, -0.1)];
         assert_eq!(choose(2.0, &named, &features, Limits::USUAL), Choice::Unmodelled(features[0]));
+    }
+
+    #[test]
+    fn a_candidate_explains_no_more_than_all_that_is_missing() {
+        let (mut named, mut features) = (vec![score(0, 50.0, 20.0), score(1, 10.0, -5.0)], vec![]);
+        // Left is what the noise makes, and yet a law explains fifty of it.
+        in_shares(&mut [&mut named, &mut features], 0.25, [(100.0, 400), (300.0, 400)]);
+        assert_eq!(named, [score(0, 1.0, 0.1), score(1, 0.2, -0.025)]);
     }
 
     #[test]

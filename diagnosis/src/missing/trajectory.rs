@@ -130,6 +130,7 @@ impl<'a> Setting<'a> {
         };
         let ties =
             (0..ports.len()).map(|port| (0..port).find(|it| same(*it, port)).unwrap_or(port)).collect();
+        let first = states + ports.iter().filter(|it| !it.is_sensor()).count();
         let mut own = states;
         let sizes: Vec<f64> = ports
             .iter()
@@ -137,7 +138,7 @@ impl<'a> Setting<'a> {
                 Entry::Sensor(row) => magnitudes[row],
                 _ => {
                     own += 1;
-                    look.size(own - 1, states, &magnitudes)
+                    look.size(own - 1, states, &magnitudes, first..look.width)
                 }
             })
             .collect();
@@ -285,7 +286,7 @@ impl Look {
 
     /// The size of a port's signal that moves what the sensors show as far as it moves; where a port shows more by what it
     /// does to the states within a sample than at once, the size that moves the states as far as the inputs do.
-    fn size(&self, port: usize, states: usize, magnitudes: &[f64]) -> f64 {
+    fn size(&self, port: usize, states: usize, magnitudes: &[f64], inputs: Range<usize>) -> f64 {
         let least = |slope: &dyn Fn(&[f64]) -> f64| {
             let shown = self.outputs.chunks_exact(self.width).zip(magnitudes);
             let shown = shown.map(|(row, size)| (slope(row), size)).filter(|(slope, _)| *slope > 0.0);
@@ -297,12 +298,10 @@ impl Look {
         if at_once.is_finite() && at_once <= by_states {
             return at_once;
         }
-        let inputs = states..self.width;
         let driven = self.next.chunks_exact(self.width).filter(|row| row[port] > 0.0);
-        let driven = driven.flat_map(|row| {
-            inputs.clone().filter(|it| *it != port).map(|it| row[it] / row[port]).collect::<Vec<_>>()
-        });
-        driven.fold(0.0, f64::max).max(f64::MIN_POSITIVE)
+        let driven = driven.flat_map(|row| row[inputs.clone()].iter().map(move |it| it / row[port]));
+        let driven = driven.fold(0.0, f64::max);
+        if driven > 0.0 { driven } else { at_once.min(by_states) }
     }
 }
 
