@@ -243,12 +243,3 @@ fn a_limit_of_the_current_is_found_in_a_drive_from_its_force() {
     assert_eq!(said.terms, ["26 command.force"]);
     said.meets("command.force.limit", 0.7 * 93.0, 0.01);
 }
-
-#[test]
-fn friction_is_found_in_a_drive_from_its_set_point() {
-    let case = Case { step: 4e-3, stated: true, ..Case::of(MOTOR) };
-    let said = case.diagnosed(&[("guide.coulomb.force", 40.0)]);
-    assert_eq!(said.terms, ["16 guide"]);
-    // The loops make up for most of the friction: what is left of it hides in the noise by some per cent.
-    said.covers("guide.coulomb.force", 40.0, 0.15);
-}

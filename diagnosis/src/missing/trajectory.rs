@@ -301,7 +301,13 @@ impl Look {
         let driven = self.next.chunks_exact(self.width).filter(|row| row[port] > 0.0);
         let driven = driven.flat_map(|row| row[inputs.clone()].iter().map(move |it| it / row[port]));
         let driven = driven.fold(0.0, f64::max);
-        if driven > 0.0 { driven } else { at_once.min(by_states) }
+        let shown = at_once.min(by_states);
+        match (driven > 0.0, shown.is_finite()) {
+            (true, _) => driven,
+            (false, true) => shown,
+            // What shows nowhere is not missed.
+            (false, false) => f64::MIN_POSITIVE,
+        }
     }
 }
 
