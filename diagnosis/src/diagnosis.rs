@@ -5,7 +5,6 @@ use std::ops::Range;
 use crate::confirm::{Accepted, Confirmed, Tried};
 use crate::dataset::recorded::{Recorded, Source};
 use crate::dataset::split::Records;
-use crate::decision::account::account;
 use crate::decision::rules::{Amount, is_determined};
 use crate::estimation::fit::{Handle, Point, Residuals};
 use crate::estimation::hypothesis::{Fitted, Term, World};
@@ -188,8 +187,8 @@ impl World<'_> {
             progress("comparing what may explain it");
             let candidates = self.candidates(&missing, &signals, &terms);
             let Some(mut compared) = self.compared(&missing, candidates, &location.background) else { break };
-            // A little missing everywhere may be as likely as much of it in one place, but not while a simulation goes astray.
-            if self.is_open(&found.extended) {
+            // What is within the sensors' accuracy from sample to sample may add up to what leads a simulation astray.
+            if self.is_worth_a_look(&found.extended) {
                 compared.misses = compared.misses.max(1.0);
             }
             if found.compared.is_empty() {
@@ -339,12 +338,12 @@ impl World<'_> {
             .then(|| Unmodelled::remainder(missing, location, best.port, (share, improvement)))
     }
 
-    /// Whether a signal of the estimation records misses more than three times its noise and a tenth of itself.
-    fn is_open(&self, fitted: &Fitted) -> bool {
-        let errors = self.errors(&fitted.train).mean_squares();
-        errors.into_iter().zip(&self.floor).enumerate().any(|(row, (error, floor))| {
+    /// Whether the fit of some signal would rise by what is worth telling if its error were its noise alone.
+    fn is_worth_a_look(&self, fitted: &Fitted) -> bool {
+        let errors = self.errors(&fitted.train).mean_squares().into_iter().map(f64::sqrt);
+        errors.zip(&self.floor).enumerate().any(|(row, (error, floor))| {
             let values: Vec<f64> = self.train.iter().flat_map(|record| record.bent(row)).collect();
-            account(error, error, &[], floor * floor, 0.0).is_open(rms(&values).powi(2))
+            error - floor >= SMALLEST * rms(&values)
         })
     }
 

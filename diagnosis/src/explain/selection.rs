@@ -153,9 +153,9 @@ impl World<'_> {
             let Some(fitted) = fitted else { continue };
             let chance = (candidate.columns.len() as f64) * (train.count as f64).ln();
             let gain = before.left - fitted.left - chance;
-            let validated = held_out.as_ref().map_or(0.0, |(sums, before)| {
-                before.left - with_amounts(sums, missing, &columns, &fitted)
-            });
+            let validated = held_out
+                .as_ref()
+                .map_or(0.0, |(sums, before)| before.left - with_amounts(sums, missing, &columns, &fitted));
             // Falls of the sums of squares, until all are known.
             let mut score = Score { candidate: number, share: gain, validated };
             match &candidate.kind {
