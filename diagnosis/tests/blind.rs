@@ -46,7 +46,6 @@ macro_rules! named {
 named! {
     coulomb_friction: "single-01";
     play_in_a_damper_bush: "single-12";
-    an_actuator_delay: "single-23";
     friction_and_a_nonlinear_spring: "pair-01-08";
     friction_of_a_drive: "drive-16";
 }
