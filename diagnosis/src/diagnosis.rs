@@ -17,7 +17,7 @@ use crate::missing::Missing;
 use crate::missing::locate::Location;
 use crate::plant::Drive;
 use crate::rig::Rig;
-use crate::screening::rms;
+use crate::screening::{bent_rms, rms};
 use crate::signal::distortion::Fault;
 
 /// Length of a short stretch of data in seconds, over which no model goes far astray.
@@ -338,25 +338,22 @@ impl World<'_> {
             .then(|| Unmodelled::remainder(missing, location, best.port, (share, improvement)))
     }
 
-    /// Whether the fit of some signal would rise by what is worth telling if its error were its noise alone.
+    /// Whether the fit of some signal would rise by what is worth reporting if its error were its noise alone.
     fn is_worth_a_look(&self, fitted: &Fitted) -> bool {
-        let errors = self.errors(&fitted.train).mean_squares().into_iter().map(f64::sqrt);
-        errors.zip(&self.floor).enumerate().any(|(row, (error, floor))| {
-            let values: Vec<f64> = self.train.iter().flat_map(|record| record.bent(row)).collect();
-            error - floor >= SMALLEST * rms(&values)
-        })
+        let above = |(row, error): (usize, f64)| (error - self.floor[row]) / bent_rms(self.train, row);
+        self.roots(fitted).map(above).any(|it| it >= SMALLEST)
     }
 
     /// By how much the fit of the worst signal would rise without a share of its error's power.
     fn improvement(&self, fitted: &Fitted, share: f64) -> f64 {
-        let share = share.clamp(0.0, 1.0);
-        let of = |(row, error): (usize, f64)| {
-            let values: Vec<f64> = self.train.iter().flat_map(|record| record.bent(row)).collect();
-            error / rms(&values).max(f64::MIN_POSITIVE)
-        };
-        let errors = self.errors(&fitted.train).mean_squares().into_iter().map(f64::sqrt);
-        let worst = errors.enumerate().map(of).fold(0.0, f64::max);
-        worst * (1.0 - (1.0 - share).sqrt())
+        let of = |(row, error): (usize, f64)| error / bent_rms(self.train, row);
+        let worst = self.roots(fitted).map(of).fold(0.0, f64::max);
+        worst * (1.0 - (1.0 - share.clamp(0.0, 1.0)).sqrt())
+    }
+
+    /// Root mean square of each signal's error on the estimation records, by its row.
+    fn roots(&self, fitted: &Fitted) -> impl Iterator<Item = (usize, f64)> {
+        self.errors(&fitted.train).mean_squares().into_iter().map(f64::sqrt).enumerate()
     }
 }
 

@@ -301,6 +301,11 @@ fn groups(probes: &[(Probe, Range<usize>)]) -> Vec<Range<usize>> {
     probes.iter().map(|(_, range)| range.clone()).collect()
 }
 
+/// Root mean square of what a model has to tell of a measured output: without the straight line through each section.
+pub fn bent_rms(records: &[Recorded], row: usize) -> f64 {
+    rms(&records.iter().flat_map(|record| record.bent(row)).collect::<Vec<_>>()).max(f64::MIN_POSITIVE)
+}
+
 /// Root mean square of the known values about their mean.
 pub fn rms(values: &[f64]) -> f64 {
     let known: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();

@@ -7,7 +7,7 @@ use crate::estimation::comparison::{Errors, Student, student};
 use crate::estimation::fit::{Handle, Residuals, strain};
 use crate::estimation::hypothesis::{Fitted, TIMING, Term, World};
 use crate::report::findings::Evidence;
-use crate::screening::rms;
+use crate::screening::bent_rms;
 use crate::signal::distortion::Fault;
 
 use super::{has_no_name, has_threshold};
@@ -102,10 +102,7 @@ impl World<'_> {
         let of = |records: &[Recorded], null: &Residuals, fitted: &Residuals| {
             let roots = |it: &Residuals| self.errors(it).mean_squares().into_iter().map(f64::sqrt);
             let rows = roots(null).zip(roots(fitted)).enumerate();
-            let gains = rows.map(|(row, (before, after))| {
-                let values: Vec<f64> = records.iter().flat_map(|record| record.bent(row)).collect();
-                (before - after) / rms(&values).max(f64::MIN_POSITIVE)
-            });
+            let gains = rows.map(|(row, (before, after))| (before - after) / bent_rms(records, row));
             gains.fold(0.0, f64::max)
         };
         [of(self.train, &null.train, &fitted.train), of(self.test, &null.test, &fitted.test)]

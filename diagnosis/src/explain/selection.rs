@@ -156,7 +156,7 @@ impl World<'_> {
             let validated = held_out
                 .as_ref()
                 .map_or(0.0, |(sums, before)| before.left - with_amounts(sums, missing, &columns, &fitted));
-            // Falls of the sums of squares, until all are known.
+            // Reductions of the sums of squares; shares need all candidates.
             let mut score = Score { candidate: number, share: gain, validated };
             match &candidate.kind {
                 Kind::Named { term, probe } => {
@@ -220,8 +220,8 @@ impl World<'_> {
     }
 }
 
-/// Turns falls of the estimation and validation records' sums of squares into shares of what is missing: what is left beyond
-/// measurement noise, and not less than some candidate explains.
+/// Turns the reductions of both sums of squares (estimation and validation records) into shares of the missing signal. The
+/// missing signal is the sum of squares beyond measurement noise, and at least what the best candidate explains.
 fn in_shares(scores: &mut [&mut Vec<Score>; 2], quiet: f64, [train, test]: [(f64, usize); 2]) {
     let largest = |of: &dyn Fn(&Score) -> f64| {
         scores.iter().flat_map(|all| all.iter()).map(of).fold(f64::MIN_POSITIVE, f64::max)

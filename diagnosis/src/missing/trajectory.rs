@@ -130,18 +130,12 @@ impl<'a> Setting<'a> {
         };
         let ties =
             (0..ports.len()).map(|port| (0..port).find(|it| same(*it, port)).unwrap_or(port)).collect();
-        let first = states + ports.iter().filter(|it| !it.is_sensor()).count();
-        let mut own = states;
-        let sizes: Vec<f64> = ports
-            .iter()
-            .map(|port| match port.entry {
-                Entry::Sensor(row) => magnitudes[row],
-                _ => {
-                    own += 1;
-                    look.size(own - 1, states, &magnitudes, first..look.width)
-                }
-            })
-            .collect();
+        let inputs = column..look.width;
+        let size = |(port, own): (&Port, &Option<usize>)| match (port.entry, own) {
+            (Entry::Sensor(row), _) => magnitudes[row],
+            (_, own) => own.map_or(f64::MIN_POSITIVE, |own| look.size(own, &magnitudes, &inputs)),
+        };
+        let sizes: Vec<f64> = ports.iter().zip(&columns).map(size).collect();
         let point = point.clone();
         let free = sizes.clone();
         Self { dynamics, point, ports, parameters, nominal, active, ties, sizes, free, noise, quiet }
@@ -286,7 +280,7 @@ impl Look {
 
     /// The size of a port's signal that moves what the sensors show as far as it moves; where a port shows more by what it
     /// does to the states within a sample than at once, the size that moves the states as far as the inputs do.
-    fn size(&self, port: usize, states: usize, magnitudes: &[f64], inputs: Range<usize>) -> f64 {
+    fn size(&self, port: usize, magnitudes: &[f64], inputs: &Range<usize>) -> f64 {
         let least = |slope: &dyn Fn(&[f64]) -> f64| {
             let shown = self.outputs.chunks_exact(self.width).zip(magnitudes);
             let shown = shown.map(|(row, size)| (slope(row), size)).filter(|(slope, _)| *slope > 0.0);
@@ -294,20 +288,15 @@ impl Look {
         };
         let next = || self.next.chunks_exact(self.width).map(|row| row[port]);
         let at_once = least(&|row| row[port]);
-        let by_states = least(&|row| row[..states].iter().zip(next()).map(|(h, next)| h * next).sum());
+        let by_states = least(&|row| row.iter().zip(next()).map(|(h, next)| h * next).sum());
         if at_once.is_finite() && at_once <= by_states {
             return at_once;
         }
         let driven = self.next.chunks_exact(self.width).filter(|row| row[port] > 0.0);
         let driven = driven.flat_map(|row| row[inputs.clone()].iter().map(move |it| it / row[port]));
-        let driven = driven.fold(0.0, f64::max);
-        let shown = at_once.min(by_states);
-        match (driven > 0.0, shown.is_finite()) {
-            (true, _) => driven,
-            (false, true) => shown,
-            // What shows nowhere is not missed.
-            (false, false) => f64::MIN_POSITIVE,
-        }
+        let sizes = [driven.fold(0.0, f64::max), at_once.min(by_states)];
+        // What shows nowhere is not missed.
+        sizes.into_iter().find(|it| *it > 0.0 && it.is_finite()).unwrap_or(f64::MIN_POSITIVE)
     }
 }
 
