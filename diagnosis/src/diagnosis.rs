@@ -13,9 +13,9 @@ use crate::estimation::lsq::Stop;
 use crate::explain::candidates::outputs;
 use crate::explain::describe::{MissingSignal, SMALLEST, Unmodelled};
 use crate::explain::selection::{Choice, Compared, Limits, Score, choose};
-use crate::missing::Missing;
 use crate::missing::locate::Location;
-use crate::plant::Drive;
+use crate::missing::{Frame, Missing};
+use crate::plant::{Drive, Signals};
 use crate::rig::Rig;
 use crate::screening::{bent_rms, rms};
 use crate::signal::distortion::Fault;
@@ -34,6 +34,8 @@ const STEADILY: f64 = 4.0;
 const MOST: usize = 4;
 /// How often other effects are fitted where the first ones are not confirmed.
 const ATTEMPTS: usize = 2;
+/// How often errors are made as large as the best explanation leaves, each time with the comparison made again.
+const REFINEMENTS: usize = 3;
 /// Unmodelled places at most.
 const PLACES: usize = 2;
 
@@ -83,6 +85,14 @@ enum Next {
     Nothing,
 }
 
+/// What a round looks at.
+struct Looked<'a> {
+    missing: Missing<'a>,
+    signals: Vec<Signals>,
+    location: Location,
+    compared: Compared,
+}
+
 /// What is known, and what is looked for.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
@@ -127,7 +137,12 @@ fn nominal(world: &mut World<'_>) -> Result<(Point, Fitted, Vec<Handle>), String
         start.parameters[*parameter] = *value;
     }
     let mut reversed = Vec::new();
-    let mut base = world.fitted(&[], &[start.clone()], Stop::NOISY)?;
+    let mut starts = vec![start.clone()];
+    if world.rig.base().into_iter().any(|index| world.is_unstated(index)) {
+        // A simulation from a mass that nobody gave shows nothing; a balance of forces does not simulate.
+        starts.push(Point { parameters: world.balanced(&start)?, ..start.clone() });
+    }
+    let mut base = world.fitted(&[], &starts, Stop::NOISY)?;
     if !fits(world, &base)
         && let Some(other) = shot(world, &start)
         && other.cost < base.cost
@@ -153,8 +168,7 @@ fn nominal(world: &mut World<'_>) -> Result<(Point, Fitted, Vec<Handle>), String
 impl World<'_> {
     /// Typical magnitudes along the trajectory, and how many independent comparisons all effects amount to.
     fn look_at(&mut self, base: &Fitted) -> Result<(), String> {
-        let frame =
-            self.frame(&[], &Point { parameters: self.rig.parameters.clone(), ..base.point.clone() })?;
+        let frame = self.frame(&[], &self.unbent(base))?;
         let missing = self.missing(&frame)?;
         let signals = outputs(&missing.setting, &missing.windows, self.rig.plant.outputs.len());
         let typical = self.typical_along(&missing, &signals);
@@ -163,30 +177,32 @@ impl World<'_> {
         Ok(())
     }
 
+    /// A fit with the stated parameters as they were: it has bent them to what it lacks.
+    fn unbent(&self, fitted: &Fitted) -> Point {
+        let mut point = fitted.point.clone();
+        for index in self.rig.base().into_iter().filter(|index| !self.is_unstated(*index)) {
+            point.parameters[index] = self.rig.parameters[index];
+        }
+        point
+    }
+
     /// Place, law, confirmation: until nothing is missing that matters.
     fn identified(&self, base: Fitted, progress: &(dyn Fn(&str) + Sync)) -> Result<Found, String> {
         let mut found = Found::nothing(base);
+        let mut errors = None;
         while found.accepted.len() < MOST {
             progress("estimating the missing signal");
             let terms = found.extended.terms.clone();
-            let mut at = found.extended.point.clone();
-            if terms.is_empty() {
-                // A fit has bent its parameters to what it lacks.
-                at.parameters.clone_from(&self.rig.parameters);
-            }
+            let at = match terms.is_empty() {
+                true => self.unbent(&found.extended),
+                false => found.extended.point.clone(),
+            };
             let frame = self.frame(&terms, &at)?;
-            let mut missing = self.missing(&frame)?;
-            let signals = outputs(&missing.setting, &missing.windows, self.rig.plant.outputs.len());
-            for known in &found.unmodelled {
-                known.explain(&mut missing, self, &signals);
-            }
-            let location = missing.located();
+            let Some(looked) = self.looked(&frame, &found, &mut errors)? else { break };
+            let Looked { missing, signals, location, mut compared } = looked;
             if found.missing.is_none() {
                 found.missing = Some(MissingSignal::of(self, &missing, &location, &signals));
             }
-            progress("comparing what may explain it");
-            let candidates = self.candidates(&missing, &signals, &terms);
-            let Some(mut compared) = self.compared(&missing, candidates, &location.background) else { break };
             // What is within the sensors' accuracy from sample to sample may add up to what leads a simulation astray.
             if self.is_worth_a_look(&found.extended) {
                 compared.misses = compared.misses.max(1.0);
@@ -209,6 +225,37 @@ impl World<'_> {
             }
         }
         Ok(found)
+    }
+
+    /// The missing signal, where it is and what may explain it, with errors as large as the best explanation leaves.
+    fn looked<'b>(
+        &self,
+        frame: &'b Frame,
+        found: &Found,
+        errors: &mut Option<Vec<f64>>,
+    ) -> Result<Option<Looked<'b>>, String> {
+        let mut ports: Vec<f64> = Vec::new();
+        let mut last = None;
+        for _ in 0..=REFINEMENTS {
+            let mut missing = self.missing_with(frame, errors.as_deref())?;
+            let signals = outputs(&missing.setting, &missing.windows, self.rig.plant.outputs.len());
+            for known in &found.unmodelled {
+                known.explain(&mut missing, self, &signals);
+            }
+            let mut location = missing.located();
+            location.background.ports.iter_mut().zip(&ports).for_each(|(it, more)| *it = it.max(*more));
+            let candidates = self.candidates(&missing, &signals, &found.extended.terms);
+            let Some(compared) = self.compared(&missing, candidates, &location.background) else { break };
+            let refined = missing.refined(&location.background, &compared.best().unwrap_or_default());
+            let settled = refined == location.background;
+            last = Some(Looked { missing, signals, location, compared });
+            if settled {
+                break;
+            }
+            ports = refined.ports;
+            *errors = Some(refined.outputs);
+        }
+        Ok(last)
     }
 
     /// Fits the effects that explain most of what is missing, until one is confirmed.
@@ -332,10 +379,8 @@ impl World<'_> {
         compared: &Compared,
     ) -> Option<Unmodelled> {
         let best = location.ranked.first().filter(|_| compared.misses >= 1.0)?;
-        let share = (2.0 * best.gain / compared.left).clamp(0.0, 1.0);
-        let improvement = self.improvement(fitted, share);
-        (improvement >= SMALLEST)
-            .then(|| Unmodelled::remainder(missing, location, best.port, (share, improvement)))
+        let improvement = self.improvement(fitted, 2.0 * best.gain / compared.left);
+        (improvement >= SMALLEST).then(|| Unmodelled::remainder(missing, location, best.port))
     }
 
     /// Whether the fit of some signal would rise by what is worth reporting if its error were its noise alone.

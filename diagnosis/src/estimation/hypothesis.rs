@@ -33,8 +33,8 @@ const RATE: f64 = 0.02;
 /// What a data sheet says of a parameter: its standard deviation over its value, and the factor within which it is looked
 /// for if it must not be zero.
 const SHEET: (f64, f64) = (1.0, 20.0);
-/// The same of a model's start value, which is of the usual order at best.
-const START: (f64, f64) = (10.0, 1000.0);
+/// The same of a model's start value, which says nothing of a rig: a joint's inertia is a millionth of a carriage's mass.
+const START: (f64, f64) = (10.0, 1e6);
 
 /// Something that is added to the starting model.
 #[derive(Clone, Copy, Debug)]

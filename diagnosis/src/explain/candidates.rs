@@ -108,7 +108,8 @@ impl World<'_> {
                 whole[window.samples.clone()].copy_from_slice(signal);
             }
         }
-        typical(self.rig, &missing.records[..missing.train], &whole[..missing.train])
+        let parameters = &missing.setting.point.parameters;
+        typical((self.rig, parameters), &missing.records[..missing.train], &whole[..missing.train])
     }
 
     /// All candidates but those that are explained already.

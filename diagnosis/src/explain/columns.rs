@@ -4,10 +4,43 @@ use crate::dataset::recorded::Recorded;
 use crate::estimation::fit::{Handle, Point};
 use crate::estimation::hypothesis::Term;
 use crate::missing::innovations::Column;
+use crate::missing::ports::{Entry, Port};
 use crate::missing::trajectory::{Setting, Window};
 use crate::plant::{Dynamics, Follower, Seen};
+use crate::signal::distortion::Fault;
+
+/// Share of a change of the rates, in squares, that a signal at a port may leave if it is all of the change.
+const ALL: f64 = 1e-9;
 
 impl Setting<'_> {
+    /// Rates of the states that matter by a unit signal at a port of the plant, sample by sample along a window.
+    pub fn pushes(&self, record: &Recorded, window: &Window, (number, port): (usize, &Port)) -> Vec<f64> {
+        let size = self.sizes[number];
+        let mut point = self.point.clone();
+        match port.entry {
+            Entry::Constant(index) => point.parameters[index] += size,
+            Entry::Input(index) => point.set(Handle::Input(index, Fault::Offset), size),
+            Entry::Sensor(_) => return Vec::new(),
+        }
+        let mut rates = self.along(record, window, self.dynamics, &point).rates;
+        rates.iter_mut().for_each(|it| *it /= size);
+        rates
+    }
+
+    fn along<'b>(
+        &'b self,
+        record: &Recorded,
+        window: &'b Window,
+        dynamics: &dyn Dynamics,
+        point: &Point,
+    ) -> Along<'b> {
+        let drive = record.drive(&window.samples, &point.inputs);
+        let wanted: Vec<usize> = record.measured.iter().map(|it| it.output).collect();
+        let mut along = Along { active: &self.active, window, rates: Vec::new(), outputs: Vec::new() };
+        dynamics.followed(&point.parameters, &window.trajectory[0], &drive, (&[], &wanted), &mut along);
+        along
+    }
+
     /// What other parameters, inputs or outputs change of the predictions in a window; none if the model diverges.
     ///
     /// The states that matter follow the trajectory; what an effect remembers beside them goes its own way.
@@ -31,13 +64,9 @@ impl Setting<'_> {
                 Some(Column { next: Vec::new(), outputs })
             }
             _ => {
-                let drive = record.drive(&window.samples, &point.inputs);
-                let wanted: Vec<usize> = record.measured.iter().map(|it| it.output).collect();
-                let mut along =
-                    Along { active: &self.active, window, rates: Vec::new(), outputs: Vec::new() };
-                let start = &window.trajectory[0];
-                dynamics.followed(&point.parameters, start, &drive, (&[], &wanted), &mut along);
-                let column = Column { next: along.increments(), outputs: along.outputs };
+                let along = self.along(record, window, dynamics, point);
+                let next = along.by_port().unwrap_or_else(|| along.increments());
+                let column = Column { next, outputs: along.outputs };
                 let finite = column.next.iter().chain(&column.outputs).all(|it| it.is_finite());
                 finite.then_some(column)
             }
@@ -55,6 +84,39 @@ struct Along<'a> {
 }
 
 impl Along<'_> {
+    /// What changed rates change in the next states, if they are all from a signal at one port: the port's own derivative
+    /// holds however stiff the states are, as a light mass in a viscous guide.
+    fn by_port(&self) -> Option<Vec<f32>> {
+        let (n, width) = (self.window.states, self.window.width);
+        if n == 0 {
+            return Some(Vec::new());
+        }
+        let signal = |pushes: &Vec<f64>| -> Option<Vec<f64>> {
+            let (mut left, mut all) = (0.0, 0.0);
+            let amount = |(rates, pushes): (&[f64], &[f64])| {
+                let both: f64 = rates.iter().zip(pushes).map(|(rate, push)| rate * push).sum();
+                let own: f64 = pushes.iter().map(|it| it * it).sum();
+                let amount = if own > 0.0 { both / own } else { 0.0 };
+                all += rates.iter().map(|it| it * it).sum::<f64>();
+                left +=
+                    rates.iter().zip(pushes).map(|(rate, push)| (rate - amount * push).powi(2)).sum::<f64>();
+                amount
+            };
+            let amounts = self.rates.chunks_exact(n).zip(pushes.chunks_exact(n)).map(amount).collect();
+            (left <= ALL * all).then_some(amounts)
+        };
+        let (port, signal) =
+            self.window.pushes.iter().enumerate().find_map(|(port, pushes)| Some((port, signal(pushes)?)))?;
+        let slope =
+            |sample: usize, state: usize| self.window.next_slopes[(sample * n + state) * width + n + port];
+        let means = signal.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).enumerate();
+        Some(
+            means
+                .flat_map(|(sample, mean)| (0..n).map(move |state| (slope(sample, state) * mean) as f32))
+                .collect(),
+        )
+    }
+
     /// What changed rates change in the next states, by the trapezoidal rule along the trajectory: a prediction without the
     /// missing signal would soon leave it, and meet friction on the wrong side.
     fn increments(&self) -> Vec<f32> {

@@ -95,12 +95,9 @@ impl Unmodelled {
     }
 
     /// What follows nothing that was recorded, at its likeliest place: bursts, a line, or neither.
-    pub fn remainder(
-        missing: &Missing<'_>,
-        location: &Location,
-        port: usize,
-        (share, improvement): (f64, f64),
-    ) -> Self {
+    ///
+    /// It is described and not explained: nothing predicts it, so that its shares are zero.
+    pub fn remainder(missing: &Missing<'_>, location: &Location, port: usize) -> Self {
         let own = &missing.setting.ports[port];
         let train = missing.windows.iter().filter(|window| window.record < missing.train);
         let signals: Vec<(f64, Vec<f64>)> =
@@ -116,9 +113,9 @@ impl Unmodelled {
             unit: own.unit,
             features: None,
             depends_on,
-            share,
+            share: 0.0,
             validated: 0.0,
-            improvement,
+            improvement: 0.0,
             amount: None,
             frequency,
             curve: None,
@@ -146,8 +143,7 @@ impl Unmodelled {
             (words, _) => format!("a signal that follows the {}", words.join(" and the ")),
         };
         let at = if self.place.contains('.') { "in the measurement of" } else { "at the" };
-        let share = (100.0 * self.share).round();
-        format!("{what} {at} {} ({share} % of what is missing there)", self.place)
+        format!("{what} {at} {}", self.place)
     }
 
     /// Takes it as explained.

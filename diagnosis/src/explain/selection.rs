@@ -7,7 +7,7 @@ use crate::confirm::has_no_name;
 use crate::estimation::fit::{Coordinate, Handle, Point};
 use crate::estimation::hypothesis::{Term, World};
 use crate::missing::Missing;
-use crate::missing::innovations::{Block, Noise};
+use crate::missing::innovations::{Block, Column, Noise};
 use crate::missing::likelihood::{Amounts, Sums};
 use crate::screening::Probe;
 
@@ -176,7 +176,9 @@ impl World<'_> {
                 }
             }
         }
-        let quiet = missing.setting.quiet;
+        // Less than one, as no sensor is believed beyond its accuracy.
+        let quiet = missing.setting.floors.iter().zip(&noise.outputs).map(|(floor, error)| floor / error);
+        let quiet = quiet.sum::<f64>() / noise.outputs.len().max(1) as f64;
         let held_out = held_out.map_or((0.0, 0), |(sums, before)| (before.left, sums.count));
         in_shares(&mut [&mut named, &mut features], quiet, [(before.left, train.count), held_out]);
         Some(Compared {
@@ -285,6 +287,14 @@ impl Compared {
         all
     }
 
+    /// The columns of what explains most, one list for each window.
+    pub fn best(&self) -> Option<Vec<Vec<Column>>> {
+        let all = self.named.iter().chain(&self.features);
+        let best = all.max_by(|a, b| a.share.total_cmp(&b.share))?;
+        let range = &self.candidates.list[best.candidate].columns;
+        Some(self.candidates.columns.iter().map(|all| all[range.clone()].to_vec()).collect())
+    }
+
     /// The best shape of each effect with a name, the best effect first.
     pub fn ranking(&self) -> Vec<(Term, Score)> {
         let mut ranking: Vec<(Term, Score)> = Vec::new();
@@ -304,12 +314,6 @@ impl Compared {
     pub fn shape(&self, term: Term) -> Option<Score> {
         let own = |score: &&Score| matches!(self.candidates.list[score.candidate].kind, Kind::Named { term: other, .. } if other == term);
         self.named.iter().filter(own).max_by(|a, b| a.share.total_cmp(&b.share)).copied()
-    }
-
-    /// The columns of a candidate, one list for each window: its own sum where the amounts are fixed.
-    pub fn columns(&self, candidate: usize) -> Vec<Vec<crate::missing::innovations::Column>> {
-        let range = self.candidates.list[candidate].columns.clone();
-        range.map(|column| self.candidates.columns.iter().map(|all| all[column].clone()).collect()).collect()
     }
 
     /// Whether a score is that of a term, in any shape.

@@ -11,7 +11,7 @@ use super::trajectory::{MEMORY, Setting, Window};
 const BLOCK: f64 = 0.5;
 
 /// How much signal is missing at each port, and how noisy each output is.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Noise {
     /// Standard deviation of each port's missing signal, in its unit; zero: none is missing there.
     pub ports: Vec<f64>,

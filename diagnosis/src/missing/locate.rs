@@ -1,7 +1,7 @@
 //! Where a signal is missing.
 
 use super::Missing;
-use super::innovations::Noise;
+use super::innovations::{Column, Noise};
 use super::likelihood::Sums;
 
 /// Shares of a port's size that are tried as the standard deviation of what is missing there.
@@ -31,24 +31,64 @@ pub struct Location {
     pub ranked: Vec<Located>,
 }
 
+/// Factor of standard deviations from one trial to the next where errors turn out to be larger than believed.
+const LARGER: f64 = 2.0;
+/// Rise of the log-likelihood that is worth a larger error: a model of one more parameter has it by chance once in a thousand.
+const WORTH: f64 = 5.4;
+
 impl Missing<'_> {
     fn log_likelihood(&self, noise: &Noise) -> f64 {
-        let blocks = self.setting.innovations(&self.windows, noise, &[]);
-        let sums = Sums::of(blocks.iter());
-        let likelihood = sums.map_or(f64::NEG_INFINITY, |it| it.log_likelihood(&self.precisions));
+        self.log_likelihood_with(noise, &[])
+    }
+
+    /// With columns, one list for each window, that are fitted along.
+    fn log_likelihood_with(&self, noise: &Noise, columns: &[Vec<Column>]) -> f64 {
+        let blocks = self.setting.innovations(&self.windows, noise, columns);
+        let mut precisions = self.precisions.clone();
+        precisions.resize(precisions.len() + columns.first().map_or(0, Vec::len), 0.0);
+        let likelihood =
+            Sums::of(blocks.iter()).map_or(f64::NEG_INFINITY, |it| it.log_likelihood(&precisions));
         if likelihood.is_finite() { likelihood } else { f64::NEG_INFINITY }
+    }
+
+    /// Errors of the sensors and of the plant that are as large as what remains beside the best explanation: sensors that
+    /// disagree by more than their noise would otherwise decide what else is missing.
+    pub fn refined(&self, noise: &Noise, columns: &[Vec<Column>]) -> Noise {
+        // Nothing is larger than a port's signal may be, or than what a sensor shows.
+        let setting = &self.setting;
+        let larger = |noise: &Noise, row: Option<usize>| {
+            let mut more = noise.clone();
+            match row {
+                Some(row) => {
+                    more.outputs[row] =
+                        (more.outputs[row] * LARGER * LARGER).min(setting.magnitudes[row].powi(2));
+                }
+                None => {
+                    let ports = more.ports.iter_mut().zip(&setting.sizes);
+                    ports.for_each(|(it, size)| *it = (*it * LARGER).min(*size));
+                }
+            }
+            more
+        };
+        let (mut best, mut likelihood) = (noise.clone(), self.log_likelihood_with(noise, columns));
+        for row in std::iter::once(None).chain((0..noise.outputs.len()).map(Some)) {
+            loop {
+                let more = larger(&best, row);
+                let other = self.log_likelihood_with(&more, columns);
+                if other <= likelihood + WORTH {
+                    break;
+                }
+                (best, likelihood) = (more, other);
+            }
+        }
+        best
     }
 
     /// Compares the likelihoods of a signal missing at each port.
     pub fn located(&self) -> Location {
         let setting = &self.setting;
         let with = |share: f64| {
-            let ports = setting.ports.iter().zip(&setting.sizes);
-            let ports = ports.enumerate().map(|(number, (port, size))| {
-                if port.is_sensor() || setting.ties[number] != number { 0.0 } else { share * size }
-            });
-            let ports = ports.collect();
-            let noise = Noise { ports, outputs: setting.noise.clone() };
+            let noise = Noise { ports: setting.shared(share), outputs: setting.noise.clone() };
             let likelihood = self.log_likelihood(&noise);
             (noise, likelihood)
         };

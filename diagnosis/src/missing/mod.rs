@@ -37,8 +37,16 @@ const TOLERANCE: f64 = 0.3;
 const LEAST: f64 = 0.3;
 /// Share of each port's size that may be missing while the nominal parameters are looked at.
 const LOOSE: f64 = 0.03;
-/// How often the nominal parameters are corrected.
+/// How often the nominal parameters are corrected where all of them are stated.
 const ROUNDS: usize = 2;
+/// The same where one of them is not: a decade each, to the ends of what a model may have.
+const ROUNDS_UNSTATED: usize = 12;
+/// Shares of each port's size that are tried as what may be missing while parameters without a value are looked at.
+const ANY: [f64; 4] = [LOOSE, 0.1, 0.3, 1.0];
+/// Largest logarithm of the factor by which a round changes what must not be zero.
+const FACTOR: f64 = 2.3;
+/// Relative change of a parameter without a value below which the rounds end.
+const SETTLED: f64 = 0.01;
 /// The delay that a timing column stands for, in seconds.
 const DELAY: f64 = 1e-3;
 
@@ -130,9 +138,23 @@ impl World<'_> {
     /// # Errors
     /// If the model diverges along every stretch.
     pub fn missing<'b>(&self, frame: &'b Frame) -> Result<Missing<'b>, String> {
+        self.missing_with(frame, None)
+    }
+
+    /// The same with variances of the measured outputs' errors that are known by now.
+    ///
+    /// # Errors
+    /// If the model diverges along every stretch.
+    pub fn missing_with<'b>(&self, frame: &'b Frame, errors: Option<&[f64]>) -> Result<Missing<'b>, String> {
         let records = &frame.records[..];
         let mut point = frame.point.clone();
-        let rounds = if frame.fresh { ROUNDS } else { 0 };
+        let unstated = |index: &usize| self.is_unstated(*index);
+        let open = frame.parameters.iter().any(unstated);
+        let mut rounds = match (frame.fresh, open) {
+            (false, _) => 0,
+            (true, false) => ROUNDS,
+            (true, true) => ROUNDS_UNSTATED,
+        };
         let timing: Vec<Handle> = self
             .coordinates(&[])
             .into_iter()
@@ -143,7 +165,8 @@ impl World<'_> {
             let told =
                 self.known.iter().find(|(of, _, _)| of == index).map(|(_, _, deviation)| deviation.powi(-2));
             let value = self.rig.parameters[*index];
-            told.unwrap_or(if value == 0.0 { 0.0 } else { (TOLERANCE * value).powi(-2) })
+            let nothing = value == 0.0 || self.is_unstated(*index);
+            told.unwrap_or(if nothing { 0.0 } else { (TOLERANCE * value).powi(-2) })
         };
         for (index, value, _) in &self.known {
             point.parameters[*index] = *value;
@@ -153,7 +176,10 @@ impl World<'_> {
         let stretches = stretches(records);
         let mut round = 0;
         loop {
-            let setting = self.setting(frame, &point, records);
+            let mut setting = self.setting(frame, &point, records);
+            if let Some(errors) = errors {
+                setting.noise = errors.to_vec();
+            }
             let windows = self.windows(&setting, (records, &stretches), &timing, &point);
             if windows.is_empty() {
                 return Err("the model diverges along the measured trajectory".into());
@@ -182,29 +208,63 @@ impl World<'_> {
                 }
                 return Ok(missing);
             }
-            let ports = setting.sizes.iter().zip(&frame.ports).enumerate().map(|(number, (size, port))| {
-                if port.is_sensor() || setting.ties[number] != number { 0.0 } else { LOOSE * size }
-            });
-            let ports = ports.collect();
-            let noise = Noise { ports, outputs: setting.noise.clone() };
-            let blocks = setting.innovations(&windows, &noise, &[]);
             let columns: Vec<usize> = (1..=precisions.len()).collect();
-            let own = blocks.iter().filter(|block| block.record < self.train.len());
-            let Some(fitted) = Sums::of(own).and_then(|sums| sums.fitted(&columns, &precisions)) else {
-                continue;
-            };
+            // A missing signal that is held to be smaller than it is bends what has no value.
+            let tried = if open { &ANY[..] } else { &ANY[..1] }.iter().filter_map(|share| {
+                let noise = Noise { ports: setting.shared(*share), outputs: setting.noise.clone() };
+                let blocks = setting.innovations(&windows, &noise, &[]);
+                let sums = Sums::of(blocks.iter().filter(|block| block.record < self.train.len()))?;
+                Some((sums.log_likelihood(&precisions), sums.fitted(&columns, &precisions)?))
+            });
+            let Some((_, fitted)) = tried.max_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
+            let before = point.parameters.clone();
             for (index, step) in frame.parameters.iter().zip(fitted.values.iter()) {
-                let (before, nominal) = (point.parameters[*index], self.rig.parameters[*index]);
-                let declared = &self.rig.plant.parameters[*index];
-                let low = declared.min.map_or(f64::NEG_INFINITY, |min| min.max(LEAST * nominal));
-                let high = declared.max.unwrap_or(f64::INFINITY);
-                let moved = (before + step).clamp(low.min(before), high.max(before));
-                point.parameters[*index] = moved;
+                point.parameters[*index] = self.moved(*index, before[*index], *step);
             }
             if frame.dynamics.check(&point.parameters).is_err() {
-                point.parameters.clone_from(&self.rig.parameters);
+                point.parameters.clone_from(&before);
+            }
+            let still = |index: &usize| {
+                let (before, after) = (before[*index], point.parameters[*index]);
+                !self.is_unstated(*index) || (after - before).abs() <= SETTLED * before.abs()
+            };
+            if open && round >= ROUNDS && frame.parameters.iter().all(still) {
+                rounds = round;
             }
         }
+    }
+
+    /// Whether neither a data sheet nor the user gives a parameter's value: the model's own is of no meaning then.
+    pub(crate) fn is_unstated(&self, index: usize) -> bool {
+        !self.rig.stated[index] && !self.known.iter().any(|(known, _, _)| *known == index)
+    }
+
+    /// A nominal parameter after a step. What has no value and must not be zero may be off by decades: its logarithm moves.
+    fn moved(&self, index: usize, before: f64, step: f64) -> f64 {
+        let declared = &self.rig.plant.parameters[index];
+        let least = declared.min.unwrap_or(f64::NEG_INFINITY);
+        let most = declared.max.unwrap_or(f64::INFINITY);
+        if self.is_unstated(index) {
+            let moved = if least > 0.0 {
+                before * (step / before).clamp(-FACTOR, FACTOR).exp()
+            } else {
+                before + step
+            };
+            return moved.clamp(least, most);
+        }
+        let known = self.known.iter().find(|(known, _, _)| *known == index).map(|(_, value, _)| *value);
+        let nominal = known.unwrap_or(self.rig.parameters[index]);
+        let least = if least.is_finite() { least.max(LEAST * nominal) } else { least };
+        (before + step).clamp(least.min(before), most.max(before))
+    }
+
+    /// The nominal parameters by the balance of what the sensors show, with any signal missing beside them.
+    ///
+    /// # Errors
+    /// If the model refuses its settings or diverges along every stretch.
+    pub(crate) fn balanced(&self, at: &Point) -> Result<Vec<f64>, String> {
+        let frame = self.frame(&[], at)?;
+        Ok(self.missing(&frame)?.setting.point.parameters)
     }
 
     fn setting<'b>(&self, frame: &'b Frame, point: &Point, records: &[Recorded]) -> Setting<'b> {

@@ -46,9 +46,10 @@ pub struct Setting<'a> {
     pub free: Vec<f64>,
     /// Variance of each measured output's noise.
     pub noise: Vec<f64>,
-    /// Mean square of a whitened innovation where nothing but measurement noise is left: less than one, as no sensor is
-    /// believed beyond its accuracy.
-    pub quiet: f64,
+    /// Variance of each measured output's noise floor.
+    pub floors: Vec<f64>,
+    /// Root mean square of each measured output.
+    pub magnitudes: Vec<f64>,
 }
 
 /// The model's one-sample predictions about a trajectory over a stretch of a record.
@@ -83,6 +84,8 @@ pub struct Window {
     pub drive: Drive,
     /// What the timing of each channel changes, which every measurement has a little of.
     pub timing: Vec<Column>,
+    /// Rates of the states that matter by a unit signal at each port of the plant, sample by sample.
+    pub pushes: Vec<Vec<f64>>,
 }
 
 impl<'a> Setting<'a> {
@@ -111,11 +114,10 @@ impl<'a> Setting<'a> {
         let active = look.active(states);
         let magnitudes: Vec<f64> = (0..wanted.len()).map(|row| magnitude(records, row)).collect();
         let floor = |row: usize| records.iter().map(|it| it.measured[row].noise_floor).fold(0.0, f64::max);
-        let noise: Vec<f64> = (0..wanted.len())
-            .map(|row| (BELIEVED * floor(row)).powi(2) + (RESOLUTION * magnitudes[row]).powi(2))
-            .collect();
-        let shares = noise.iter().enumerate().map(|(row, noise)| floor(row).powi(2) / noise);
-        let quiet = shares.sum::<f64>() / noise.len().max(1) as f64;
+        let floors: Vec<f64> = (0..wanted.len()).map(|row| floor(row).powi(2)).collect();
+        let noise = floors.iter().zip(&magnitudes);
+        let noise =
+            noise.map(|(floor, size)| BELIEVED.powi(2) * floor + (RESOLUTION * size).powi(2)).collect();
         let mut column = states;
         let columns: Vec<Option<usize>> = ports
             .iter()
@@ -138,7 +140,27 @@ impl<'a> Setting<'a> {
         let sizes: Vec<f64> = ports.iter().zip(&columns).map(size).collect();
         let point = point.clone();
         let free = sizes.clone();
-        Self { dynamics, point, ports, parameters, nominal, active, ties, sizes, free, noise, quiet }
+        Self {
+            dynamics,
+            point,
+            ports,
+            parameters,
+            nominal,
+            active,
+            ties,
+            sizes,
+            free,
+            noise,
+            floors,
+            magnitudes,
+        }
+    }
+
+    /// A share of the size of every place's signal in the plant; none at sensors.
+    pub fn shared(&self, share: f64) -> Vec<f64> {
+        let own = |number: usize| !self.ports[number].is_sensor() && self.ties[number] == number;
+        let of = |(number, size): (usize, &f64)| if own(number) { share * size } else { 0.0 };
+        self.sizes.iter().enumerate().map(of).collect()
     }
 
     /// The ports of the plant.
@@ -227,10 +249,13 @@ impl<'a> Setting<'a> {
                 residuals: Vec::new(),
                 drive: drive.clone(),
                 timing: Vec::new(),
+                pushes: Vec::new(),
             },
         };
         self.dynamics.followed(&self.point.parameters, start, &drive, (&seeds, &wanted), &mut about);
-        Some(about.window)
+        let mut window = about.window;
+        window.pushes = self.moving().map(|port| self.pushes(own, &window, port)).collect();
+        Some(window)
     }
 }
 

@@ -51,7 +51,9 @@ impl Diagnosis<'_> {
         let named: Vec<&Accepted> = self.found.accepted.iter().filter(|it| !has_no_name(it.term)).collect();
         let effects: Vec<Effect> = named.iter().map(|it| self.effect(it)).collect();
         let mut unmodelled = self.unmodelled();
-        let account = self.account(unmodelled.first().map_or(0.0, |it| it.share));
+        // The account is of the validation records; a curve in the model is among its effects.
+        let described = unmodelled.iter().find(|it| it.curve.is_none());
+        let account = self.account(described.map_or(0.0, |it| it.share.min(it.validated)));
         // What follows nothing is worth a word where a signal misses more than its noise.
         let open = account.iter().any(|it| it.open);
         unmodelled.retain(|it| open || it.validated > 0.0);
@@ -60,7 +62,7 @@ impl Diagnosis<'_> {
             effects: effects.len(),
             ambiguous: effects.iter().any(|effect| !effect.ambiguous_with.is_empty()),
             sensors: !effects.is_empty() && named.iter().all(|it| name(it.term, &world.rig.plant).sensor),
-            unmodelled: unmodelled.first().map_or(0.0, |it| it.share),
+            unmodelled: unmodelled.first().map_or(0.0, |it| it.share.min(it.validated)),
             unmodelled_first: self.found.accepted.first().is_none_or(|it| has_no_name(it.term)),
             mismatch: base_parameters.iter().any(|it| it.mismatch),
             open,

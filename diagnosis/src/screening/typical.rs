@@ -6,15 +6,19 @@ use crate::rig::{ElementSignals, ForceOf, Rig};
 
 use super::rms;
 
-/// Typical magnitudes of an element over records, from predicted signals of all outputs.
-pub fn typical(rig: &Rig, records: &[Recorded], outputs: &[Vec<Vec<f64>>]) -> Vec<(Element, Typical)> {
+/// Typical magnitudes of an element over records, from predicted signals of all outputs with these parameters.
+pub fn typical(
+    (rig, parameters): (&Rig, &[f64]),
+    records: &[Recorded],
+    outputs: &[Vec<Vec<f64>>],
+) -> Vec<(Element, Typical)> {
     let plant = &rig.plant;
     let signal = |name: &str| -> Vec<Vec<f64>> {
         let index = plant.output(name);
         outputs.iter().map(|record| index.map_or_else(Vec::new, |index| record[index].clone())).collect()
     };
     let magnitude = |signals: &[Vec<f64>]| rms(&signals.concat()).max(1e-12);
-    let value = |name: &str| plant.parameter(name).map_or(0.0, |index| rig.parameters[index]);
+    let value = |name: &str| plant.parameter(name).map_or(0.0, |index| parameters[index]);
     let driven = |name: &str| {
         let index = plant.input(name);
         let sources = records.iter().filter_map(|record| record.inputs.get(index?));

@@ -66,6 +66,9 @@ fn rivals(findings: &Findings, effect: &Effect) -> String {
 fn unmodelled(findings: &Findings) -> Option<String> {
     let first = findings.verdict == Verdict::Unmodelled;
     let of = |(index, it): (usize, &Unmodelled)| {
+        if it.share == 0.0 {
+            return format!("What remains is most likely {}.", it.description);
+        }
         let what = match index {
             0 if first => "The description".to_owned(),
             _ => format!("The model also lacks {}. This description", it.description),

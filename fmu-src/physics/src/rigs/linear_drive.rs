@@ -35,7 +35,7 @@ pub struct Options {
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<R> {
     /// Moving mass: carriage, rod and what turns with them
-    #[var(unit = KG, start = 20.0, min = 1e-3)]
+    #[var(unit = KG, start = 20.0, min = 1e-6)]
     pub moving_mass: R,
     /// Guide
     pub guide: DriveGuide<R>,
