@@ -13,6 +13,7 @@ use crate::estimation::lsq::Stop;
 use crate::explain::candidates::outputs;
 use crate::explain::describe::{MissingSignal, SMALLEST, Unmodelled};
 use crate::explain::selection::{Choice, Compared, Limits, Score, choose};
+use crate::missing::innovations::Noise;
 use crate::missing::locate::Location;
 use crate::missing::{Frame, Missing};
 use crate::plant::{Drive, Signals};
@@ -34,7 +35,7 @@ const STEADILY: f64 = 4.0;
 const MOST: usize = 4;
 /// How often other effects are fitted where the first ones are not confirmed.
 const ATTEMPTS: usize = 2;
-/// How often errors are made as large as the best explanation leaves, each time with the comparison made again.
+/// How often errors are made as large as the best explanation leaves, where no effect is confirmed.
 const REFINEMENTS: usize = 3;
 /// Unmodelled places at most.
 const PLACES: usize = 2;
@@ -140,7 +141,8 @@ fn nominal(world: &mut World<'_>) -> Result<(Point, Fitted, Vec<Handle>), String
     let mut starts = vec![start.clone()];
     if world.rig.base().into_iter().any(|index| world.is_unstated(index)) {
         // A simulation from a mass that nobody gave shows nothing; a balance of forces does not simulate.
-        starts.push(Point { parameters: world.balanced(&start)?, ..start.clone() });
+        world.sheet = world.balanced(&start)?;
+        starts.push(Point { parameters: world.sheet.clone(), ..start.clone() });
     }
     let mut base = world.fitted(&[], &starts, Stop::NOISY)?;
     if !fits(world, &base)
@@ -177,19 +179,15 @@ impl World<'_> {
         Ok(())
     }
 
-    /// A fit with the stated parameters as they were: it has bent them to what it lacks.
+    /// A fit with the parameters as they were before it: it has bent them to what it lacks.
     fn unbent(&self, fitted: &Fitted) -> Point {
-        let mut point = fitted.point.clone();
-        for index in self.rig.base().into_iter().filter(|index| !self.is_unstated(*index)) {
-            point.parameters[index] = self.rig.parameters[index];
-        }
-        point
+        Point { parameters: self.sheet.clone(), ..fitted.point.clone() }
     }
 
     /// Place, law, confirmation: until nothing is missing that matters.
     fn identified(&self, base: Fitted, progress: &(dyn Fn(&str) + Sync)) -> Result<Found, String> {
         let mut found = Found::nothing(base);
-        let mut errors = None;
+        let (mut errors, mut refinements, mut refused) = (None, 0, Vec::new());
         while found.accepted.len() < MOST {
             progress("estimating the missing signal");
             let terms = found.extended.terms.clone();
@@ -198,7 +196,7 @@ impl World<'_> {
                 false => found.extended.point.clone(),
             };
             let frame = self.frame(&terms, &at)?;
-            let Some(looked) = self.looked(&frame, &found, &mut errors)? else { break };
+            let Some(looked) = self.looked(&frame, &found, errors.as_ref())? else { break };
             let Looked { missing, signals, location, mut compared } = looked;
             if found.missing.is_none() {
                 found.missing = Some(MissingSignal::of(self, &missing, &location, &signals));
@@ -210,9 +208,21 @@ impl World<'_> {
             if found.compared.is_empty() {
                 found.compared = compared.ranking();
             }
-            let named = self.named(&mut found, &compared, progress)?;
+            let named = self.named(&mut found, &compared, &mut refused, progress)?;
+            if !matches!(named, Next::Effect) && refinements < REFINEMENTS {
+                // Sensors that disagree by more than their noise decide what is missing until they are believed less.
+                let background = &location.background;
+                let larger = missing.refined(background, &compared.best().unwrap_or_default());
+                if larger != *background {
+                    (errors, refinements) = (Some(larger), refinements + 1);
+                    continue;
+                }
+            }
             let goes_on = match named {
-                Next::Effect => true,
+                Next::Effect => {
+                    refused.clear();
+                    true
+                }
                 Next::Curve(score) => self.unmodelled(&mut found, (&missing, &compared), score)?,
                 Next::Nothing => {
                     let rest = self.remainder(&found.extended, &missing, &location, &compared);
@@ -227,35 +237,30 @@ impl World<'_> {
         Ok(found)
     }
 
-    /// The missing signal, where it is and what may explain it, with errors as large as the best explanation leaves.
+    /// The missing signal, where it is and what may explain it, with errors of at least a size.
     fn looked<'b>(
         &self,
         frame: &'b Frame,
         found: &Found,
-        errors: &mut Option<Vec<f64>>,
+        errors: Option<&Noise>,
     ) -> Result<Option<Looked<'b>>, String> {
-        let mut ports: Vec<f64> = Vec::new();
-        let mut last = None;
-        for _ in 0..=REFINEMENTS {
-            let mut missing = self.missing_with(frame, errors.as_deref())?;
-            let signals = outputs(&missing.setting, &missing.windows, self.rig.plant.outputs.len());
-            for known in &found.unmodelled {
-                known.explain(&mut missing, self, &signals);
-            }
-            let mut location = missing.located();
-            location.background.ports.iter_mut().zip(&ports).for_each(|(it, more)| *it = it.max(*more));
-            let candidates = self.candidates(&missing, &signals, &found.extended.terms);
-            let Some(compared) = self.compared(&missing, candidates, &location.background) else { break };
-            let refined = missing.refined(&location.background, &compared.best().unwrap_or_default());
-            let settled = refined == location.background;
-            last = Some(Looked { missing, signals, location, compared });
-            if settled {
-                break;
-            }
-            ports = refined.ports;
-            *errors = Some(refined.outputs);
+        let mut missing = self.missing_with(frame, errors.map(|it| &it.outputs[..]))?;
+        let signals = outputs(&missing.setting, &missing.windows, self.rig.plant.outputs.len());
+        for known in &found.unmodelled {
+            known.explain(&mut missing, self, &signals);
         }
-        Ok(last)
+        let mut location = missing.located();
+        if let Some(errors) = errors {
+            location
+                .background
+                .ports
+                .iter_mut()
+                .zip(&errors.ports)
+                .for_each(|(it, more)| *it = it.max(*more));
+        }
+        let candidates = self.candidates(&missing, &signals, &found.extended.terms);
+        let compared = self.compared(&missing, candidates, &location.background);
+        Ok(compared.map(|compared| Looked { missing, signals, location, compared }))
     }
 
     /// Fits the effects that explain most of what is missing, until one is confirmed.
@@ -263,6 +268,7 @@ impl World<'_> {
         &self,
         found: &mut Found,
         compared: &Compared,
+        refused: &mut Vec<Term>,
         progress: &(dyn Fn(&str) + Sync),
     ) -> Result<Next, String> {
         let mut names = compared.named.clone();
@@ -277,19 +283,23 @@ impl World<'_> {
             if scores.first().is_none_or(|it| self.improvement(&found.extended, it.share) < SMALLEST) {
                 return Ok(Next::Nothing);
             }
-            let proposals = compared.proposals(&scores, Limits::USUAL.most);
-            progress(&format!("fitting {} effects", proposals.len()));
-            let tried = self.try_all(&found.base, &found.extended, &proposals);
-            let confirmed = self.confirmed(&found.base, &tried)?;
-            found.tried.extend(tried);
-            if let Some(Confirmed { accepted, fitted }) = confirmed {
-                found.accepted.push(accepted);
-                found.extended = fitted.clone();
-                found.stages.push(fitted);
-                return Ok(Next::Effect);
+            let mut proposals = compared.proposals(&scores, Limits::USUAL.most);
+            proposals.retain(|it| !refused.contains(&it.term));
+            if !proposals.is_empty() {
+                progress(&format!("fitting {} effects", proposals.len()));
+                let tried = self.try_all(&found.base, &found.extended, &proposals);
+                let confirmed = self.confirmed(&found.base, &tried)?;
+                found.tried.extend(tried);
+                if let Some(Confirmed { accepted, fitted }) = confirmed {
+                    found.accepted.push(accepted);
+                    found.extended = fitted.clone();
+                    found.stages.push(fitted);
+                    return Ok(Next::Effect);
+                }
             }
             // What these laws nearly explained is no place without a name.
-            names.retain(|it| !proposals.iter().any(|refused| compared.is_of(it, refused.term)));
+            refused.extend(proposals.iter().map(|it| it.term));
+            names.retain(|it| !refused.iter().any(|term| compared.is_of(it, *term)));
             features = &[];
         }
         Ok(Next::Nothing)

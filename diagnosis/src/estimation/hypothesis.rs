@@ -34,7 +34,7 @@ const RATE: f64 = 0.02;
 /// for if it must not be zero.
 const SHEET: (f64, f64) = (1.0, 20.0);
 /// The same of a model's start value, which says nothing of a rig: a joint's inertia is a millionth of a carriage's mass.
-const START: (f64, f64) = (10.0, 1e6);
+const START: (f64, f64) = (10.0, f64::INFINITY);
 
 /// Something that is added to the starting model.
 #[derive(Clone, Copy, Debug)]
@@ -74,6 +74,8 @@ pub struct World<'a> {
     pub whole: &'a [Recorded],
     /// Typical magnitudes of each element.
     pub typical: Vec<(Element, Typical)>,
+    /// Parameters before any simulation is fitted: the rig's, and where it states none those of a balance.
+    pub sheet: Vec<f64>,
     /// What was known of parameters before: index, value, standard deviation.
     pub known: Vec<(usize, f64, f64)>,
     /// Numbers of the causes that are looked at; none: all.
@@ -116,6 +118,7 @@ impl<'a> World<'a> {
             test: &records.test,
             whole: &records.whole,
             typical: Vec::new(),
+            sheet: rig.parameters.clone(),
             known: options.known,
             only: options.only,
             looks: 1.0,

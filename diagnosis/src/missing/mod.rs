@@ -9,6 +9,7 @@ pub mod filter;
 pub mod innovations;
 pub mod likelihood;
 pub mod locate;
+mod nominal;
 pub mod ports;
 pub mod trajectory;
 
@@ -22,8 +23,8 @@ use crate::estimation::hypothesis::{TIMING, Term, World};
 use crate::plant::Dynamics;
 use crate::signal::distortion::Correction;
 
-use innovations::{Column, Noise};
-use likelihood::Sums;
+use innovations::Column;
+use nominal::About;
 use ports::Port;
 use trajectory::{Setting, Window};
 
@@ -31,22 +32,6 @@ use trajectory::{Setting, Window};
 const SAMPLES: usize = 12_000;
 /// Longest stretch that is filtered in one go, in seconds.
 const LONGEST: f64 = 10.0;
-/// Standard deviation of a nominal parameter over its value, before the data are seen.
-const TOLERANCE: f64 = 0.3;
-/// Least share of a nominal value that a parameter is believed to have, where it cannot be zero.
-const LEAST: f64 = 0.3;
-/// Share of each port's size that may be missing while the nominal parameters are looked at.
-const LOOSE: f64 = 0.03;
-/// How often the nominal parameters are corrected where all of them are stated.
-const ROUNDS: usize = 2;
-/// The same where one of them is not: a decade each, to the ends of what a model may have.
-const ROUNDS_UNSTATED: usize = 12;
-/// Shares of each port's size that are tried as what may be missing while parameters without a value are looked at.
-const ANY: [f64; 4] = [LOOSE, 0.1, 0.3, 1.0];
-/// Largest logarithm of the factor by which a round changes what must not be zero.
-const FACTOR: f64 = 2.3;
-/// Relative change of a parameter without a value below which the rounds end.
-const SETTLED: f64 = 0.01;
 /// The delay that a timing column stands for, in seconds.
 const DELAY: f64 = 1e-3;
 
@@ -70,8 +55,10 @@ pub struct Frame {
     /// Estimation records, then validation records, freed of what sensors are known to do.
     records: Vec<Recorded>,
     point: Point,
-    /// Whether nominal parameters start from the data sheet, far off perhaps.
+    /// Whether nominal parameters start from the data sheet.
     fresh: bool,
+    /// Whether those that nobody states may be off by decades.
+    far: bool,
     dynamics: Box<dyn Dynamics>,
     /// Laws that were found, each with the model that has it.
     laws: Vec<(Term, Box<dyn Dynamics>, Point)>,
@@ -125,6 +112,7 @@ impl World<'_> {
             records,
             point,
             fresh: found.is_empty(),
+            far: false,
             dynamics: self.dynamics(&[])?,
             laws,
             ports: Port::all(self.rig, record),
@@ -146,145 +134,65 @@ impl World<'_> {
     /// # Errors
     /// If the model diverges along every stretch.
     pub fn missing_with<'b>(&self, frame: &'b Frame, errors: Option<&[f64]>) -> Result<Missing<'b>, String> {
-        let records = &frame.records[..];
-        let mut point = frame.point.clone();
-        let unstated = |index: &usize| self.is_unstated(*index);
-        let open = frame.parameters.iter().any(unstated);
-        let mut rounds = match (frame.fresh, open) {
-            (false, _) => 0,
-            (true, false) => ROUNDS,
-            (true, true) => ROUNDS_UNSTATED,
-        };
-        let timing: Vec<Handle> = self
-            .coordinates(&[])
-            .into_iter()
-            .filter(|it| matches!(it.handle, Handle::Output(..)))
-            .map(|it| it.handle)
-            .collect();
-        let known = |index: &usize| {
-            let told =
-                self.known.iter().find(|(of, _, _)| of == index).map(|(_, _, deviation)| deviation.powi(-2));
-            let value = self.rig.parameters[*index];
-            let nothing = value == 0.0 || self.is_unstated(*index);
-            told.unwrap_or(if nothing { 0.0 } else { (TOLERANCE * value).powi(-2) })
-        };
-        for (index, value, _) in &self.known {
-            point.parameters[*index] = *value;
-        }
-        let mut precisions: Vec<f64> = frame.parameters.iter().map(known).collect();
+        let timing = self.coordinates(&[]).into_iter().map(|it| it.handle);
+        let timing: Vec<Handle> = timing.filter(|it| matches!(it, Handle::Output(..))).collect();
+        let stretches = stretches(&frame.records);
+        let about = About { frame, errors, stretches: &stretches, timing: &timing };
+        let mut precisions = self.precisions(&frame.parameters);
         precisions.extend(timing.iter().map(|_| (DELAY / TIMING).powi(2)));
-        let stretches = stretches(records);
-        let mut round = 0;
-        loop {
-            let mut setting = self.setting(frame, &point, records);
-            if let Some(errors) = errors {
-                setting.noise = errors.to_vec();
-            }
-            let windows = self.windows(&setting, (records, &stretches), &timing, &point);
-            if windows.is_empty() {
-                return Err("the model diverges along the measured trajectory".into());
-            }
-            round += 1;
-            if round > rounds {
-                let train = self.train.len();
-                let mut missing = Missing { records, train, setting, windows, precisions };
-                // Where nothing needs to be missing, a trajectory that follows the sensors follows their noise.
-                let location = missing.located();
-                let likely = location.ranked.iter().filter(|it| it.gain > 0.0).take(1);
-                missing.setting.free.clone_from(&location.background.ports);
-                for it in likely.filter(|it| !frame.ports[it.port].is_sensor()) {
-                    missing.setting.free[it.port] = it.deviation;
-                }
-                let windows = self.windows(&missing.setting, (records, &stretches), &timing, &point);
-                if windows.len() == missing.windows.len() {
-                    missing.windows = windows;
-                }
-                for (term, dynamics, point) in &frame.laws {
-                    let of = |window: &Window| {
-                        missing.setting.changed((records, window), (*term, &**dynamics), point)
-                    };
-                    let columns: Option<Vec<Column>> = missing.windows.iter().map(of).collect();
-                    missing.explain(columns.into_iter());
-                }
-                return Ok(missing);
-            }
-            let columns: Vec<usize> = (1..=precisions.len()).collect();
-            // A missing signal that is held to be smaller than it is bends what has no value.
-            let tried = if open { &ANY[..] } else { &ANY[..1] }.iter().filter_map(|share| {
-                let noise = Noise { ports: setting.shared(*share), outputs: setting.noise.clone() };
-                let blocks = setting.innovations(&windows, &noise, &[]);
-                let sums = Sums::of(blocks.iter().filter(|block| block.record < self.train.len()))?;
-                Some((sums.log_likelihood(&precisions), sums.fitted(&columns, &precisions)?))
-            });
-            let Some((_, fitted)) = tried.max_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
-            let before = point.parameters.clone();
-            for (index, step) in frame.parameters.iter().zip(fitted.values.iter()) {
-                point.parameters[*index] = self.moved(*index, before[*index], *step);
-            }
-            if frame.dynamics.check(&point.parameters).is_err() {
-                point.parameters.clone_from(&before);
-            }
-            let still = |index: &usize| {
-                let (before, after) = (before[*index], point.parameters[*index]);
-                !self.is_unstated(*index) || (after - before).abs() <= SETTLED * before.abs()
-            };
-            if open && round >= ROUNDS && frame.parameters.iter().all(still) {
-                rounds = round;
-            }
+        let point =
+            if frame.fresh { self.nominal_by_balance(&about, &precisions)? } else { frame.point.clone() };
+        let (setting, windows) = self.along(&about, &point)?;
+        let (records, train) = (&frame.records[..], self.train.len());
+        let mut missing = Missing { records, train, setting, windows, precisions };
+        // Where nothing needs to be missing, a trajectory that follows the sensors follows their noise.
+        let location = missing.located();
+        let likely = location.ranked.iter().filter(|it| it.gain > 0.0).take(1);
+        missing.setting.free.clone_from(&location.background.ports);
+        for it in likely.filter(|it| !frame.ports[it.port].is_sensor()) {
+            missing.setting.free[it.port] = it.deviation;
         }
-    }
-
-    /// Whether neither a data sheet nor the user gives a parameter's value: the model's own is of no meaning then.
-    pub(crate) fn is_unstated(&self, index: usize) -> bool {
-        !self.rig.stated[index] && !self.known.iter().any(|(known, _, _)| *known == index)
-    }
-
-    /// A nominal parameter after a step. What has no value and must not be zero may be off by decades: its logarithm moves.
-    fn moved(&self, index: usize, before: f64, step: f64) -> f64 {
-        let declared = &self.rig.plant.parameters[index];
-        let least = declared.min.unwrap_or(f64::NEG_INFINITY);
-        let most = declared.max.unwrap_or(f64::INFINITY);
-        if self.is_unstated(index) {
-            let moved = if least > 0.0 {
-                before * (step / before).clamp(-FACTOR, FACTOR).exp()
-            } else {
-                before + step
-            };
-            return moved.clamp(least, most);
+        let windows = self.windows(&missing.setting, &about, &point);
+        if windows.len() == missing.windows.len() {
+            missing.windows = windows;
         }
-        let known = self.known.iter().find(|(known, _, _)| *known == index).map(|(_, value, _)| *value);
-        let nominal = known.unwrap_or(self.rig.parameters[index]);
-        let least = if least.is_finite() { least.max(LEAST * nominal) } else { least };
-        (before + step).clamp(least.min(before), most.max(before))
+        for (term, dynamics, point) in &frame.laws {
+            let of =
+                |window: &Window| missing.setting.changed((records, window), (*term, &**dynamics), point);
+            let columns: Option<Vec<Column>> = missing.windows.iter().map(of).collect();
+            missing.explain(columns.into_iter());
+        }
+        Ok(missing)
     }
 
-    /// The nominal parameters by the balance of what the sensors show, with any signal missing beside them.
-    ///
-    /// # Errors
-    /// If the model refuses its settings or diverges along every stretch.
-    pub(crate) fn balanced(&self, at: &Point) -> Result<Vec<f64>, String> {
-        let frame = self.frame(&[], at)?;
-        Ok(self.missing(&frame)?.setting.point.parameters)
-    }
-
-    fn setting<'b>(&self, frame: &'b Frame, point: &Point, records: &[Recorded]) -> Setting<'b> {
-        Setting::new(
+    /// The model about the trajectory at a point.
+    fn along<'b>(&self, about: &About<'b, '_>, point: &Point) -> Result<(Setting<'b>, Vec<Window>), String> {
+        let frame = about.frame;
+        let mut setting = Setting::new(
             &*frame.dynamics,
             (point, &self.rig.start),
             &frame.ports,
             &frame.parameters,
             &frame.nominal,
-            records,
-        )
+            &frame.records,
+        );
+        if let Some(errors) = about.errors {
+            setting.noise = errors.to_vec();
+        }
+        let windows = self.windows(&setting, about, point);
+        if windows.is_empty() {
+            return Err("the model diverges along the measured trajectory".into());
+        }
+        Ok((setting, windows))
     }
 
     fn windows(
         &self,
         setting: &Setting<'_>,
-        (records, stretches): (&[Recorded], &[(usize, Range<usize>)]),
-        timing: &[Handle],
+        About { frame, stretches, timing, .. }: &About<'_, '_>,
         point: &Point,
     ) -> Vec<Window> {
+        let records = &frame.records[..];
         let of = |(record, samples): &(usize, Range<usize>)| {
             let sections = vec![samples.clone()];
             let part = Recorded { sections, ..records[*record].clone() };

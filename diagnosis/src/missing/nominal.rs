@@ -1,0 +1,172 @@
+//! Nominal parameters by the balance of what the sensors show, with any signal missing beside them.
+
+use std::ops::Range;
+
+use crate::estimation::fit::{Handle, Point};
+use crate::estimation::hypothesis::World;
+
+use super::Frame;
+use super::innovations::Noise;
+use super::likelihood::{Amounts, Sums};
+
+/// Standard deviation of a nominal parameter over its value, before the data are seen.
+const TOLERANCE: f64 = 0.3;
+/// Least share of a nominal value that a parameter is believed to have, where it cannot be zero.
+const LEAST: f64 = 0.3;
+/// Share of each port's size that may be missing while stated parameters are corrected.
+const LOOSE: [f64; 1] = [0.03];
+/// Shares that are tried while parameters without a value are: a missing signal that is held to be smaller than it is bends
+/// them.
+const ANY: [f64; 4] = [0.03, 0.1, 0.3, 1.0];
+/// How often the nominal parameters are corrected where all of them are stated, and at most where one is not.
+const ROUNDS: [usize; 2] = [2, 10];
+/// Powers of ten by which what has no value and must not be zero may be off.
+const DECADES: Range<i32> = -9..5;
+/// Largest logarithm of the factor by which a round changes it.
+const FACTOR: f64 = 1.0;
+/// Relative change of a parameter without a value below which the rounds end.
+const SETTLED: f64 = 0.01;
+
+/// What a trajectory is about.
+pub(super) struct About<'a, 'b> {
+    pub frame: &'a Frame,
+    /// Variances of the measured outputs' errors, where they are known by now.
+    pub errors: Option<&'b [f64]>,
+    /// Stretches of the records that are looked at.
+    pub stretches: &'b [(usize, Range<usize>)],
+    /// What is late of each channel.
+    pub timing: &'b [Handle],
+}
+
+impl World<'_> {
+    /// Whether neither a data sheet nor the user gives a parameter's value: the model's own is of no meaning then.
+    pub(crate) fn is_unstated(&self, index: usize) -> bool {
+        !self.rig.stated[index] && !self.known.iter().any(|(known, _, _)| *known == index)
+    }
+
+    /// Nominal parameters from the balance alone, without a simulation.
+    ///
+    /// # Errors
+    /// If the model refuses its settings or diverges along every stretch.
+    pub(crate) fn balanced(&self, at: &Point) -> Result<Vec<f64>, String> {
+        let mut frame = self.frame(&[], at)?;
+        frame.far = true;
+        Ok(self.missing(&frame)?.setting.point.parameters)
+    }
+
+    /// What was known of each nominal parameter before.
+    pub(super) fn precisions(&self, parameters: &[usize]) -> Vec<f64> {
+        let of = |index: &usize| {
+            let known = self.known.iter().find(|(known, _, _)| known == index);
+            let value = self.rig.parameters[*index];
+            match known {
+                Some((_, _, deviation)) => deviation.powi(-2),
+                None if value == 0.0 || self.is_unstated(*index) => 0.0,
+                None => (TOLERANCE * value).powi(-2),
+            }
+        };
+        parameters.iter().map(of).collect()
+    }
+
+    /// Corrects the nominal parameters as far as the missing signals allow.
+    pub(super) fn nominal_by_balance(
+        &self,
+        about: &About<'_, '_>,
+        precisions: &[f64],
+    ) -> Result<Point, String> {
+        let mut point = about.frame.point.clone();
+        for (index, value, _) in &self.known {
+            point.parameters[*index] = *value;
+        }
+        let unstated: Vec<usize> =
+            about.frame.parameters.iter().copied().filter(|it| self.is_unstated(*it)).collect();
+        let (shares, rounds) =
+            if unstated.is_empty() { (&LOOSE[..], ROUNDS[0]) } else { (&ANY[..], ROUNDS[1]) };
+        for index in unstated.iter().filter(|it| about.frame.far && self.least(**it) > 0.0) {
+            point = self.of_the_right_order(about, (precisions, shares), *index, point);
+        }
+        for _ in 0..rounds {
+            let Some((_, fitted)) = self.corrected(about, (precisions, shares), &point)? else { break };
+            let before = point.parameters.clone();
+            for (index, step) in about.frame.parameters.iter().zip(fitted.values.iter()) {
+                point.parameters[*index] = self.moved(*index, before[*index], *step);
+            }
+            if about.frame.dynamics.check(&point.parameters).is_err() {
+                point.parameters = before;
+                break;
+            }
+            let moved = |index: &usize| {
+                (point.parameters[*index] - before[*index]).abs() > SETTLED * before[*index].abs()
+            };
+            if !unstated.is_empty() && !unstated.iter().any(moved) {
+                break;
+            }
+        }
+        Ok(point)
+    }
+
+    /// A point with one parameter of the order that makes the record likeliest: a force moves a mass that is off by decades
+    /// so little, or so much, that no derivative tells how to go on.
+    fn of_the_right_order(
+        &self,
+        about: &About<'_, '_>,
+        shares: (&[f64], &[f64]),
+        index: usize,
+        point: Point,
+    ) -> Point {
+        let most = self.rig.plant.parameters[index].max.unwrap_or(f64::INFINITY);
+        let scaled = |decade: i32| {
+            let mut scaled = point.clone();
+            scaled.parameters[index] *= 10.0_f64.powi(decade);
+            scaled
+        };
+        let possible =
+            DECADES.map(scaled).filter(|it| (self.least(index)..=most).contains(&it.parameters[index]));
+        let likely = possible.filter_map(|scaled| {
+            let (likelihood, _) = self.corrected(about, shares, &scaled).ok()??;
+            Some((likelihood, scaled))
+        });
+        likely.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(point.clone(), |(_, best)| best)
+    }
+
+    /// The likelihood of the estimation records about a point, and the corrections that make them likeliest; none if they
+    /// cannot be told apart.
+    fn corrected(
+        &self,
+        about: &About<'_, '_>,
+        (precisions, shares): (&[f64], &[f64]),
+        point: &Point,
+    ) -> Result<Option<(f64, Amounts)>, String> {
+        let (setting, windows) = self.along(about, point)?;
+        let columns: Vec<usize> = (1..=precisions.len()).collect();
+        let tried = shares.iter().filter_map(|share| {
+            let noise = Noise { ports: setting.shared(*share), outputs: setting.noise.clone() };
+            let blocks = setting.innovations(&windows, &noise, &[]);
+            let sums = Sums::of(blocks.iter().filter(|block| block.record < self.train.len()))?;
+            Some((sums.log_likelihood(precisions), sums.fitted(&columns, precisions)?))
+        });
+        Ok(tried.filter(|(likelihood, _)| likelihood.is_finite()).max_by(|a, b| a.0.total_cmp(&b.0)))
+    }
+
+    fn least(&self, index: usize) -> f64 {
+        self.rig.plant.parameters[index].min.unwrap_or(f64::NEG_INFINITY)
+    }
+
+    /// A nominal parameter after a step. What has no value and must not be zero may be off by much: its logarithm moves.
+    fn moved(&self, index: usize, before: f64, step: f64) -> f64 {
+        let least = self.least(index);
+        let most = self.rig.plant.parameters[index].max.unwrap_or(f64::INFINITY);
+        if self.is_unstated(index) {
+            let moved = if least > 0.0 {
+                before * (step / before).clamp(-FACTOR, FACTOR).exp()
+            } else {
+                before + step
+            };
+            return moved.clamp(least, most);
+        }
+        let known = self.known.iter().find(|(known, _, _)| *known == index).map(|(_, value, _)| *value);
+        let nominal = known.unwrap_or(self.rig.parameters[index]);
+        let least = if least.is_finite() { least.max(LEAST * nominal) } else { least };
+        (before + step).clamp(least.min(before), most.max(before))
+    }
+}
