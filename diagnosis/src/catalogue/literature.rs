@@ -1,11 +1,6 @@
 //! The articles and books that laws come from.
 
-/// The works that the catalogue cites beside those of the models, and those of the models.
-const WORKS: [&str; 2] =
-    [include_str!("literature.bib"), include_str!("../../../fmu-src/physics/parameters/literature.bib")];
-
-/// How the models' list, which is in LaTeX, writes letters with accents.
-const ACCENTS: [(&str, &str); 3] = [("{\\\"a}", "ä"), ("{\\\"u}", "ü"), ("{\\'o}", "ó")];
+use strut_physics::LITERATURE;
 
 /// An article, a book, a report.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,9 +12,9 @@ pub(super) struct Work {
 }
 
 impl Work {
-    /// All works, in the order of the files.
+    /// All works, in the order of the list.
     pub fn all() -> Vec<Self> {
-        WORKS.into_iter().flat_map(works).collect()
+        works(LITERATURE)
     }
 
     fn field(&self, name: &str) -> Option<&str> {
@@ -76,10 +71,7 @@ fn works(list: &str) -> Vec<Work> {
             && let Some(work) = works.last_mut()
         {
             let value = value.trim_end_matches(',');
-            let mut value = value.strip_suffix('}').unwrap_or(value).to_owned();
-            for (written, letter) in ACCENTS {
-                value = value.replace(written, letter);
-            }
+            let value = value.strip_suffix('}').unwrap_or(value).to_owned();
             work.fields.push((name.trim().into(), value));
         }
     }
@@ -94,13 +86,20 @@ mod tests {
     fn a_work_is_cited_by_its_authors_and_its_year() {
         let list = "@book{One,\n  author = {Solo, A. B.},\n  title = {A Book},\n  publisher = {House},\n  year = {1999}\n}\n\
                     @article{Two,\n  author = {Uno, A. and Due, B.},\n  title = {On it},\n  journal = {J},\n  volume = {3},\n  \
-                    year = {2001}\n}\n@manual{None,\n  title = {Guide by {\\\"a}}\n}\n";
+                    year = {2001}\n}\n@manual{None,\n  title = {Guide}\n}\n";
         let works = works(list);
         let cited: Vec<String> = works.iter().map(Work::cited).collect();
         assert_eq!(cited, ["Solo 1999", "Uno and Due 2001", "None"]);
         assert_eq!(works[0].listed(), "Solo, A. B. *A Book*. House, 1999");
         assert_eq!(works[1].listed(), "Uno, A.; Due, B. *On it*. J 3, 2001");
-        assert_eq!(works[2].listed(), "*Guide by ä*");
+        assert_eq!(works[2].listed(), "*Guide*");
+    }
+
+    #[test]
+    fn the_list_has_a_field_a_line() {
+        for line in LITERATURE.lines().filter(|it| it.contains(" = ")) {
+            assert!(line.contains(" = {") && line.trim_end_matches(',').ends_with('}'), "{line}");
+        }
     }
 
     #[test]

@@ -7,30 +7,34 @@ use strut_model::Declaration;
 use super::literature::Work;
 use super::signals::{Among, DISTORTIONS};
 use super::tables::{TABLES, UNNAMED};
-use super::{Bounds, Cause, Distortion, Element, Onset, Part, Prevalence, RESPONSE, Scale, Signal, all};
+use super::{
+    Bounds, Cause, Distortion, Element, Onset, Part, Prevalence, RESPONSE, Scale, Signal, all, is_replaced,
+};
+use crate::estimation::hypothesis::POINTS;
 use crate::plant::Plant;
 use crate::rig::Rig;
 
 const INTRODUCTION: &str = "\
 # Effects
 
-What the diagnosis looks for, effect by effect: law, parameters, special cases, literature, and the experiment that separates the
-effect from others. `diagnose effects` prints this page from the catalogue. Do not edit it.
+What the diagnosis looks for, effect by effect. `diagnose effects` prints this page from the catalogue. Do not edit it.
 
-- **Number.** It is unique within a section, but for 39 and 42: each stands for all curvatures, or all distortions, of a signal.
-- **Parameters.** The first parameter is the amount of the effect. At zero the effect is absent. Bounds limit the search, not the
-  model. Most bounds are multiples of the element's typical magnitudes, so that they fit a toy and a truck.
-- **Typical magnitudes.** They are root mean squares of the element's force, deflection and velocity in the estimation records.
-- **Background effect.** Every rig has a little of it. It needs stronger evidence before it is identified.
-- **Acts.** An effect that acts beyond a threshold, or near standstill only, improves a fit unevenly. The improvement is judged event
-  by event.
+- **Number.** It is unique within a section. 39 and 42 are families: all curvatures, all distortions of a measured input.
+- **Parameters.** The first one is the amount of the effect. At zero the effect is absent. The bounds limit the search, not the
+  model. Most are multiples of the element's typical magnitudes.
+- **Typical magnitudes.** Root mean squares of the element's force, deflection and velocity in the estimation records.
+- **Special cases.** Effects that the law contains. They are preferred where they explain nearly as much.
+- **Background effect.** Every rig has a little of it. It has to improve the fit by more than others before it is identified.
+- **Acts.** Nothing is noted of an effect that acts at all times. Otherwise the improvement comes event by event.
+- **Models.** Those that contain the law.
+- **Experiment.** It separates the effect from those that it is most often confused with.
 ";
 
 /// The whole page.
 pub fn page() -> String {
     let models: Vec<(&str, Plant)> = Rig::models().collect();
     let works = Work::all();
-    let mut page = Page { text: INTRODUCTION.into(), models: &models, works: &works, cited: Vec::new() };
+    let mut page = Page { text: String::new(), models: &models, works: &works, cited: Vec::new() };
     for element in Element::ALL {
         page.element(element);
     }
@@ -39,7 +43,13 @@ pub fn page() -> String {
     }
     page.unnamed();
     page.literature();
-    page.text
+    format!("{INTRODUCTION}\n{}\n{}", contents(&page.text), page.text)
+}
+
+/// Links to the sections, in one line.
+fn contents(text: &str) -> String {
+    let link = |title: &str| format!("[{title}](#{})", title.to_lowercase().replace(' ', "-"));
+    text.lines().filter_map(|line| line.strip_prefix("## ")).map(link).collect::<Vec<_>>().join(" · ")
 }
 
 struct Page<'a> {
@@ -54,9 +64,9 @@ impl Page<'_> {
     fn element(&mut self, element: Element) {
         let (title, text) = about(element);
         self.section(title, text);
-        for effect in all().filter(|it| it.element == element) {
-            self.effect(effect);
-        }
+        let mut effects: Vec<&Cause> = all().filter(|it| it.element == element).collect();
+        effects.sort_by_key(|it| it.id);
+        effects.into_iter().for_each(|effect| self.effect(effect));
     }
 
     fn effect(&mut self, effect: &Cause) {
@@ -104,19 +114,15 @@ impl Page<'_> {
         let law = with.unwrap_or(own);
         self.head(at.id, &law.called(signal), law.equation);
         for part in [Some(own), with].into_iter().flatten() {
-            let unit = match part.fault.unit("*").as_str() {
-                "1" => "1".to_owned(),
-                "*" => "unit of the signal".to_owned(),
-                other => other.replace("(*)", "unit of the signal").replace('*', "unit of the signal "),
-            };
+            let unit = part.fault.unit("unit of the signal").replace(")2", ")²");
             let bounds = match part.bounds {
                 Bounds::Between(low, high) => format!("{} to {}", plain(low), plain(high)),
                 Bounds::OfLargest(low, high) => {
                     format!("{} to {} × the largest magnitude of the signal", plain(low), plain(high))
                 }
-                Bounds::Free => "without bounds".to_owned(),
+                Bounds::Free => "none".to_owned(),
             };
-            let _ = writeln!(self.text, "- `<signal>.{}` [{unit}], {bounds}", part.fault.name());
+            let _ = writeln!(self.text, "- `<signal>.{}` [{unit}]. Bounds: {bounds}", part.fault.name());
         }
         let contains: Vec<String> =
             own.contains.iter().map(|it| super::distortion(*it).called(signal)).collect();
@@ -135,27 +141,47 @@ impl Page<'_> {
         });
         let replaced: Vec<String> = replaced.collect();
         self.item("Not looked for in", &replaced.join(", "));
-        self.foot(law.experiment, "all", law.literature);
+        let models = self.models_with(own, signal);
+        self.foot(law.experiment, &models, law.literature);
+    }
+
+    /// The models with a signal that a distortion is looked for in.
+    fn models_with(&self, own: &Distortion, signal: Signal) -> String {
+        let among = own.at(signal).among;
+        let is_sought = |plant: &Plant| match signal {
+            Signal::Output => plant.outputs.iter().any(|it| among.has(&it.name)),
+            _ => plant.inputs.iter().any(|it| {
+                let is_own = Signal::of_input(&it.name) == signal && among.has(&it.name);
+                is_own && !is_replaced(plant, &it.name, own.fault)
+            }),
+        };
+        self.models
+            .iter()
+            .filter(|(_, plant)| is_sought(plant))
+            .map(|(name, _)| *name)
+            .collect::<Vec<_>>()
+            .join(", ")
     }
 
     fn unnamed(&mut self) {
-        self.section(
-            "Curves without a name",
-            "A table of eleven points. It competes with the named effects and stands for what none of them explains.",
+        let text = format!(
+            "A table of {POINTS} points over a variable. It competes with the named effects and stands for what none of them \
+             explains."
         );
+        self.section("Curves without a name", &text);
         for law in UNNAMED {
             self.head(law.id, &format!("unnamed {}", law.quantity), "a table over the variable");
             for table in TABLES.iter().filter(|it| it.law.id == law.id) {
                 let models = self.models.iter().filter(|(_, plant)| table.is_in(plant));
                 let names: Vec<&str> = models.map(|(name, _)| *name).collect();
+                let bounds = scaled(law.bounds, law.point, table.element);
                 let _ = writeln!(
                     self.text,
-                    "- `{}` [{}] over the {} of the {}, −10 to 10 × the typical {}. Models: {}",
+                    "- `{}` [{}]: over the {} of the {}. Bounds: {bounds}. Models: {}",
                     table.points,
                     law.unit,
                     table.variable,
                     about(table.element).0.to_lowercase(),
-                    magnitude(law.point, table.element),
                     names.join(", ")
                 );
             }
@@ -197,7 +223,7 @@ impl Page<'_> {
     }
 
     fn cite(&mut self, experiment: &str, literature: &'static [&'static str]) {
-        self.item("Separate it", experiment);
+        self.item("Experiment", experiment);
         let cited = literature.iter().filter_map(|key| self.works.iter().find(|work| work.key == *key));
         let cited: Vec<String> = cited.map(Work::cited).collect();
         self.item("Literature", &cited.join("; "));
@@ -205,7 +231,7 @@ impl Page<'_> {
     }
 
     fn literature(&mut self) {
-        self.section("Literature", "TUM, Konieczny and others are the sources of the rigs' models.");
+        self.section("Literature", "In the order of the alphabet.");
         self.text.push('\n');
         let mut lines: Vec<String> = self
             .works
@@ -244,24 +270,40 @@ fn numbered(element: Element, id: &str) -> String {
     found.map_or_else(|| id.to_owned(), |it| format!("{id} {}", it.name))
 }
 
-/// A parameter with unit, bounds and meaning; the unit and the meaning are the model's.
+/// A parameter with unit, meaning and bounds; unit and meaning are the model's.
 fn parameter(part: &Part, element: Element, declared: Option<&Declaration>) -> String {
-    let unit = declared.map_or("", |it| it.unit.symbol);
-    let (low, high) = (plain(part.bounds.0), plain(part.bounds.1));
-    let scale = if part.scale == Scale::ONE {
-        String::new()
-    } else {
-        format!(" × the typical {}", magnitude(part.scale, element))
-    };
+    let (unit, doc) = declared.map_or(("", ""), |it| (it.unit.symbol, own_doc(it)));
+    let bounds = scaled(part.bounds, part.scale, element);
     let within = part.within.map_or_else(String::new, |(scale, most)| {
-        format!(", at most {} × the typical {}", plain(most), magnitude(scale, element))
+        format!(", at most {}{}", plain(most), typical(scale, element))
     });
-    let doc = declared.map_or("", |it| it.doc.trim_end_matches('.'));
-    format!("`{}` [{unit}], {low} to {high}{scale}{within}. {doc}", part.parameter)
+    format!("`{}` [{unit}]: {doc}. Bounds: {bounds}{within}", part.parameter)
 }
 
-/// A product of powers of the element's magnitudes: `force/deflection²`.
-fn magnitude(scale: Scale, element: Element) -> String {
+/// What a declaration says of itself, without what its groups say.
+fn own_doc(declared: &Declaration) -> &str {
+    let groups = declared.name.matches('.').count();
+    let own = declared.doc.splitn(groups + 1, ": ").last();
+    own.unwrap_or_default().trim_end_matches('.')
+}
+
+/// Bounds in an element's typical magnitudes.
+fn scaled((low, high): (f64, f64), scale: Scale, element: Element) -> String {
+    format!("{} to {}{}", plain(low), plain(high), typical(scale, element))
+}
+
+/// What a number is multiplied by; nothing if it has a unit of its own.
+fn typical(scale: Scale, element: Element) -> String {
+    match magnitude(scale, element) {
+        [above, below] if above.is_empty() && below.is_empty() => String::new(),
+        [above, below] if above.is_empty() => format!(", divided by the typical {below}"),
+        [above, below] if below.is_empty() => format!(" × the typical {above}"),
+        [above, below] => format!(" × the typical {above}/{below}"),
+    }
+}
+
+/// A product of powers of an element's magnitudes: what is multiplied, and what it is divided by.
+fn magnitude(scale: Scale, element: Element) -> [String; 2] {
     let words = match element {
         Element::Pivot | Element::Pump => ["torque", "angle", "angular velocity"],
         _ => ["force", "deflection", "velocity"],
@@ -276,13 +318,9 @@ fn magnitude(scale: Scale, element: Element) -> String {
         };
         words.into_iter().zip(powers).filter_map(of).collect()
     };
-    let (above, below) = (factors(1).join("·"), factors(-1));
-    let above = if above.is_empty() { "1".to_owned() } else { above };
-    match below.as_slice() {
-        [] => above,
-        [one] => format!("{above}/{one}"),
-        more => format!("{above}/({})", more.join("·")),
-    }
+    let below = factors(-1);
+    let divisor = below.join("·");
+    [factors(1).join("·"), if below.len() > 1 { format!("({divisor})") } else { divisor }]
 }
 
 /// A number as people write it.
@@ -297,10 +335,18 @@ mod tests {
 
     #[test]
     fn a_bound_is_in_the_element_s_magnitudes() {
-        assert_eq!(magnitude(Scale::CUBIC, Element::Strut), "force/deflection³");
-        assert_eq!(magnitude(Scale::SLOWNESS, Element::Actuator), "deflection/(force·velocity)");
-        assert_eq!(magnitude(Scale::PER_DEFLECTION, Element::Strut), "1/deflection");
-        assert_eq!(magnitude(Scale::FORCE, Element::Pivot), "torque");
+        let of = |scale, element| scaled((-0.5, 10.0), scale, element);
+        assert_eq!(of(Scale::ONE, Element::Strut), "−0.5 to 10");
+        assert_eq!(of(Scale::CUBIC, Element::Strut), "−0.5 to 10 × the typical force/deflection³");
+        assert_eq!(
+            of(Scale::SLOWNESS, Element::Actuator),
+            "−0.5 to 10 × the typical deflection/(force·velocity)"
+        );
+        assert_eq!(
+            of(Scale::PER_DEFLECTION, Element::Strut),
+            "−0.5 to 10, divided by the typical deflection"
+        );
+        assert_eq!(of(Scale::FORCE, Element::Pivot), "−0.5 to 10 × the typical torque");
         assert_eq!([0.0, 2e-3, 1e-4, -0.5, 1000.0].map(plain), ["0", "0.002", "1e−4", "−0.5", "1000"]);
     }
 

@@ -14,6 +14,8 @@ pub struct Unnamed {
     pub unit: &'static str,
     /// What the points' numbers are in.
     pub point: Scale,
+    /// Smallest and largest value of a point.
+    pub bounds: (f64, f64),
     /// How common it is.
     pub prevalence: Prevalence,
     /// Where such tables are published, by keys of the literature.
@@ -68,6 +70,7 @@ pub const FORCE: Unnamed = Unnamed {
     quantity: "force",
     unit: "N",
     point: Scale::FORCE,
+    bounds: (-10.0, 10.0),
     prevalence: Prevalence::Background,
     literature: &["Masri1979", "Worden2001"],
     experiment: SWEEP,
@@ -79,6 +82,7 @@ pub const DAMPING: Unnamed = Unnamed {
     quantity: "damping rate",
     unit: "N.s/m",
     point: Scale::DAMPING,
+    bounds: (-10.0, 10.0),
     prevalence: Prevalence::Background,
     literature: &["Masri1979", "Worden2001"],
     experiment: SWEEP,

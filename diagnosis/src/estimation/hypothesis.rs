@@ -295,7 +295,7 @@ impl World<'_> {
                 points
                     .map(|index| Coordinate {
                         handle: Handle::Parameter(index),
-                        bounds: (-10.0 * typical, 10.0 * typical),
+                        bounds: (table.law.bounds.0 * typical, table.law.bounds.1 * typical),
                         // A ridge: points that nothing reaches stay at zero.
                         prior: Some((0.0, typical)),
                     })
