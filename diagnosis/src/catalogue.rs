@@ -39,13 +39,14 @@ pub struct Cause {
     pub name: &'static str,
     /// Its law in plain text.
     pub equation: &'static str,
-    /// Numbers of effects of its element that it contains as special cases: they are preferred where they explain nearly as much.
+    /// Numbers of effects of its element that it contains as special cases. A special case is preferred where it explains
+    /// nearly as much.
     pub contains: &'static [&'static str],
     /// When it acts.
     pub onset: Onset,
     /// How common it is.
     pub prevalence: Prevalence,
-    /// What it does to inputs in place of a distortion.
+    /// The distortion of inputs that it stands for.
     pub replaces: Option<Replaced>,
     /// A setting that has to be on.
     pub setting: Option<&'static str>,

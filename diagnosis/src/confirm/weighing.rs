@@ -84,8 +84,8 @@ impl World<'_> {
         gone.map(|index| declared[index].name.as_str())
     }
 
-    /// Whether every rig has a little of it. So has what is measured of the drive: it is late, and a command is by no more
-    /// than signals are.
+    /// Whether every rig has a little of it. Wrong timing of an input counts, too: any of a measured input, and of a command
+    /// what signals usually have.
     fn is_usual(&self, term: Term, fitted: &Fitted) -> bool {
         let plant = &self.rig.plant;
         let driving = matches!(term, Term::Fault(Handle::Input(..)));
