@@ -1,24 +1,37 @@
-//! The catalogue of causes: which parameters they switch on, how large they may be, what they are confused with.
+//! The catalogue of effects: the one home of all that is known of each. An entry states number, place, name, law, parameters
+//! with their bounds, special cases, how common the effect is, when it acts, literature, and the experiment that separates it.
 
 mod guided;
+mod literature;
 pub mod naming;
+mod page;
 mod periphery;
+mod signals;
 mod strut;
 mod tables;
 mod tire;
 
-use crate::plant::Plant;
+#[cfg(test)]
+mod tests;
 
-pub use tables::Table;
+use crate::plant::Plant;
+use crate::signal::distortion::Fault;
+
+pub use page::page;
+pub use signals::{Bounds, Distortion, RESPONSE, Signal, distortion, distortions};
+pub use tables::{Table, Unnamed};
+
+/// The setting that lets a tyre leave the road.
+pub const LIFT_OFF: &str = "tire.lift_off";
 
 /// Bounds of the velocity at which friction is regularised, in an element's usual velocities: below, a rig that really sticks
 /// is met no better, and equations become too stiff.
 const FRICTION_VELOCITY: (f64, f64) = (5e-3, 1.0);
 
-/// A cause with a name.
+/// An effect with a name that acts through a plant's parameters.
 #[derive(Clone, Copy, Debug)]
 pub struct Cause {
-    /// Its number.
+    /// Its number, unique within the element.
     pub id: &'static str,
     /// The element that it acts on.
     pub element: Element,
@@ -26,24 +39,85 @@ pub struct Cause {
     pub name: &'static str,
     /// Its law in plain text.
     pub equation: &'static str,
-    /// Numbers of causes that it contains as a limit: they are preferred where they explain nearly as much.
+    /// Numbers of effects of its element that it contains as special cases. A special case is preferred where it explains
+    /// nearly as much.
     pub contains: &'static [&'static str],
+    /// When it acts.
+    pub onset: Onset,
+    /// How common it is.
+    pub prevalence: Prevalence,
+    /// The distortion of inputs that it stands for.
+    pub replaces: Option<Replaced>,
     /// A setting that has to be on.
     pub setting: Option<&'static str>,
     /// Its parameters; the first one is how much of it there is.
     pub parts: &'static [Part],
-    /// What separates it from the causes that it is most often confused with.
+    /// Articles and books that state the law, by their keys of the literature.
+    pub literature: &'static [&'static str],
+    /// What separates it from the effects that it is most often confused with.
     pub experiment: &'static str,
 }
 
+/// An effect that acts always, that not every rig has, and that contains no other.
+const PLAIN: Cause = Cause {
+    id: "",
+    element: Element::Strut,
+    name: "",
+    equation: "",
+    contains: &[],
+    onset: Onset::Always,
+    prevalence: Prevalence::Occasional,
+    replaces: None,
+    setting: None,
+    parts: &[],
+    literature: &[],
+    experiment: "",
+};
+
+/// When an effect acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Onset {
+    /// At all times.
+    Always,
+    /// Beyond a threshold only.
+    Threshold,
+    /// Near standstill only.
+    Standstill,
+}
+
+/// How common an effect is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Prevalence {
+    /// Some rigs have it.
+    Occasional,
+    /// A background effect: every rig has a little of it. Such are memory and compliance of rubber, springs that are not
+    /// quite straight, cogging, and the filters and timing of sensors.
+    Background,
+}
+
+/// A distortion of inputs that an effect stands for: in a plant that has the effect, the distortion is not looked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Replaced {
+    /// What the inputs' names begin with.
+    pub inputs: &'static str,
+    /// The distortion.
+    pub distortion: Fault,
+}
+
 impl Cause {
+    /// Whether a plant can have it.
+    pub fn is_in(&self, plant: &Plant) -> bool {
+        self.parts.iter().all(|part| plant.parameter(part.parameter).is_some())
+            && self.setting.is_none_or(|setting| plant.setting(setting).is_some())
+    }
+
     /// Whether its law is over the velocity of its element, not the deflection alone.
     pub fn is_over_velocity(&self) -> bool {
         self.parts.iter().any(|part| part.scale.velocity != 0)
     }
 }
 
-/// Where a cause acts; its parameters are measured in that element's own forces and motions.
+/// Where an effect acts; its parameters are measured in that element's own forces and motions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Element {
     /// Between body and wheel.
@@ -69,6 +143,20 @@ pub enum Element {
 }
 
 impl Element {
+    /// Every element.
+    pub const ALL: [Self; 10] = [
+        Self::Strut,
+        Self::Guide,
+        Self::WheelGuide,
+        Self::Tire,
+        Self::Pivot,
+        Self::Actuator,
+        Self::Valve,
+        Self::Pump,
+        Self::Frame,
+        Self::ForceCell,
+    ];
+
     /// As in parameters' names.
     pub fn name(self) -> &'static str {
         match self {
@@ -91,7 +179,7 @@ impl Element {
     }
 }
 
-/// A parameter of a cause.
+/// A parameter of an effect.
 #[derive(Clone, Copy, Debug)]
 pub struct Part {
     /// As in the plant.
@@ -106,6 +194,36 @@ pub struct Part {
     pub within: Option<(Scale, f64)>,
     /// Whether it is an amount beside the first parameter's: the law is a sum, of which either may be absent.
     pub addend: bool,
+    /// What the element does where this threshold is passed.
+    pub beyond: Option<Beyond>,
+}
+
+/// How a threshold is passed, and what that is called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beyond {
+    /// By a compression that is larger.
+    Compression(&'static str),
+    /// By a rebound that is larger.
+    Rebound(&'static str),
+    /// By a speed that is larger, in either direction.
+    Speed(&'static str),
+}
+
+impl Beyond {
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        let (Self::Compression(name) | Self::Rebound(name) | Self::Speed(name)) = self;
+        name
+    }
+
+    /// Whether a deflection, in m and positive in rebound, or a velocity in m/s passes the threshold.
+    pub fn is_passed(self, deflection: f64, velocity: f64, threshold: f64) -> bool {
+        match self {
+            Self::Compression(_) => deflection < -threshold,
+            Self::Rebound(_) => deflection > threshold,
+            Self::Speed(_) => velocity.abs() > threshold,
+        }
+    }
 }
 
 /// Powers of an element's typical force, deflection and velocity that a parameter's numbers are in: what is large and
@@ -162,9 +280,9 @@ pub struct Typical {
     pub velocity: f64,
 }
 
-/// A parameter of a cause.
+/// A parameter of an effect.
 const fn part(parameter: &'static str, scale: Scale, bounds: (f64, f64), probes: &'static [f64]) -> Part {
-    Part { parameter, scale, bounds, probes, within: None, addend: false }
+    Part { parameter, scale, bounds, probes, within: None, addend: false, beyond: None }
 }
 
 /// A parameter that adds something of its own to what the first one does.
@@ -177,20 +295,28 @@ const fn within(part: Part, scale: Scale, most: f64) -> Part {
     Part { within: Some((scale, most)), ..part }
 }
 
-/// Every named cause that acts through a plant's parameters.
-pub fn causes(plant: &Plant) -> impl Iterator<Item = &'static Cause> {
-    let has = |cause: &&Cause| {
-        cause.parts.iter().all(|part| plant.parameter(part.parameter).is_some())
-            && cause.setting.is_none_or(|setting| plant.setting(setting).is_some())
-    };
-    let all = [strut::CAUSES, tire::CAUSES, guided::CAUSES, periphery::CAUSES];
-    all.into_iter().flatten().filter(has)
+/// A parameter that is a threshold.
+const fn beyond(part: Part, beyond: Beyond) -> Part {
+    Part { beyond: Some(beyond), ..part }
 }
 
-/// Every cause without a name that a plant can have.
+/// Every named effect that acts through parameters.
+fn all() -> impl Iterator<Item = &'static Cause> {
+    [strut::CAUSES, tire::CAUSES, guided::CAUSES, periphery::CAUSES].into_iter().flatten()
+}
+
+/// Every named effect that acts through a plant's parameters.
+pub fn causes(plant: &Plant) -> impl Iterator<Item = &'static Cause> {
+    all().filter(|effect| effect.is_in(plant))
+}
+
+/// Every effect without a name that a plant can have.
 pub fn tables(plant: &Plant) -> impl Iterator<Item = &'static Table> {
-    let has = |table: &&Table| {
-        plant.parameter(table.switch).is_some() && plant.parameter(&format!("{}[1]", table.points)).is_some()
-    };
-    tables::TABLES.iter().filter(has)
+    tables::TABLES.iter().filter(|table| table.is_in(plant))
+}
+
+/// Whether an effect of the plant stands for a distortion of an input.
+pub fn is_replaced(plant: &Plant, input: &str, fault: Fault) -> bool {
+    let stands_for = |it: Replaced| it.distortion == fault && input.starts_with(it.inputs);
+    causes(plant).filter_map(|effect| effect.replaces).any(stands_for)
 }

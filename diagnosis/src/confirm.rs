@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 use rayon::prelude::*;
 
-use crate::catalogue::Part;
+use crate::catalogue::{Onset, Part, RESPONSE, naming};
 use crate::decision::rules::{Amount, CERTAIN, is_determined};
 use crate::estimation::fit::{Handle, Point};
 use crate::estimation::hypothesis::{Fitted, Term, World};
@@ -159,7 +159,7 @@ fn contains_by_name(larger: Term, smaller: Term) -> bool {
             larger.element == smaller.element && larger.contains.contains(&smaller.id)
         }
         (Term::Response(output), Term::Fault(Handle::Output(of, fault))) => {
-            output == of && matches!(fault, Fault::Gain | Fault::Lag | Fault::Delay)
+            output == of && RESPONSE.contains.contains(&fault)
         }
         _ => false,
     }
@@ -180,14 +180,7 @@ fn comparing(base: &Fitted, null: &Fitted) -> Stop {
     Stop { below: null.cost - 0.5 * HINT * worth(base), ..Stop::ROUGH }
 }
 
-/// Numbers of the causes that begin to act beyond a threshold, or only near a standstill.
-const THRESHOLDS: &[&str] = &["02", "05", "09", "12", "20", "26", "26s"];
-
 /// Whether nothing shows of a term while it is absent, and of what it does only now and then.
 fn has_threshold(term: Term) -> bool {
-    match term {
-        Term::Cause(cause) => THRESHOLDS.contains(&cause.id),
-        Term::Fault(handle) => matches!(handle, Handle::Input(_, Fault::Limit)),
-        Term::Table(_) | Term::Response(_) => false,
-    }
+    naming::onset(term) != Onset::Always
 }

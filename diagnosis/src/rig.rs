@@ -169,6 +169,11 @@ impl Rig {
         Err(format!("there is no rig `{name}` (`diagnose rigs` lists them){hint}"))
     }
 
+    /// Every model that can be diagnosed, with its name.
+    pub fn models() -> impl Iterator<Item = (&'static str, Plant)> {
+        KINDS.iter().map(|kind| (kind.model, (kind.plant)()))
+    }
+
     /// Names of all published rigs.
     pub fn names() -> Vec<String> {
         let sets = PARAMETER_SETS.iter().filter_map(|(_, text)| ParameterSet::parse(text).ok());

@@ -10,8 +10,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use crate::catalogue;
-use crate::catalogue::naming::{is_command, name};
+use crate::catalogue::naming::name;
+use crate::catalogue::{self, Signal};
 use crate::confirm::has_no_name;
 use crate::dataset::recorded::{Recorded, Source};
 use crate::estimation::fit::{Handle, Normal, Point, contained};
@@ -69,15 +69,8 @@ impl World<'_> {
         let Some(record) = self.train.first() else { return terms };
         for measured in &record.measured {
             let name = &plant.outputs[measured.output].name;
-            // A drift is looked for with the offset that it starts from, and flat tops when data are checked.
-            for fault in
-                Fault::NAMED.into_iter().filter(|fault| !matches!(fault, Fault::Drift | Fault::Limit))
-            {
-                let bends = matches!(fault, Fault::Quadratic | Fault::Cubic);
-                if !bends || name.ends_with("deflection") {
-                    terms.push(Term::Fault(Handle::Output(measured.output, fault)));
-                }
-            }
+            let faults = catalogue::distortions(Signal::Output, name);
+            terms.extend(faults.map(|fault| Term::Fault(Handle::Output(measured.output, fault))));
             if self.stretches() > MEMORIES * AFTER[AFTER.len() - 1] {
                 terms.push(Term::Response(measured.output));
             }
@@ -85,18 +78,9 @@ impl World<'_> {
         for (input, source) in record.inputs.iter().enumerate() {
             if matches!(source, Source::Measured(_)) && !self.twofold(record, input) {
                 let name = &plant.inputs[input].name;
-                // Positions count from wherever equilibrium is, and what an actuator pushes with on its own is the strut's
-                // constant force, too.
-                let constant = name.ends_with("position")
-                    || name == "actuator.force" && plant.parameter("strut.preload").is_some();
-                let offset = (!constant).then_some(Fault::Offset);
-                // A road that arrives behind a low-pass is a tyre's, where the plant knows of it.
-                let enveloped = name.starts_with("road") && plant.parameter("enveloping.time").is_some();
-                let lag = (!enveloped).then_some(Fault::Lag);
-                let limit = self.may_be_limited(input).then_some(Fault::Limit);
-                for fault in [Fault::Gain, Fault::Delay].into_iter().chain(lag).chain(offset).chain(limit) {
-                    terms.push(Term::Fault(Handle::Input(input, fault)));
-                }
+                let faults = catalogue::distortions(Signal::of_input(name), name);
+                let own = faults.filter(|fault| !catalogue::is_replaced(plant, name, *fault));
+                terms.extend(own.map(|fault| Term::Fault(Handle::Input(input, fault))));
             }
         }
         terms.retain(|term| self.only.is_empty() || self.only.contains(&name(*term, plant).id));
@@ -108,14 +92,6 @@ impl World<'_> {
         let sections =
             || self.train.iter().flat_map(|it| it.sections.iter().map(|section| (it.step, section.len())));
         sections().map(|(step, length)| step * length as f64).sum::<f64>() / sections().count().max(1) as f64
-    }
-
-    /// Whether what an input commands may not all come, and the plant has no law of its own for that.
-    fn may_be_limited(&self, input: usize) -> bool {
-        let plant = &self.rig.plant;
-        let name = &plant.inputs[input].name;
-        let group = name.split_once('.').map_or(name.as_str(), |(group, _)| group);
-        is_command(name) && plant.parameter(&format!("{group}.saturation.ratio")).is_none()
     }
 
     /// Whether an input is measured as a position and as a velocity: one of them wrong would contradict the other.

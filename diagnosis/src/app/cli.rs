@@ -36,6 +36,8 @@ pub enum Command {
         /// The rig, e.g. tum-quarter-vehicle
         name: Option<String>,
     },
+    /// Prints the catalogue of effects as a page in Markdown: laws, parameters, literature, experiments
+    Effects,
 }
 
 /// A diagnosis.

@@ -13,7 +13,7 @@ use strut_model::ParameterSet;
 
 use crate::app::cli::{Arguments, Command, DiagnosisArguments, SimulateArguments};
 use crate::app::virtual_rig::{self, Experiment};
-use crate::catalogue::naming;
+use crate::catalogue::{self, naming};
 use crate::data::map::Map;
 use crate::data::table::did_you_mean;
 use crate::dataset::import::{align, choose_drive, import};
@@ -46,6 +46,10 @@ pub fn main() -> ExitCode {
         }
         (Some(Command::Rigs { name: Some(name) }), _) => {
             Rig::published(name).map(|rig| tell(&report::sheet(&rig)))
+        }
+        (Some(Command::Effects), _) => {
+            tell(&catalogue::page());
+            Ok(())
         }
         (None, Some(arguments)) => run(arguments),
         (None, None) => Err("nothing to do: run with --help".into()),

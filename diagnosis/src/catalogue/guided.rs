@@ -1,6 +1,6 @@
-//! Causes in the guides of drives and in pivots.
+//! Effects in the guides of drives and in pivots.
 
-use super::{Cause, Element, FRICTION_VELOCITY, Scale, part, within};
+use super::{Cause, Element, FRICTION_VELOCITY, Onset, PLAIN, Prevalence, Scale, part, within};
 
 /// Pole pitches and spindle pitches in m: so close that over a stroke of some periods no phase is lost between two of them.
 const PERIODS: &[f64] = &[
@@ -14,10 +14,10 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Guide,
         name: "constant force",
         equation: "F = F_0",
-        contains: &[],
-        setting: None,
         parts: &[part("constant_load", Scale::FORCE, (-10.0, 10.0), &[0.1])],
+        literature: &["Janot2019"],
         experiment: "hold several positions: what remains of the force at all of them is the load's",
+        ..PLAIN
     },
     Cause {
         id: "02",
@@ -25,51 +25,55 @@ pub(super) const CAUSES: &[Cause] = &[
         name: "Stribeck friction of the guide",
         equation: "F = (F_c + (F_s - F_c) exp(-(v/v_s)^2)) tanh(v/v_0)",
         contains: &["16"],
-        setting: None,
+        onset: Onset::Standstill,
         parts: &[
             part("guide.stribeck.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
             part("guide.stribeck.velocity", Scale::VELOCITY, (5e-3, 1.0), &[0.1]),
             part("guide.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
             part("guide.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02]),
         ],
+        literature: &["ArmstrongHelouvry1994", "CanudasDeWit1995"],
         experiment: "creep through zero velocity below 5 mm/s",
+        ..PLAIN
     },
     Cause {
         id: "08",
         element: Element::Guide,
         name: "spring to the ground",
         equation: "F = k x",
-        contains: &[],
-        setting: None,
+        prevalence: Prevalence::Background,
         parts: &[part("ground_spring.stiffness", Scale::STIFFNESS, (0.0, 100.0), &[0.1])],
+        literature: &["DenHartog1956"],
         experiment: "hold several positions, and compare the forces",
+        ..PLAIN
     },
     Cause {
         id: "27",
         element: Element::Guide,
         name: "cogging",
         equation: "F = A sin(2 pi x/p + phi)",
-        contains: &[],
-        setting: None,
+        prevalence: Prevalence::Background,
         parts: &[
             part("guide.cogging.force", Scale::FORCE, (0.0, 5.0), &[0.1]),
             // At least one and a half periods in a stroke of about four root mean squares.
             within(part("guide.cogging.period", Scale::ONE, (2e-3, 0.2), PERIODS), Scale::DEFLECTION, 2.7),
             part("guide.cogging.phase", Scale::ONE, (-10.0, 10.0), &[0.0, 1.6, 3.1, -1.6]),
         ],
+        literature: &["Otten1997"],
         experiment: "traverse slowly, and draw the force over the position",
+        ..PLAIN
     },
     Cause {
         id: "01",
         element: Element::Pivot,
         name: "pivot friction",
         equation: "T = T_p tanh(w/w_0)",
-        contains: &[],
-        setting: None,
         parts: &[
             part("pivot.coulomb.torque", Scale::FORCE, (0.0, 10.0), &[0.1]),
             part("pivot.coulomb.speed", Scale::VELOCITY, (1e-3, 1.0), &[0.02, 0.2]),
         ],
+        literature: &["ArmstrongHelouvry1994"],
         experiment: "let the arm swing freely: friction ends its swings after equal steps of amplitude",
+        ..PLAIN
     },
 ];

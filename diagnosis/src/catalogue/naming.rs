@@ -1,10 +1,15 @@
-//! What terms are called, by the catalogue's numbers.
+//! What the catalogue says of a term.
 
-use crate::catalogue::{causes, tables};
+use strut_model::Declaration;
+
+use super::signals::At;
+use super::{Distortion, Onset, Prevalence, RESPONSE, Signal, causes, distortion, distortions, tables};
 use crate::estimation::fit::Handle;
 use crate::estimation::hypothesis::Term;
 use crate::plant::Plant;
 use crate::signal::distortion::Fault;
+
+pub use super::signals::is_command;
 
 /// A term in words.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,38 +38,62 @@ impl Name {
 /// What a term is called.
 pub fn name(term: Term, plant: &Plant) -> Name {
     match term {
-        Term::Cause(cause) => Name {
-            id: cause.id.into(),
-            element: cause.element.name().into(),
-            name: cause.name.into(),
-            equation: cause.equation.into(),
-            experiment: cause.experiment.into(),
-            sensor: cause.element.is_sensor(),
+        Term::Cause(effect) => Name {
+            id: effect.id.into(),
+            element: effect.element.name().into(),
+            name: effect.name.into(),
+            equation: effect.equation.into(),
+            experiment: effect.experiment.into(),
+            sensor: effect.element.is_sensor(),
         },
         Term::Table(table) => Name {
-            id: table.id.into(),
+            id: table.law.id.into(),
             element: table.element.name().into(),
-            name: format!("unnamed {} over {}", table.quantity().0, table.variable),
-            equation: format!("a table over {}", table.variable),
-            experiment: "sweep the variable slowly through the covered range and beyond".into(),
+            name: table.name(),
+            equation: table.equation(),
+            experiment: table.law.experiment.into(),
             sensor: false,
         },
-        Term::Fault(handle) => of_fault(handle, plant),
-        Term::Response(output) => Name {
-            id: "G5".into(),
-            element: plant.outputs[output].name.clone(),
-            name: "unnamed response of the sensor".into(),
-            equation: "a table of the step response over time".into(),
-            experiment: "sweep the sensor beside one whose response is known".into(),
-            sensor: true,
-        },
+        Term::Fault(handle) => {
+            let (fault, signal, declared) = distorted(handle, plant);
+            of_signal(distortion(fault), signal, declared)
+        }
+        Term::Response(output) => of_signal(&RESPONSE, Signal::Output, &plant.outputs[output]),
     }
 }
 
-/// Numbers of all that may be the matter with a plant, ascending.
+/// How common a term's effect is.
+pub fn prevalence(term: Term, plant: &Plant) -> Prevalence {
+    match term {
+        Term::Cause(effect) => effect.prevalence,
+        Term::Table(table) => table.law.prevalence,
+        Term::Fault(handle) => {
+            let (fault, signal, _) = distorted(handle, plant);
+            distortion(fault).at(signal).prevalence
+        }
+        Term::Response(_) => RESPONSE.at(Signal::Output).prevalence,
+    }
+}
+
+/// When a term's effect acts.
+pub fn onset(term: Term) -> Onset {
+    match term {
+        Term::Cause(effect) => effect.onset,
+        Term::Fault(Handle::Input(_, fault) | Handle::Output(_, fault)) => distortion(fault).onset,
+        Term::Table(_) | Term::Response(_) | Term::Fault(Handle::Parameter(_)) => Onset::Always,
+    }
+}
+
+/// Numbers of all effects that are looked for in a plant, ascending.
 pub fn numbers(plant: &Plant) -> Vec<String> {
-    let inputs = (0..plant.inputs.len()).flat_map(|it| Fault::NAMED.map(|fault| Handle::Input(it, fault)));
-    let outputs = (0..plant.outputs.len()).flat_map(|it| Fault::NAMED.map(|fault| Handle::Output(it, fault)));
+    let inputs = plant.inputs.iter().enumerate().flat_map(|(index, declared)| {
+        let faults = distortions(Signal::of_input(&declared.name), &declared.name);
+        faults.map(move |fault| Handle::Input(index, fault))
+    });
+    let outputs = plant.outputs.iter().enumerate().flat_map(|(index, declared)| {
+        let faults = distortions(Signal::Output, &declared.name);
+        faults.map(move |fault| Handle::Output(index, fault))
+    });
     let faults = inputs.chain(outputs).map(Term::Fault);
     let responses = (0..plant.outputs.len()).map(Term::Response);
     let plants = causes(plant).map(Term::Cause).chain(tables(plant).map(Term::Table));
@@ -75,57 +104,28 @@ pub fn numbers(plant: &Plant) -> Vec<String> {
     numbers
 }
 
-/// What the names of inputs begin with that act through an actuator, and not through a sensor alone.
-const ACTUATORS: &[&str] = &["actuator", "brake", "command", "motor", "voltage"];
-
-/// Whether an input, by its name, is what an actuator is told.
-pub fn is_command(input: &str) -> bool {
-    ACTUATORS.iter().any(|prefix| input.starts_with(prefix))
+/// A distortion with its signal; a parameter is as wrong as a sensor's gain.
+fn distorted(handle: Handle, plant: &Plant) -> (Fault, Signal, &Declaration) {
+    match handle {
+        Handle::Input(index, fault) => {
+            let declared = &plant.inputs[index];
+            (fault, Signal::of_input(&declared.name), declared)
+        }
+        Handle::Output(index, fault) => (fault, Signal::Output, &plant.outputs[index]),
+        Handle::Parameter(index) => (Fault::Gain, Signal::Output, &plant.parameters[index]),
+    }
 }
 
-fn of_fault(handle: Handle, plant: &Plant) -> Name {
-    let (signal, fault, input) = match handle {
-        Handle::Input(index, fault) => (plant.inputs[index].name.clone(), fault, true),
-        Handle::Output(index, fault) => (plant.outputs[index].name.clone(), fault, false),
-        Handle::Parameter(index) => (plant.parameters[index].name.clone(), Fault::Gain, false),
-    };
-    let actuator = input && is_command(&signal);
-    let id = match (fault, input, actuator) {
-        (Fault::Gain, true, true) => "25",
-        (Fault::Limit, _, _) => "26",
-        (Fault::Delay, true, true) => "23",
-        (Fault::Lag, true, true) => "24",
-        (Fault::Offset | Fault::Drift, true, true) => "41",
-        (Fault::Offset | Fault::Drift, _, _) => "33",
-        (_, true, false) if fault != Fault::Rate => "42",
-        (Fault::Gain, _, _) => "34",
-        (Fault::Lag, _, _) => "35",
-        (Fault::Delay, _, _) => "36",
-        (Fault::Quadratic | Fault::Cubic, _, _) => "39",
-        (Fault::Rate, _, _) => "40",
-        (Fault::Response(_), _, _) => "G5",
-    };
-    let (what, equation, experiment) = match fault {
-        Fault::Gain => ("gain", "(1 + gain) y", "weigh the masses, or turn the sensor over"),
-        Fault::Offset | Fault::Drift if input => ("offset", "y + offset", "record a standstill"),
-        Fault::Offset | Fault::Drift => {
-            ("offset", "y + offset + drift t", "record a standstill of the same length")
-        }
-        Fault::Lag => ("lag", "lag y' + y = y_true", "sweep to high frequencies"),
-        Fault::Delay => ("delay", "y(t - delay)", "strike once and compare the signals' onsets"),
-        Fault::Quadratic => ("curvature", "y + quadratic y^2", "calibrate with gauge blocks"),
-        Fault::Cubic => ("curvature", "y + cubic y^3", "calibrate with gauge blocks"),
-        Fault::Response(_) => ("response", "a step response", "sweep to high frequencies"),
-        Fault::Limit => ("limit", "clamp(y, -limit, limit)", "repeat the run with half the command"),
-        Fault::Rate => ("sampling rate", "y((1 + rate) t)", "compare the clocks, or record for longer"),
-    };
+fn of_signal(own: &'static Distortion, signal: Signal, declared: &Declaration) -> Name {
+    let At { id, with, .. } = own.at(signal);
+    let law = with.map_or(own, distortion);
     Name {
-        id: id.into(),
-        name: format!("{what} of the {}", if actuator { "actuator" } else { "sensor" }),
-        element: signal,
-        equation: equation.into(),
-        experiment: experiment.into(),
-        sensor: !actuator,
+        id: (*id).into(),
+        element: declared.name.clone(),
+        name: law.called(signal),
+        equation: law.equation.into(),
+        experiment: law.experiment.into(),
+        sensor: signal != Signal::Command,
     }
 }
 
@@ -136,11 +136,11 @@ pub fn handle(handle: Handle, plant: &Plant) -> (String, String) {
             let declared = &plant.parameters[index];
             (declared.name.clone(), declared.unit.symbol.to_owned())
         }
-        Handle::Input(index, fault) => of_signal(&plant.inputs[index], fault),
-        Handle::Output(index, fault) => of_signal(&plant.outputs[index], fault),
+        Handle::Input(index, fault) => amount(&plant.inputs[index], fault),
+        Handle::Output(index, fault) => amount(&plant.outputs[index], fault),
     }
 }
 
-fn of_signal(declared: &strut_model::Declaration, fault: Fault) -> (String, String) {
+fn amount(declared: &Declaration, fault: Fault) -> (String, String) {
     (format!("{}.{}", declared.name, fault.name()), fault.unit(declared.unit.symbol))
 }

@@ -1,6 +1,13 @@
-//! Causes in the strut and in the guides.
+//! Effects in the strut and in the guides.
 
-use super::{Cause, Element, FRICTION_VELOCITY, Scale, addend, part};
+use super::{
+    Beyond, Cause, Element, FRICTION_VELOCITY, Onset, PLAIN, Prevalence, Replaced, Scale, addend, beyond,
+    part,
+};
+use crate::signal::distortion::Fault;
+
+/// Clearances of a stop: the strut reaches its ends now and then, at most.
+const CLEARANCES: &[f64] = &[1.2, 1.8, 2.4, 3.2];
 
 pub(super) const CAUSES: &[Cause] = &[
     Cause {
@@ -8,13 +15,13 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Strut,
         name: "Coulomb friction",
         equation: "F = F_c tanh(v/v_0)",
-        contains: &[],
-        setting: None,
         parts: &[
             part("strut.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
             part("strut.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02, 0.2]),
         ],
+        literature: &["ArmstrongHelouvry1994", "TUM"],
         experiment: "sweep the amplitude at one frequency, or drive a slow triangle",
+        ..PLAIN
     },
     Cause {
         id: "02",
@@ -22,7 +29,7 @@ pub(super) const CAUSES: &[Cause] = &[
         name: "Stribeck friction",
         equation: "F = (F_c + (F_s - F_c) exp(-(v/v_s)^2)) tanh(v/v_0)",
         contains: &["01"],
-        setting: None,
+        onset: Onset::Standstill,
         parts: &[
             // A peak that is narrower and higher than this imitates sticking.
             part("strut.stribeck.force", Scale::FORCE, (0.0, 2.0), &[0.1]),
@@ -30,7 +37,9 @@ pub(super) const CAUSES: &[Cause] = &[
             part("strut.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
             part("strut.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02]),
         ],
+        literature: &["ArmstrongHelouvry1994", "CanudasDeWit1995"],
         experiment: "creep through zero velocity below 5 mm/s",
+        ..PLAIN
     },
     Cause {
         id: "03",
@@ -38,13 +47,14 @@ pub(super) const CAUSES: &[Cause] = &[
         name: "friction with presliding (Dahl)",
         equation: "F' = sigma v |1 - sgn(v) F/F_c|^n sgn(1 - sgn(v) F/F_c)",
         contains: &["01"],
-        setting: None,
         parts: &[
             part("hysteresis.presliding.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
             part("hysteresis.presliding.stiffness", Scale::STIFFNESS, (1e-2, 1e3), &[0.5, 3.0]),
             part("hysteresis.presliding.exponent", Scale::ONE, (0.2, 4.0), &[1.0]),
         ],
+        literature: &["Dahl1968"],
         experiment: "drive a multisine of less than 0.2 mm stroke",
+        ..PLAIN
     },
     Cause {
         id: "03b",
@@ -52,48 +62,53 @@ pub(super) const CAUSES: &[Cause] = &[
         name: "friction with presliding behind play",
         equation: "F = dz(y, sigma b), y' = sigma v |1 - sgn(v) F/F_c|^n sgn(1 - sgn(v) F/F_c)",
         contains: &["01", "03"],
-        setting: None,
         parts: &[
             part("hysteresis.presliding.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
             part("hysteresis.presliding.stiffness", Scale::STIFFNESS, (1e-2, 1e3), &[3.0]),
             part("hysteresis.presliding.gap", Scale::DEFLECTION, (0.0, 1.0), &[0.05, 0.2]),
             part("hysteresis.presliding.exponent", Scale::ONE, (0.2, 4.0), &[1.0]),
         ],
+        literature: &["Dahl1968", "Nordin2002"],
         experiment: "reverse slowly at several places: the force rests at zero over the play",
+        ..PLAIN
     },
     Cause {
         id: "04",
         element: Element::Strut,
         name: "asymmetric damper",
         equation: "F = d (v + alpha |v|)",
-        contains: &[],
-        setting: None,
         parts: &[part("strut.asymmetry.ratio", Scale::ONE, (-0.9, 0.9), &[0.2])],
+        literature: &["Dixon2007"],
         experiment: "stand still, and compare the ride height with that in motion",
+        ..PLAIN
     },
     Cause {
         id: "05",
         element: Element::Strut,
         name: "damper knee",
         equation: "F = d (v + r dz(v, v_k))",
-        contains: &[],
-        setting: None,
+        onset: Onset::Threshold,
         parts: &[
             part("strut.knee.ratio", Scale::ONE, (-0.95, 5.0), &[-0.4]),
             // A knee far below the usual velocities would be friction.
-            part("strut.knee.velocity", Scale::VELOCITY, (0.2, 3.0), &[0.3, 1.0]),
+            beyond(
+                part("strut.knee.velocity", Scale::VELOCITY, (0.2, 3.0), &[0.3, 1.0]),
+                Beyond::Speed("beyond the knee"),
+            ),
         ],
+        literature: &["Dixon2007"],
         experiment: "sweep the velocity",
+        ..PLAIN
     },
     Cause {
         id: "06",
         element: Element::Strut,
         name: "orifice damping",
         equation: "F = c v |v|",
-        contains: &[],
-        setting: None,
         parts: &[part("strut.orifice.coefficient", Scale::ORIFICE, (0.0, 10.0), &[0.1])],
+        literature: &["Dixon2007", "Merritt1967"],
         experiment: "sweep the amplitude",
+        ..PLAIN
     },
     Cause {
         id: "07",
@@ -101,52 +116,63 @@ pub(super) const CAUSES: &[Cause] = &[
         name: "Maxwell branch",
         equation: "F = k_1 xi, xi' = v - xi/tau",
         contains: &["13"],
-        setting: None,
+        prevalence: Prevalence::Background,
         parts: &[
             part("hysteresis.maxwell.stiffness", Scale::STIFFNESS, (0.0, 100.0), &[0.1]),
             part("hysteresis.maxwell.time", Scale::ONE, (5e-4, 0.5), &[0.005, 0.03, 0.12]),
         ],
+        literature: &["Christensen1982", "Lakes2009"],
         experiment: "excite by the road with the actuator off, and by the actuator with the road locked",
+        ..PLAIN
     },
     Cause {
         id: "08",
         element: Element::Strut,
         name: "nonlinear spring",
         equation: "F = k_2 x^2 + k_3 x^3",
-        contains: &[],
-        setting: None,
+        prevalence: Prevalence::Background,
         parts: &[
             part("strut.spring.cubic", Scale::CUBIC, (-5.0, 5.0), &[0.05]),
             addend("strut.spring.quadratic", Scale::QUADRATIC, (-5.0, 5.0), &[0.05]),
         ],
+        literature: &["Worden2001"],
         experiment: "move through the whole stroke quasi-statically",
+        ..PLAIN
     },
     Cause {
         id: "09",
         element: Element::Strut,
         name: "bump or rebound stop",
         equation: "F = k_b (|x| - x_b) beyond x_b",
-        contains: &[],
-        setting: None,
+        onset: Onset::Threshold,
+        prevalence: Prevalence::Background,
         parts: &[
             part("strut.stop.stiffness", Scale::STIFFNESS, (0.0, 300.0), &[2.0]),
-            part("strut.stop.compression_clearance", Scale::DEFLECTION, (0.3, 20.0), &[1.2, 1.8, 2.4, 3.2]),
-            part("strut.stop.rebound_clearance", Scale::DEFLECTION, (0.3, 20.0), &[1.2, 1.8, 2.4, 3.2]),
+            beyond(
+                part("strut.stop.compression_clearance", Scale::DEFLECTION, (0.3, 20.0), CLEARANCES),
+                Beyond::Compression("compression stop"),
+            ),
+            beyond(
+                part("strut.stop.rebound_clearance", Scale::DEFLECTION, (0.3, 20.0), CLEARANCES),
+                Beyond::Rebound("rebound stop"),
+            ),
         ],
+        literature: &["Worden2001", "Heissing2011"],
         experiment: "move slowly to both ends of the stroke",
+        ..PLAIN
     },
     Cause {
         id: "10",
         element: Element::Strut,
         name: "damper fade",
         equation: "d(t) = d (1 - alpha (1 - exp(-t/tau)))",
-        contains: &[],
-        setting: None,
         parts: &[
             part("strut.fade.ratio", Scale::ONE, (0.0, 0.9), &[0.2]),
             part("strut.fade.time", Scale::ONE, (0.5, 2000.0), &[5.0, 50.0]),
         ],
+        literature: &["Dixon2007", "Hryciow2022"],
         experiment: "repeat the run cold and hot",
+        ..PLAIN
     },
     Cause {
         id: "11",
@@ -154,13 +180,14 @@ pub(super) const CAUSES: &[Cause] = &[
         name: "load-dependent friction",
         equation: "F = F_c (1 + beta x) tanh(v/v_0)",
         contains: &["01"],
-        setting: None,
         parts: &[
             part("strut.load_dependence.slope", Scale::PER_DEFLECTION, (-0.8, 0.8), &[0.3]),
             part("strut.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
             part("strut.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02]),
         ],
+        literature: &["ArmstrongHelouvry1994"],
         experiment: "repeat with two preloads",
+        ..PLAIN
     },
     Cause {
         id: "12",
@@ -168,32 +195,35 @@ pub(super) const CAUSES: &[Cause] = &[
         name: "play in a damper bush",
         equation: "F = dz(x - w, g)/c, w' = F/d",
         contains: &["13"],
-        setting: None,
+        onset: Onset::Threshold,
         parts: &[
             part("hysteresis.mount.gap", Scale::DEFLECTION, (1e-4, 2.0), &[0.02, 0.1, 0.3]),
             part("hysteresis.mount.compliance", Scale::COMPLIANCE, (3e-3, 1.0), &[0.01]),
         ],
+        literature: &["Nordin2002"],
         experiment: "compare small and large strokes",
+        ..PLAIN
     },
     Cause {
         id: "13",
         element: Element::Strut,
         name: "soft damper mount",
         equation: "F = (x - w)/c, w' = F/d",
-        contains: &[],
-        setting: None,
+        prevalence: Prevalence::Background,
         parts: &[part("hysteresis.mount.compliance", Scale::COMPLIANCE, (3e-3, 10.0), &[0.02, 0.1])],
+        literature: &["Brennan2008", "Heissing2011"],
         experiment: "sweep to high frequencies",
+        ..PLAIN
     },
     Cause {
         id: "14",
         element: Element::Strut,
         name: "kinematic ratio",
         equation: "i = 1 + i_1 x on spring and damper",
-        contains: &[],
-        setting: None,
         parts: &[part("strut.linkage.slope", Scale::PER_DEFLECTION, (-0.3, 0.3), &[0.05])],
+        literature: &["Milliken1995"],
         experiment: "measure the wheel's travel over the strut's",
+        ..PLAIN
     },
     Cause {
         id: "32f",
@@ -201,68 +231,70 @@ pub(super) const CAUSES: &[Cause] = &[
         name: "dry yield force with hysteresis",
         equation: "F = F_y tanh(v/v_y + beta x)",
         contains: &["01", "02"],
-        setting: None,
         parts: &[
             part("strut.yield.force", Scale::FORCE, (0.0, 10.0), &[0.3]),
             part("strut.yield.velocity", Scale::VELOCITY, (1e-2, 3.0), &[0.1, 0.4]),
             part("strut.yield.slope", Scale::PER_DEFLECTION, (-20.0, 20.0), &[-1.0, 1.0]),
         ],
+        literature: &["Kwok2006", "Spencer1997"],
         experiment: "hold the coil's voltage and compare slow and fast strokes",
+        ..PLAIN
     },
     Cause {
         id: "33",
         element: Element::Strut,
         name: "constant force",
         equation: "F = F_0",
-        contains: &[],
-        setting: None,
+        replaces: Some(Replaced { inputs: "actuator.force", distortion: Fault::Offset }),
         parts: &[part("strut.preload", Scale::FORCE, (-10.0, 10.0), &[0.1])],
+        literature: &["Dixon2007", "Kwok2006"],
         experiment: "stand still with the force cell unloaded: what remains is the cell's",
+        ..PLAIN
     },
     Cause {
         id: "15",
         element: Element::Guide,
         name: "viscous guide",
         equation: "F = d_g v_s",
-        contains: &[],
-        setting: None,
         parts: &[part("guide.damping", Scale::DAMPING, (0.0, 5.0), &[0.1])],
+        literature: &["ArmstrongHelouvry1994"],
         experiment: "sweep the amplitude",
+        ..PLAIN
     },
     Cause {
         id: "16",
         element: Element::Guide,
         name: "guide friction",
         equation: "F = F_g tanh(v_s/v_0)",
-        contains: &[],
-        setting: None,
         parts: &[
             part("guide.coulomb.force", Scale::FORCE, (0.0, 5.0), &[0.1]),
             part("guide.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02, 0.2]),
         ],
+        literature: &["ArmstrongHelouvry1994", "TUM"],
         experiment: "heave the body slowly",
+        ..PLAIN
     },
     Cause {
         id: "15",
         element: Element::WheelGuide,
         name: "viscous wheel guide",
         equation: "F = d_g v_u",
-        contains: &[],
-        setting: None,
         parts: &[part("wheel_guide.damping", Scale::DAMPING, (0.0, 5.0), &[0.1])],
+        literature: &["ArmstrongHelouvry1994"],
         experiment: "sweep the amplitude",
+        ..PLAIN
     },
     Cause {
         id: "17",
         element: Element::WheelGuide,
         name: "wheel-guide friction",
         equation: "F = F_g tanh(v_u/v_0)",
-        contains: &[],
-        setting: None,
         parts: &[
             part("wheel_guide.coulomb.force", Scale::FORCE, (0.0, 5.0), &[0.1]),
             part("wheel_guide.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02, 0.2]),
         ],
+        literature: &["ArmstrongHelouvry1994", "TUM"],
         experiment: "compare excitation by the road and by the actuator",
+        ..PLAIN
     },
 ];

@@ -1,6 +1,7 @@
-//! Causes in the tyre.
+//! Effects in the tyre.
 
-use super::{Cause, Element, Scale, part};
+use super::{Cause, Element, LIFT_OFF, Onset, PLAIN, Prevalence, Replaced, Scale, part};
+use crate::signal::distortion::Fault;
 
 pub(super) const CAUSES: &[Cause] = &[
     Cause {
@@ -8,42 +9,45 @@ pub(super) const CAUSES: &[Cause] = &[
         element: Element::Tire,
         name: "progressive tyre",
         equation: "F = q c^2",
-        contains: &[],
-        setting: None,
         parts: &[part("tire.quadratic", Scale::QUADRATIC, (-5.0, 5.0), &[0.05])],
+        literature: &["Pacejka2012", "TUM"],
         experiment: "compare two static loads",
+        ..PLAIN
     },
     Cause {
         id: "20",
         element: Element::Tire,
         name: "lift-off",
         equation: "F >= -F_0",
-        contains: &[],
-        setting: Some("tire.lift_off"),
-        parts: &[],
+        onset: Onset::Threshold,
+        setting: Some(LIFT_OFF),
+        literature: &["Pacejka2012", "TUM"],
         experiment: "drop the wheel, or drive over a large bump",
+        ..PLAIN
     },
     Cause {
         id: "21",
         element: Element::Tire,
         name: "tyre friction",
         equation: "F = F_t tanh(c'/v_0)",
-        contains: &[],
-        setting: None,
         parts: &[
             part("tire.coulomb.force", Scale::FORCE, (0.0, 5.0), &[0.1]),
             part("tire.coulomb.velocity", Scale::VELOCITY, (1e-3, 1.0), &[0.05]),
         ],
+        literature: &["Gent2006"],
         experiment: "sweep the frequency",
+        ..PLAIN
     },
     Cause {
         id: "22",
         element: Element::Tire,
         name: "enveloping (low-pass of the road)",
         equation: "T z' = z_r - z, F = f(z - z_u)",
-        contains: &[],
-        setting: None,
+        prevalence: Prevalence::Background,
+        replaces: Some(Replaced { inputs: "road", distortion: Fault::Lag }),
         parts: &[part("enveloping.time", Scale::ONE, (5e-4, 0.05), &[3e-3])],
+        literature: &["Captain1979", "Pacejka2012"],
         experiment: "drive over a step, and compare with a second sensor of the road",
+        ..PLAIN
     },
 ];

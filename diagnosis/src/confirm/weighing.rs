@@ -1,7 +1,7 @@
 //! What speaks for one fit over another.
 
-use crate::catalogue::Element;
-use crate::catalogue::naming::{Name, name};
+use crate::catalogue::naming::{name, prevalence};
+use crate::catalogue::{Element, Prevalence};
 use crate::dataset::recorded::Recorded;
 use crate::estimation::comparison::{Errors, Student, student};
 use crate::estimation::fit::{Handle, Residuals, strain};
@@ -10,11 +10,7 @@ use crate::report::findings::Evidence;
 use crate::screening::bent_rms;
 use crate::signal::distortion::Fault;
 
-use super::{has_no_name, has_threshold};
-
-/// Numbers of what every rig has a little of: memory and compliance in its rubber, springs that are not quite straight, cogging,
-/// sensors' filters and timing, of what is measured of the drive, too. What has no name is as common.
-const USUAL: &[&str] = &["07", "08", "09", "13", "22", "27", "35", "36"];
+use super::has_threshold;
 
 /// Standard deviations of a channel's timing beyond which a signal is late.
 const LATE: f64 = 5.0;
@@ -88,12 +84,13 @@ impl World<'_> {
         gone.map(|index| declared[index].name.as_str())
     }
 
-    /// Whether every rig has a little of it. Of a command that is late, by no more than signals are.
+    /// Whether every rig has a little of it. Wrong timing of an input counts, too: any of a measured input, and of a command
+    /// what signals usually have.
     fn is_usual(&self, term: Term, fitted: &Fitted) -> bool {
-        let Name { id, sensor, .. } = name(term, &self.rig.plant);
+        let plant = &self.rig.plant;
         let driving = matches!(term, Term::Fault(Handle::Input(..)));
-        let timing = is_in_time(term, fitted).is_some_and(|it| driving && (sensor || it));
-        has_no_name(term) || USUAL.contains(&id.as_str()) || timing
+        let timing = is_in_time(term, fitted).is_some_and(|it| driving && (name(term, plant).sensor || it));
+        prevalence(term, plant) == Prevalence::Background || timing
     }
 
     /// The largest rise of Φ among the signals: on the training and on the held-out data. It is of what the model has to tell:

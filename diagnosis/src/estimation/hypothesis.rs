@@ -2,7 +2,7 @@
 
 use strut_model::{Value, unit};
 
-use crate::catalogue::{self, Cause, Element, Part, Scale, Table, Typical};
+use crate::catalogue::{self, Bounds, Cause, Element, Part, Scale, Signal, Table, Typical};
 use crate::dataset::recorded::{Recorded, Source};
 use crate::dataset::split::Records;
 use crate::diagnosis::Options;
@@ -23,9 +23,6 @@ pub const TIMING: f64 = 4e-4;
 const SURE: f64 = 3.0;
 /// Standard deviations of a channel's timing within which a signal is in time.
 const IN_TIME: f64 = 2.5;
-
-/// Share of the largest command below which it is not limited.
-const LOWEST: f64 = 0.2;
 
 /// Time over which the velocity at a section's start is guessed from a measured position, in seconds.
 const RATE: f64 = 0.02;
@@ -295,31 +292,35 @@ impl World<'_> {
                 parts.collect()
             }
             Term::Table(table) => {
-                let typical = table.point.of(&self.typical(table.element));
+                let typical = table.law.point.of(&self.typical(table.element));
                 let points =
                     (1..=POINTS).filter_map(|number| plant.parameter(&format!("{}[{number}]", table.points)));
                 points
                     .map(|index| Coordinate {
                         handle: Handle::Parameter(index),
-                        bounds: (-10.0 * typical, 10.0 * typical),
+                        bounds: (table.law.bounds.0 * typical, table.law.bounds.1 * typical),
                         // A ridge: points that nothing reaches stay at zero.
                         prior: Some((0.0, typical)),
                     })
                     .collect()
             }
             Term::Fault(handle) => {
-                let drift = match handle {
-                    Handle::Output(output, Fault::Offset) => Some(Handle::Output(output, Fault::Drift)),
-                    _ => None,
+                let with = match handle {
+                    Handle::Output(output, fault) => {
+                        let with = catalogue::distortion(fault).at(Signal::Output).with;
+                        with.map(|fault| Handle::Output(output, fault))
+                    }
+                    Handle::Input(..) | Handle::Parameter(_) => None,
                 };
                 let of = |handle| Coordinate { handle, bounds: self.fault_bounds(handle), prior: None };
-                std::iter::once(handle).chain(drift).map(of).collect()
+                std::iter::once(handle).chain(with).map(of).collect()
             }
             Term::Response(output) => (0..AFTER.len())
-                .map(|point| Coordinate {
-                    handle: Handle::Output(output, Fault::Response(point)),
-                    bounds: (-10.0, 10.0),
-                    // A ridge, as a table has one.
+                .map(|point| Handle::Output(output, Fault::Response(point)))
+                // A ridge, as a table has one.
+                .map(|handle| Coordinate {
+                    handle,
+                    bounds: self.fault_bounds(handle),
                     prior: Some((0.0, UNKNOWN)),
                 })
                 .collect(),
@@ -340,20 +341,14 @@ impl World<'_> {
             Handle::Input(_, fault) | Handle::Output(_, fault) => fault,
             Handle::Parameter(_) => return (f64::NEG_INFINITY, f64::INFINITY),
         };
-        match fault {
-            // None is off by more; a sign is another matter.
-            Fault::Gain => (-0.5, 0.5),
-            Fault::Lag => (0.0, 0.2),
-            Fault::Delay => (-0.05, 0.05),
-            Fault::Rate => (-0.02, 0.02),
-            // A limit far below the usual commands would be a gain.
-            Fault::Limit => match handle {
-                Handle::Input(input, _) => (LOWEST * self.largest(input), self.largest(input)),
-                Handle::Output(..) | Handle::Parameter(_) => (0.0, f64::INFINITY),
-            },
-            Fault::Offset | Fault::Drift | Fault::Quadratic | Fault::Cubic | Fault::Response(_) => {
-                (f64::NEG_INFINITY, f64::INFINITY)
+        match (catalogue::distortion(fault).bounds, handle) {
+            (Bounds::Between(low, high), _) => (low, high),
+            (Bounds::OfLargest(low, high), Handle::Input(input, _)) => {
+                let largest = self.largest(input);
+                (low * largest, high * largest)
             }
+            (Bounds::OfLargest(..), _) => (0.0, f64::INFINITY),
+            (Bounds::Free, _) => (f64::NEG_INFINITY, f64::INFINITY),
         }
     }
 

@@ -333,7 +333,7 @@ impl Compared {
     pub fn curve_for(&self, score: Score, element: Option<Element>) -> Option<(Term, Score)> {
         let over = |table: &Table| match self.candidates.list[score.candidate].kind {
             Kind::Feature { group: Group::Deflection, .. } => {
-                table.scale == Scale::DEFLECTION && table.id == "G1"
+                table.scale == Scale::DEFLECTION && table.law.point == Scale::FORCE
             }
             Kind::Feature { group: Group::Velocity, .. } => table.scale == Scale::VELOCITY,
             _ => false,

@@ -117,7 +117,7 @@ impl World<'_> {
     fn knots(&self, table: &Table, at: &Point) -> Vec<Point> {
         let plant = &self.rig.plant;
         let typical = self.typical(table.element);
-        let point = 0.1 * table.point.of(&typical);
+        let point = 0.1 * table.law.point.of(&typical);
         let mut flat = at.clone();
         let indices = (plant.parameter(table.switch), plant.parameter(table.range));
         let (Some(switch), Some(range)) = indices else { return Vec::new() };

@@ -65,3 +65,6 @@ pub static CATALOGUE: &[Entry] = &[
 
 // PARAMETER_SETS and SYSTEMS, as they lie in `parameters` and `systems`.
 include!(concat!(env!("OUT_DIR"), "/data.rs"));
+
+/// The documents that equations, parameter sets and effects come from, in BibTeX with a field a line.
+pub const LITERATURE: &str = include_str!("../parameters/literature.bib");

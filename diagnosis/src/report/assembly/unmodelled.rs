@@ -1,6 +1,6 @@
 //! What the report says of what is in no catalogue.
 
-use crate::catalogue::{Element, Scale, Table};
+use crate::catalogue::{Element, Scale, Table, Unnamed};
 use crate::diagnosis::Diagnosis;
 use crate::estimation::fit::Handle;
 use crate::estimation::hypothesis::{Fitted, POINTS, Term};
@@ -72,13 +72,13 @@ impl Diagnosis<'_> {
         let fitted: &Fitted = &self.found.extended;
         let range = plant.parameter(table.range).map_or(0.0, |index| fitted.point.parameters[index]);
         let (variable, variable_unit) = self.variable(table.element, table.scale);
-        let (quantity, unit) = table.quantity();
+        let Unnamed { quantity, unit, point, .. } = table.law;
         let mut curve = Curve {
             location: table.element.name().into(),
-            quantity: quantity.into(),
+            quantity: (*quantity).into(),
             variable,
             variable_unit: variable_unit.into(),
-            unit: unit.into(),
+            unit: (*unit).into(),
             ..Curve::default()
         };
         for number in 1..=POINTS {
@@ -86,7 +86,7 @@ impl Diagnosis<'_> {
             let found = self.intervals.iter().find(|it| index.map(Handle::Parameter) == Some(it.handle));
             let Some(Interval { value, half, .. }) = found else { continue };
             // A point that is not determined is not covered by the data.
-            if *half < table.point.of(&self.world.typical(table.element)) {
+            if *half < point.of(&self.world.typical(table.element)) {
                 curve.x.push(range * (2.0 * (number - 1) as f64 / (POINTS - 1) as f64 - 1.0));
                 curve.y.push(*value);
                 curve.low.push(value - half);

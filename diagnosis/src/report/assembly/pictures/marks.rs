@@ -3,6 +3,7 @@
 use strut_model::Value;
 use strut_physics::GRAVITY;
 
+use crate::catalogue::{self, LIFT_OFF};
 use crate::dataset::recorded::{Recorded, derivative};
 use crate::diagnosis::{Diagnosis, simulated};
 use crate::report::findings::{LARGEST, Mark};
@@ -15,38 +16,6 @@ const BLOCKS: usize = 3;
 const PAUSE: f64 = 0.02;
 /// Share of the static load below which a wheel that has left the road presses on it, by rounding.
 const ROUNDING: f64 = 1e-9;
-
-/// A part of the strut that acts beyond a threshold.
-struct Threshold {
-    what: &'static str,
-    /// The parameter that switches it on.
-    switch: &'static str,
-    /// The parameter that is the threshold.
-    beyond: &'static str,
-    /// Whether it is passed by so much of a deflection or a velocity.
-    passed: fn(deflection: f64, velocity: f64, threshold: f64) -> bool,
-}
-
-const THRESHOLDS: &[Threshold] = &[
-    Threshold {
-        what: "compression stop",
-        switch: "strut.stop.stiffness",
-        beyond: "strut.stop.compression_clearance",
-        passed: |x, _, threshold| x < -threshold,
-    },
-    Threshold {
-        what: "rebound stop",
-        switch: "strut.stop.stiffness",
-        beyond: "strut.stop.rebound_clearance",
-        passed: |x, _, threshold| x > threshold,
-    },
-    Threshold {
-        what: "beyond the knee",
-        switch: "strut.knee.ratio",
-        beyond: "strut.knee.velocity",
-        passed: |_, v, threshold| v.abs() > threshold,
-    },
-];
 
 /// The blocks with the largest errors, in the order of time.
 pub(super) fn largest(errors: &[f64], record: &Recorded) -> Vec<Mark> {
@@ -80,18 +49,23 @@ impl Diagnosis<'_> {
         let mut marks = Vec::new();
         if let Some(x) = signal("suspension.deflection").or_else(|| signal("deflection")) {
             let v = derivative(x, record.step);
-            for threshold in THRESHOLDS {
-                if let Some(beyond) = parameter(threshold.beyond)
-                    && parameter(threshold.switch).is_some_and(|it| it != 0.0)
-                {
-                    let passed = |(x, v): (&f64, &f64)| (threshold.passed)(*x, *v, beyond);
-                    marks.extend(stretches(threshold.what, x.iter().zip(&v).map(passed), record.step));
+            let acting = catalogue::causes(&rig.plant).filter(|effect| {
+                effect
+                    .parts
+                    .first()
+                    .and_then(|amount| parameter(amount.parameter))
+                    .is_some_and(|it| it != 0.0)
+            });
+            for part in acting.flat_map(|effect| effect.parts) {
+                if let (Some(beyond), Some(threshold)) = (part.beyond, parameter(part.parameter)) {
+                    let passed = |(x, v): (&f64, &f64)| beyond.is_passed(*x, *v, threshold);
+                    marks.extend(stretches(beyond.name(), x.iter().zip(&v).map(passed), record.step));
                 }
             }
         }
         let lifts = rig
             .plant
-            .setting("tire.lift_off")
+            .setting(LIFT_OFF)
             .is_some_and(|index| world.choices(&extended.terms)[index] == Value::Boolean(true));
         if let (true, Some(force), Some(body), Some(wheel)) =
             (lifts, signal("wheel.force"), parameter("sprung_mass"), parameter("unsprung_mass"))

@@ -3,6 +3,7 @@
 use strut_model::{Bundle, Declarations, Value};
 use strut_physics::elements::{Guide, ServoCylinder, WheelGuide};
 
+use crate::catalogue::LIFT_OFF;
 use crate::plant::{Drive, Dynamics, Plant, models};
 use crate::rig::{Rig, choice};
 
@@ -27,7 +28,7 @@ impl Laws {
         let parameter = |name: &str| Some(parameters[plant.parameter(name)?]);
         let (sprung_mass, unsprung_mass) = (parameter("sprung_mass")?, parameter("unsprung_mass")?);
         plant.output("suspension.deflection")?;
-        let lift_off = plant.setting("tire.lift_off").map_or(Value::Boolean(false), |it| choices[it].clone());
+        let lift_off = plant.setting(LIFT_OFF).map_or(Value::Boolean(false), |it| choices[it].clone());
         let dyno = |element: &str| {
             let named = |name: &str| match name {
                 "carried_mass" => Some(sprung_mass + unsprung_mass),
@@ -90,7 +91,7 @@ impl Dyno {
         let mut choices = plant.choices.clone();
         let clamped = plant.setting("element")?;
         choices[clamped] = choice(&plant, clamped, &Value::Text(element.into())).ok()?;
-        choices[plant.setting("tire.lift_off")?] = lift_off.clone();
+        choices[plant.setting(LIFT_OFF)?] = lift_off.clone();
         Some(Self {
             dynamics: plant.prepare(&choices).ok()?,
             // What a rig cannot have is neutral.
