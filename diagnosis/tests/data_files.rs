@@ -55,7 +55,7 @@ fn from_a_foreign_file_to_an_even_record() {
     let record = read_with(&path, map.time.as_ref()).unwrap();
     let signals = [wanted("deflection", "m", &[]), wanted("strut.force", "N", &["kraft"])];
     let mapped = map.apply(record, &signals).unwrap();
-    assert_eq!(mapped.unused, ["Reserve"]);
+    assert_eq!(mapped.unused.iter().map(|it| it.name.as_str()).collect::<Vec<_>>(), ["Reserve"]);
     assert!(mapped.missing.is_empty());
 
     let problems = check(&mapped.record).problems;

@@ -109,6 +109,7 @@ fn seen(rig: &Rig, seed: u64, changes: &[(&str, f64)], push: f64, sensors: &[&st
         inputs,
         between: Between::Lines,
         measured: measured.collect(),
+        others: vec![],
         sections: std::iter::once(0..n).collect(),
     }
 }

@@ -11,7 +11,7 @@ use super::{Channel, Record};
 use crate::report::findings::DataProblem;
 use std::ops::Range;
 
-pub use super::noise::{Lattice, lattice, noise_floor};
+pub use super::noise::{Lattice, lattice, noise_floor, rounding};
 pub use lines::lines;
 
 /// Samples below which a record is of no use.

@@ -70,7 +70,7 @@ pub struct Mapped {
     /// The signals that were found, in the order in which they were wanted.
     pub record: Record,
     /// Columns of the file that no signal comes from.
-    pub unused: Vec<String>,
+    pub unused: Vec<Channel>,
     /// Signals that were wanted, but are not in the file.
     pub missing: Vec<String>,
 }
@@ -141,8 +141,8 @@ impl Map {
             used[index] = true;
             channels.push(take(&record, index, &source, wanted)?);
         }
-        let names = record.channels.iter().zip(used).filter(|(_, used)| !used);
-        let unused = names.map(|(channel, _)| channel.title()).collect();
+        let unused = record.channels.iter().zip(used).filter(|(_, used)| !used);
+        let unused = unused.map(|(channel, _)| channel.clone()).collect();
         if channels.is_empty() {
             let text = format!(
                 "none of the model's signals is among its columns; name the columns in a map: `[signals]`, `{} = \"…\"`",
@@ -280,7 +280,7 @@ mod tests {
             wanted("force", "N", &[]),
         ];
         let mapped = Map::default().apply(file, &signals).unwrap();
-        assert_eq!(mapped.unused, ["spare"]);
+        assert_eq!(mapped.unused.iter().map(Channel::title).collect::<Vec<_>>(), ["spare"]);
         assert_eq!(mapped.missing, ["force"]);
         let [acceleration, deflection] = &mapped.record.channels[..] else { panic!() };
         assert_eq!((acceleration.name.as_str(), acceleration.unit.as_str()), ("body_acceleration", "m/s2"));

@@ -94,8 +94,13 @@ pub fn noise_floor(values: &[f64]) -> f64 {
     let mut differences: Vec<f64> =
         values.windows(ORDER + 1).map(difference).filter(|difference| difference.is_finite()).collect();
     let white = median(&mut differences).map_or(0.0, |median| median / (MEDIAN * GAIN));
-    let rounding = lattice(values).filter(|lattice| lattice.levels >= SWITCHED).map_or(0.0, Lattice::noise);
-    white.max(rounding)
+    white.max(rounding(values))
+}
+
+/// Rms of the rounding error of values as they were recorded; zero if they are fine, or those of a switched command.
+#[must_use]
+pub fn rounding(values: &[f64]) -> f64 {
+    lattice(values).filter(|lattice| lattice.levels >= SWITCHED).map_or(0.0, Lattice::noise)
 }
 
 /// The middle of the values, which are reordered; none if there are none.

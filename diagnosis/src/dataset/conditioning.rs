@@ -10,6 +10,7 @@ use std::ops::Range;
 
 use rustfft::num_complex::Complex;
 
+use crate::data::Channel;
 use crate::data::check::noise_floor;
 use crate::dataset::recorded::{Measured, Recorded, Source};
 use crate::plant::Between;
@@ -53,12 +54,14 @@ impl Recorded {
             values: through(&measured.values, 0.0),
             noise_floor: measured.noise_floor / (factor as f64 / KEPT.min(factor as f64)).sqrt().max(1.0),
         });
+        let others = self.others.iter().map(|it| Channel { values: through(&it.values, 0.0), ..it.clone() });
         Self {
             name: self.name.clone(),
             step: self.step * factor as f64,
             inputs: inputs.collect(),
             between: Between::Curves,
             measured: measured.collect(),
+            others: others.collect(),
             sections,
         }
     }

@@ -3,10 +3,10 @@
 use std::ops::Range;
 use std::path::Path;
 
-use crate::data::check::{Checked, check, lines, noise_floor};
+use crate::data::check::{Checked, check, lines, noise_floor, rounding};
 use crate::data::map::{Map, Wanted, plain};
 use crate::data::{
-    self,
+    self, Channel,
     uniform::{Uniform, uniform},
 };
 use crate::dataset::recorded::{Measured, Recorded, Source};
@@ -51,13 +51,16 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
     oppose(rig, &mut record, map);
     let mapped = map.apply(record, &wanted(rig)).map_err(|error| error.to_string())?;
     let name = mapped.record.name.clone();
-    missing(rig, &mapped.record, &name, &mapped.unused)?;
+    let unused: Vec<String> = mapped.unused.iter().map(Channel::title).collect();
+    missing(rig, &mapped.record, &name, &unused)?;
     let Checked { mut problems, unusable } = check(&mapped.record);
-    if !mapped.unused.is_empty() {
+    if !unused.is_empty() {
         problems.push(DataProblem {
             record: name.clone(),
-            signal: mapped.unused.join(", "),
-            text: "no signal of the rig has this name: not used; a map (--map) can tell what it is".into(),
+            signal: unused.join(", "),
+            text: "no signal of the rig has this name: only compared with what is missing; a map (--map) can tell \
+                   what it is"
+                .into(),
             fatal: false,
         });
     }
@@ -84,9 +87,10 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
     }
     let measured = rig.plant.outputs.iter().enumerate().filter_map(|(output, declared)| {
         let mut values = values(&declared.name)?;
-        let noise_floor = noise_floor(&values);
-        let wrong = mapped.record.channels.iter().zip(&unusable).find(|(it, _)| it.name == declared.name);
-        let wrong = wrong.map_or(&[][..], |(_, ranges)| ranges);
+        let raw = mapped.record.channels.iter().zip(&unusable).find(|(it, _)| it.name == declared.name);
+        let (raw, wrong) = raw.map_or((&[][..], &[][..]), |(channel, ranges)| (&channel.values[..], ranges));
+        // Interpolated to an even grid, values no longer show the steps of their converter.
+        let noise_floor = noise_floor(&values).max(rounding(raw));
         let left_out = leave_out(&mut values, wrong, &mapped.record.time, &uniform);
         if left_out > 0 {
             let enough = left_out as f64 <= MOST_LEFT_OUT * values.len() as f64;
@@ -126,10 +130,23 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
             inputs,
             between: Between::Lines,
             measured,
+            others: others(&mapped.record.time, mapped.unused),
             sections,
         }),
         problems,
     })
+}
+
+/// Columns that no signal of the rig is, on the even grid of the record; none that is constant or has gaps.
+fn others(time: &[f64], unused: Vec<Channel>) -> Vec<Channel> {
+    let varies = |values: &[f64]| values.windows(2).any(|pair| pair[0] != pair[1]);
+    let on_grid = |channel: Channel| {
+        let record = data::Record { name: String::new(), time: time.to_vec(), channels: vec![channel] };
+        let (even, _) = uniform(&record).ok()?;
+        let channel = even.channels.into_iter().next()?;
+        (channel.values.iter().all(|it| it.is_finite()) && varies(&channel.values)).then_some(channel)
+    };
+    unused.into_iter().filter_map(on_grid).collect()
 }
 
 /// Takes away the values on the even grid that come from ranges of the file's samples, and tells how many there were.
@@ -239,7 +256,11 @@ pub fn align(records: &mut [Recorded]) -> Result<(), String> {
     if common.is_empty() {
         return Err("the records have no output in common: give records of the same signals".into());
     }
+    let mut names: Vec<String> = first.others.iter().map(|it| it.name.clone()).collect();
+    names.retain(|name| records.iter().all(|record| record.others.iter().any(|it| it.name == *name)));
     for record in records.iter_mut() {
+        record.others.retain(|it| names.contains(&it.name));
+        record.others.sort_by_key(|it| names.iter().position(|name| *name == it.name));
         record.measured.retain(|measured| common.contains(&measured.output));
         if record.sections.is_empty() {
             return Err(format!("{}: no stretch of {FEWEST} samples without a gap", record.name));

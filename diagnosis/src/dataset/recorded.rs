@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::data::Channel;
 use crate::plant::{Between, Drive};
 use crate::signal::distortion::{Correction, Samples};
 use crate::signal::spectral::{FINER, refined};
@@ -19,6 +20,8 @@ pub struct Recorded {
     pub between: Between,
     /// What was measured.
     pub measured: Vec<Measured>,
+    /// Columns that no signal of the rig is.
+    pub others: Vec<Channel>,
     /// Ranges of samples that are simulated in one go, each with states of its own at the start.
     pub sections: Vec<Range<usize>>,
 }
@@ -198,6 +201,7 @@ mod tests {
                 inputs,
                 between,
                 measured: vec![],
+                others: vec![],
                 sections: std::iter::once(0..80).collect(),
             };
             let error = |(k, rate): (i32, &f64)| (rate / omega - (omega * time(k)).cos()).abs();

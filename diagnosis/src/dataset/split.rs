@@ -96,7 +96,15 @@ mod tests {
     #[test]
     fn parts_leave_nothing_out() {
         let (name, inputs, between, measured) = (String::new(), vec![], Between::Lines, vec![]);
-        let record = Recorded { name, step: 1e-3, inputs, between, measured, sections: vec![0..10, 20..23] };
+        let record = Recorded {
+            name,
+            step: 1e-3,
+            inputs,
+            between,
+            measured,
+            others: vec![],
+            sections: vec![0..10, 20..23],
+        };
         let sections = in_parts(&record).sections;
         assert_eq!(sections, [0..3, 3..6, 6..10, 20..21, 21..22, 22..23]);
     }

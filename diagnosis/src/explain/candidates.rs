@@ -158,13 +158,14 @@ impl World<'_> {
                 Entry::Constant(_) | Entry::Sensor(_) => None,
             })
             .collect();
+        let others = missing.records.first().map_or(0, |record| record.others.len());
         for (number, port) in setting.ports.iter().enumerate() {
             if setting.ties[number] != number {
                 continue;
             }
             let Some((place, motions)) = motions(self, missing, outputs, number) else { continue };
-            for group in Group::all(&commands) {
-                let signals = features(group, &motions, windows);
+            for group in Group::all(&commands, others) {
+                let signals = features(group, &motions, (missing.records, windows));
                 let columns = windows.iter().enumerate().map(|(index, window)| {
                     signals.iter().map(|signal| column(port, place, window, &signal[index])).collect()
                 });

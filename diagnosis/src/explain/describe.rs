@@ -35,7 +35,7 @@ pub struct Unmodelled {
     /// What explains it: features at a port.
     features: Option<(usize, Group)>,
     /// What it depends on, in the words of the report.
-    pub depends_on: Vec<&'static str>,
+    pub depends_on: Vec<String>,
     /// Share of the missing signal's power that it explains, estimation records.
     pub share: f64,
     /// The same of the validation records with the same amounts.
@@ -60,7 +60,7 @@ impl Unmodelled {
             place: own.place.clone(),
             unit: own.unit,
             features: Some((port, group)),
-            depends_on: words(group).to_vec(),
+            depends_on: words(group, missing),
             share: score.share,
             validated: score.validated,
             improvement,
@@ -76,8 +76,8 @@ impl Unmodelled {
     /// A curve that was fitted in the model.
     pub fn curve(term: Term, score: Score, improvement: f64, plant: &Plant) -> Self {
         let (unit, depends_on) = match term {
-            Term::Table(table) => ("N", vec![table.variable]),
-            Term::Response(output) => (plant.outputs[output].unit.symbol, vec!["memory"]),
+            Term::Table(table) => ("N", vec![table.variable.to_owned()]),
+            Term::Response(output) => (plant.outputs[output].unit.symbol, vec!["memory".to_owned()]),
             Term::Cause(_) | Term::Fault(_) => ("", Vec::new()),
         };
         Self {
@@ -104,8 +104,8 @@ impl Unmodelled {
             train.map(|window| (window.step, signal(missing, location, port, window).0)).collect();
         let frequency = line(&signals);
         let depends_on = match frequency {
-            Some(_) => vec!["time"],
-            None if kurtosis(&signals) > BURSTS => vec!["bursts"],
+            Some(_) => vec!["time".to_owned()],
+            None if kurtosis(&signals) > BURSTS => vec!["bursts".to_owned()],
             None => Vec::new(),
         };
         Self {
@@ -124,7 +124,8 @@ impl Unmodelled {
 
     /// What can be said of it in a sentence.
     pub fn description(&self) -> String {
-        let what = match (self.depends_on.as_slice(), self.amount) {
+        let words: Vec<&str> = self.depends_on.iter().map(String::as_str).collect();
+        let what = match (words.as_slice(), self.amount) {
             (["acceleration"], Some(amount)) => {
                 format!("a force that follows the acceleration, like an additional mass of {amount:.3} kg")
             }
@@ -150,7 +151,7 @@ impl Unmodelled {
     pub fn explain(&self, missing: &mut Missing<'_>, world: &World<'_>, signals: &[Signals]) {
         let Some((number, group)) = self.features else { return };
         let Some((place, motions)) = motions(world, missing, signals, number) else { return };
-        let own = features(group, &motions, &missing.windows);
+        let own = features(group, &motions, (missing.records, &missing.windows));
         let port = &missing.setting.ports[number];
         let columns: Vec<_> = own
             .iter()
@@ -168,8 +169,8 @@ impl Unmodelled {
 }
 
 /// What a group of features depends on, in the words of the report.
-fn words(group: Group) -> &'static [&'static str] {
-    match group {
+fn words(group: Group, missing: &Missing<'_>) -> Vec<String> {
+    let words: &[&str] = match group {
         Group::Deflection => &["deflection"],
         Group::Velocity => &["velocity"],
         Group::Acceleration => &["acceleration"],
@@ -177,7 +178,9 @@ fn words(group: Group) -> &'static [&'static str] {
         Group::DeflectionAndVelocity => &["deflection", "velocity"],
         Group::Time => &["time"],
         Group::Command(_) => &["command"],
-    }
+        Group::Other(number) => return vec![format!("column {}", missing.records[0].others[number].name)],
+    };
+    words.iter().map(|word| (*word).to_owned()).collect()
 }
 
 /// The missing signal at the likeliest place.

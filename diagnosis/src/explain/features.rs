@@ -1,6 +1,6 @@
 //! Features of a port's own motion, of commands and of time, in groups that say what a missing signal depends on.
 
-use crate::dataset::recorded::derivative;
+use crate::dataset::recorded::{Recorded, derivative};
 use crate::missing::innovations::Column;
 use crate::missing::ports::{Entry, Port};
 use crate::missing::trajectory::Window;
@@ -13,6 +13,8 @@ const MEMORIES: [f64; 5] = [0.003, 0.01, 0.03, 0.1, 0.3];
 pub const RESONANCES: [f64; 8] = [2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0, 22.0];
 /// Damping ratio of these oscillators: as wide as the steps between them.
 const DAMPING: f64 = 0.15;
+/// Lags in seconds with which what another column says may act: a coil's current follows its voltage.
+const LAGS: [f64; 3] = [0.0, 0.01, 0.05];
 /// Shares of a velocity's root mean square within which friction turns over.
 const TURNS: [f64; 3] = [0.02, 0.1, 0.3];
 
@@ -35,14 +37,21 @@ pub enum Group {
     Time,
     /// A command, by the input's index: its curve and its rate.
     Command(usize),
+    /// A column that no signal of the rig is, by its place among the record's: itself, and laws that grow with it.
+    Other(usize),
 }
 
 impl Group {
-    /// All of a port.
-    pub fn all(commands: &[usize]) -> Vec<Self> {
+    /// All of a port, with so many columns that no signal of the rig is.
+    pub fn all(commands: &[usize], others: usize) -> Vec<Self> {
         let resonances = (0..RESONANCES.len()).map(Self::Resonance);
         let commands = commands.iter().map(|it| Self::Command(*it));
-        Self::OF_MOTION.into_iter().chain(resonances).chain(commands).collect()
+        Self::OF_MOTION
+            .into_iter()
+            .chain(resonances)
+            .chain(commands)
+            .chain((0..others).map(Self::Other))
+            .collect()
     }
 
     /// Those of a port's own motion and of time.
@@ -65,7 +74,11 @@ pub struct Motion {
 }
 
 /// Features of one group at a port over several windows: signals by feature, each over all windows.
-pub fn features(group: Group, motions: &[Motion], windows: &[Window]) -> Vec<Vec<Vec<f64>>> {
+pub fn features(
+    group: Group,
+    motions: &[Motion],
+    (records, windows): (&[Recorded], &[Window]),
+) -> Vec<Vec<Vec<f64>>> {
     let over =
         |of: &dyn Fn(&Motion) -> &Vec<f64>| motions.iter().map(|it| of(it).clone()).collect::<Vec<_>>();
     let (x, v) = (over(&|it| &it.deflection), over(&|it| &it.velocity));
@@ -131,6 +144,22 @@ pub fn features(group: Group, motions: &[Motion], windows: &[Window]) -> Vec<Vec
             let rate = u.iter().zip(windows).map(|(u, window)| derivative(u, window.step)).collect();
             vec![of(&|u| u), of(&|u| u * u.abs() / size), of(&|u| u * u / size), rate]
         }
+        Group::Other(number) => {
+            let column =
+                |window: &Window| &records[window.record].others[number].values[window.samples.clone()];
+            let fast = size(&v);
+            let late = LAGS.iter().flat_map(|lag| {
+                let follow = |window| followed(column(window), *lag, window.step);
+                let c: Vec<Vec<f64>> = windows.iter().map(follow).collect();
+                let of = |f: &dyn Fn(f64) -> f64| -> Vec<Vec<f64>> {
+                    let both = c.iter().zip(&v);
+                    both.map(|(c, v)| c.iter().zip(v).map(|(c, v)| c * f(*v)).collect()).collect()
+                };
+                let turned = TURNS.map(|share| of(&|v| (v / (share * fast)).tanh()));
+                [of(&|_| 1.0), of(&|v| v)].into_iter().chain(turned)
+            });
+            late.collect()
+        }
     }
 }
 
@@ -193,6 +222,19 @@ fn hats(signals: &[Vec<f64>]) -> Vec<Vec<Vec<f64>>> {
     };
     (0..knots.len())
         .map(|knot| signals.iter().map(|values| values.iter().map(|it| hat(knot, *it)).collect()).collect())
+        .collect()
+}
+
+/// `τ y' = c − y`, from rest at the first value; the value itself without a lag.
+fn followed(values: &[f64], lag: f64, step: f64) -> Vec<f64> {
+    let weight = if lag > 0.0 { 1.0 - (-step / lag).exp() } else { 1.0 };
+    let mut y = values.first().copied().unwrap_or_default();
+    values
+        .iter()
+        .map(|value| {
+            y += weight * (value - y);
+            y
+        })
         .collect()
 }
 

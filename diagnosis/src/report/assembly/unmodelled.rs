@@ -41,7 +41,7 @@ impl Diagnosis<'_> {
             Unmodelled {
                 place: it.place.clone(),
                 unit: it.unit.into(),
-                depends_on: it.depends_on.iter().map(|word| (*word).to_owned()).collect(),
+                depends_on: it.depends_on.clone(),
                 share: it.share,
                 validated: it.validated,
                 improvement: it.improvement,

@@ -104,6 +104,7 @@ mod tests {
             inputs: vec![],
             between: Between::Lines,
             measured: vec![],
+            others: vec![],
             sections: vec![],
         };
         // Blocks of fifty samples; missing samples do not count.

@@ -195,6 +195,7 @@ mod tests {
             inputs: vec![Source::Measured(road), Source::DerivativeOf(0), Source::Measured(force)],
             between: Between::Lines,
             measured: measured.into(),
+            others: vec![],
             sections: vec![0..3000, 3000..6000],
         }
     }
