@@ -28,6 +28,14 @@ pub fn is_determined(amounts: &[Amount]) -> bool {
     amounts.is_empty() || amounts.iter().any(Amount::is_determined)
 }
 
+/// Fall of a signal's fit that an effect may cost: twice the smallest rise that is worth reporting.
+pub const FALL: f64 = 0.03;
+
+/// Whether some signal's fit falls, or runs away.
+pub fn lowers(before: &[f64], after: &[f64]) -> bool {
+    before.iter().zip(after).any(|(before, after)| !after.is_finite() || before - after > FALL)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -48,6 +56,14 @@ mod tests {
             let unknown = Amount { half: f64::INFINITY, ..free };
             prop_assert!(!unknown.is_determined());
         }
+    }
+
+    #[test]
+    fn what_costs_a_signal_its_fit_is_harmful() {
+        assert!(!lowers(&[0.5, 0.9], &[0.8, 0.89]));
+        assert!(lowers(&[0.5, 0.9], &[0.8, 0.8]));
+        assert!(lowers(&[0.5], &[-5e51]) && lowers(&[0.5], &[f64::NAN]) && lowers(&[-3.0], &[-7.0]));
+        assert!(!lowers(&[-7.0], &[-3.0]));
     }
 
     #[test]

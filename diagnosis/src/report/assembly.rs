@@ -132,28 +132,7 @@ impl Diagnosis<'_> {
 
     /// The point of the held-out records as they were measured, and the errors there.
     fn measured(&self, terms: &[Term], point: &Point) -> Option<(Point, Residuals)> {
-        let dynamics = self.world.dynamics(terms).ok()?;
-        let fit = self.world.fit(&*dynamics, self.measured, Vec::new());
-        let mut point =
-            Point { starts: self.world.starts(self.measured), ..point.within(&self.world.rig.plant) };
-        // What any master finds with the extended model, which knows nothing of what measuring did to the signals, but for what
-        // is told of: a signal's delay and lag go together.
-        let output = |term: &Term| match term {
-            Term::Fault(Handle::Output(output, Fault::Delay | Fault::Lag)) | Term::Response(output) => {
-                Some(*output)
-            }
-            _ => None,
-        };
-        let told: Vec<usize> = terms.iter().filter_map(output).collect();
-        for handle in self.found.extended.coordinates.iter().map(|it| it.handle) {
-            let kept = output(&Term::Fault(handle)).is_some_and(|it| told.contains(&it));
-            if self.world.usual(handle).is_some() && !kept {
-                point.set(handle, 0.0);
-            }
-        }
-        let settled = fit.settled(point);
-        let residuals = fit.residuals(&settled);
-        Some((settled, residuals))
+        self.world.as_measured(self.measured, (terms, point), &self.found.extended)
     }
 
     /// What signals pass beside the model that is told.

@@ -1,0 +1,150 @@
+//! The fit of the nominal parameters, before anything is looked for.
+
+use std::ops::Range;
+
+use crate::dataset::recorded::{Recorded, Source};
+use crate::estimation::fit::{Handle, Point, Residuals};
+use crate::estimation::hypothesis::{Fitted, World};
+use crate::estimation::lsq::Stop;
+use crate::rig::Rig;
+use crate::screening::rms;
+use crate::signal::distortion::Fault;
+
+use super::{phi, root_mean_square};
+
+/// Length of a short stretch of data in seconds, over which no model goes far astray.
+const SHOT: f64 = 1.0;
+
+/// Cost of a hasty fit with an input turned over, in that of the fit without, above which a close one is not worth the time …
+const HOPELESS: f64 = 1.5;
+/// … and cost of the close one below which the input had the wrong sign …
+const CLEARLY: f64 = 0.8;
+/// … if Student's t of the difference over blocks of time is above this.
+const STEADILY: f64 = 4.0;
+
+/// The starting model as it was given, the fit of its nominal parameters, and the signals that had to be turned over.
+pub(super) fn fit(world: &mut World<'_>) -> Result<(Point, Fitted, Vec<Handle>), String> {
+    let dynamics = world.dynamics(&[])?;
+    world.sigma = measured_sigma(world.rig, world.train);
+    world.floor = floors(world.train);
+    let before = world.fit(&*dynamics, world.train, Vec::new()).settled(world.origin());
+    let mut start = before.clone();
+    for (parameter, value, _) in &world.known {
+        start.parameters[*parameter] = *value;
+    }
+    let mut reversed = Vec::new();
+    let mut starts = vec![start.clone()];
+    if world.rig.base().into_iter().any(|index| world.is_unstated(index)) {
+        // A simulation from a mass that nobody gave shows nothing; a balance of forces does not simulate.
+        world.sheet = world.balanced(&start)?;
+        starts.push(Point { parameters: world.sheet.clone(), ..start.clone() });
+    }
+    let mut base = world.fitted(&[], &starts, Stop::NOISY)?;
+    if !fits(world, &base)
+        && let Some(other) = shot(world, &start)
+        && other.cost < base.cost
+    {
+        base = other;
+    }
+    for handle in signals(world.train) {
+        let mut turned = start.clone();
+        turned.set(handle, -2.0);
+        if let Some(other) = turned_over(world, &base, &turned, handle) {
+            (base, start) = (other, turned);
+            reversed.push(handle);
+        }
+    }
+    // Weights by what is left, twice: then the fit is the likeliest for errors of such magnitudes.
+    for _ in 0..2 {
+        world.sigma = left_sigma(world, &base.train);
+        base = world.fitted(&[], &[base.point.clone()], Stop::NOISY)?;
+    }
+    Ok((before, base, reversed))
+}
+
+/// The base fit from where many short stretches lead, each with states of its own at the start: over a long stretch, a
+/// model that is far off loses the data's phase, or drifts away, and the way to the minimum is lost with it (multiple
+/// shooting; H. G. Bock, Recent advances in parameter identification techniques for o.d.e., 1983).
+fn shot(world: &World<'_>, start: &Point) -> Option<Fitted> {
+    let cut = |record: &Recorded| {
+        let length = ((SHOT / record.step) as usize).max(record.block());
+        let pieces = |section: &Range<usize>| {
+            let ends = (section.start..section.end).step_by(length).skip(1).chain([section.end]);
+            let starts = (section.start..section.end).step_by(length);
+            starts.zip(ends.collect::<Vec<_>>()).map(|(start, end)| start..end).collect::<Vec<_>>()
+        };
+        Recorded { sections: record.sections.iter().flat_map(pieces).collect(), ..record.clone() }
+    };
+    let train: Vec<Recorded> = world.train.iter().map(cut).collect();
+    let short = World { train: &train, test: &[], ..world.clone() };
+    let starts = short.origin().starts;
+    let near = short.fitted(&[], &[Point { starts, ..start.clone() }], Stop::NOISY).ok()?;
+    let point = Point { starts: start.starts.clone(), ..near.point };
+    world.fitted(&[], &[point], Stop::NOISY).ok()
+}
+
+/// The fit with a signal turned over, if that is clearly better. An output's sign is doubted only where something does not fit
+/// at all. An input's always: where another one does most, all fits roughly with it the wrong way round.
+fn turned_over(world: &World<'_>, base: &Fitted, turned: &Point, handle: Handle) -> Option<Fitted> {
+    let fits = fits(world, base);
+    if fits && matches!(handle, Handle::Output(..)) {
+        return None;
+    }
+    let hasty = Stop { iterations: 8, ..Stop::NOISY };
+    let other = world.fitted(&[], std::slice::from_ref(turned), hasty).ok()?;
+    if other.cost < 0.5 * base.cost {
+        return Some(other);
+    }
+    if !fits || other.cost > HOPELESS * base.cost {
+        return None;
+    }
+    let other = world.fitted(&[], &[other.point], Stop::NOISY).ok()?;
+    (other.cost < CLEARLY * base.cost && world.apart(&other, base) > STEADILY).then_some(other)
+}
+
+/// Whether every signal is met at least roughly.
+fn fits(world: &World<'_>, fitted: &Fitted) -> bool {
+    let records = world.train.iter().zip(&fitted.train);
+    let mut signals = records.flat_map(|(record, left)| record.measured.iter().zip(left));
+    signals.all(|(measured, left)| phi(left, &measured.values) > 0.3)
+}
+
+/// Root mean square of what is left of each output, and not below its noise.
+fn left_sigma(world: &World<'_>, residuals: &Residuals) -> Vec<f64> {
+    let mut sigma = world.sigma.clone();
+    for (row, floor) in world.floor.iter().enumerate() {
+        let output = world.train[0].measured[row].output;
+        let left: Vec<f64> = residuals.iter().flat_map(|record| record[row].iter().copied()).collect();
+        sigma[output] = root_mean_square(&left).max(*floor);
+    }
+    sigma
+}
+
+/// Every signal that may have been recorded with the wrong sign.
+fn signals(train: &[Recorded]) -> Vec<Handle> {
+    let Some(record) = train.first() else { return Vec::new() };
+    let inputs = record.inputs.iter().enumerate().filter(|(_, source)| matches!(source, Source::Measured(_)));
+    let inputs = inputs.map(|(index, _)| Handle::Input(index, Fault::Gain));
+    let outputs = record.measured.iter().map(|measured| Handle::Output(measured.output, Fault::Gain));
+    inputs.chain(outputs).collect()
+}
+
+/// Root mean square of each output's signal.
+fn measured_sigma(rig: &Rig, records: &[Recorded]) -> Vec<f64> {
+    let mut sigma = vec![1.0; rig.plant.outputs.len()];
+    for record in records {
+        for measured in &record.measured {
+            sigma[measured.output] = rms(&measured.values).max(f64::MIN_POSITIVE);
+        }
+    }
+    sigma
+}
+
+fn floors(train: &[Recorded]) -> Vec<f64> {
+    let Some(first) = train.first() else { return Vec::new() };
+    first
+        .measured
+        .iter()
+        .map(|measured| measured.noise_floor.max(1e-6 * rms(&measured.values)).max(f64::MIN_POSITIVE))
+        .collect()
+}

@@ -1,0 +1,270 @@
+//! Place, law, confirmation: until nothing is missing that matters.
+
+use crate::confirm::Confirmed;
+use crate::estimation::fit::Point;
+use crate::estimation::hypothesis::{Fitted, Term, World};
+use crate::explain::candidates::outputs;
+use crate::explain::describe::{MissingSignal, SMALLEST, Unmodelled};
+use crate::explain::selection::{Choice, Compared, Limits, Score, choose};
+use crate::missing::innovations::Noise;
+use crate::missing::locate::Location;
+use crate::missing::{Frame, Missing};
+use crate::plant::Signals;
+use crate::screening::bent_rms;
+
+use super::Found;
+
+/// Effects at most.
+const MOST: usize = 4;
+/// How often other effects are fitted where the first ones are not confirmed.
+const ATTEMPTS: usize = 2;
+/// How often errors are made as large as the best explanation leaves, where no effect is confirmed.
+const REFINEMENTS: usize = 3;
+/// Unmodelled places at most.
+const PLACES: usize = 2;
+
+/// What a round of the search has found.
+enum Next {
+    /// An effect with a name.
+    Effect,
+    /// Features without one.
+    Curve(Score),
+    /// Nothing that was recorded explains what is missing, if anything is.
+    Nothing,
+}
+
+/// What a round looks at.
+struct Looked<'a> {
+    missing: Missing<'a>,
+    signals: Vec<Signals>,
+    location: Location,
+    compared: Compared,
+}
+
+impl World<'_> {
+    /// Typical magnitudes along the trajectory, and how many independent comparisons all effects amount to.
+    pub(super) fn look_at(&mut self, base: &Fitted) -> Result<(), String> {
+        let frame = self.frame(&[], &self.unbent(base))?;
+        let missing = self.missing(&frame)?;
+        let signals = outputs(&missing.setting, &missing.windows, self.rig.plant.outputs.len());
+        let typical = self.typical_along(&missing, &signals);
+        self.typical = typical;
+        self.looks = self.tried_out(base)?.looks(base);
+        Ok(())
+    }
+
+    /// A fit with the parameters as they were before it: it has bent them to what it lacks.
+    fn unbent(&self, fitted: &Fitted) -> Point {
+        Point { parameters: self.sheet.clone(), ..fitted.point.clone() }
+    }
+
+    /// Place, law, confirmation: until nothing is missing that matters.
+    pub(super) fn identified(&self, base: Fitted, progress: &(dyn Fn(&str) + Sync)) -> Result<Found, String> {
+        let mut found = Found::nothing(base);
+        let (mut errors, mut refinements, mut refused) = (None, 0, Vec::new());
+        while found.accepted.len() < MOST {
+            progress("estimating the missing signal");
+            let terms = found.extended.terms.clone();
+            let at = match terms.is_empty() {
+                true => self.unbent(&found.extended),
+                false => found.extended.point.clone(),
+            };
+            let frame = self.frame(&terms, &at)?;
+            let Some(looked) = self.looked(&frame, &found, errors.as_ref())? else { break };
+            let Looked { missing, signals, location, mut compared } = looked;
+            if found.missing.is_none() {
+                found.missing = Some(MissingSignal::of(self, &missing, &location, &signals));
+            }
+            // What is within the sensors' accuracy from sample to sample may add up to what leads a simulation astray.
+            if self.is_worth_a_look(&found.extended) {
+                compared.misses = compared.misses.max(1.0);
+            }
+            if found.compared.is_empty() {
+                found.compared = compared.ranking();
+            }
+            let named = self.named(&mut found, &compared, &mut refused, progress)?;
+            if !matches!(named, Next::Effect) && refinements < REFINEMENTS {
+                // Sensors that disagree by more than their noise decide what is missing until they are believed less.
+                let background = &location.background;
+                let larger = missing.refined(background, &compared.best().unwrap_or_default());
+                if larger != *background {
+                    (errors, refinements) = (Some(larger), refinements + 1);
+                    continue;
+                }
+            }
+            let goes_on = match named {
+                Next::Effect => {
+                    refused.clear();
+                    true
+                }
+                Next::Curve(score) => self.unmodelled(&mut found, (&missing, &compared), score)?,
+                Next::Nothing => {
+                    let rest = self.remainder(&found.extended, &missing, &location, &compared);
+                    found.unmodelled.extend(rest);
+                    false
+                }
+            };
+            if !goes_on {
+                break;
+            }
+        }
+        Ok(found)
+    }
+
+    /// The missing signal, where it is and what may explain it, with errors of at least a size.
+    fn looked<'b>(
+        &self,
+        frame: &'b Frame,
+        found: &Found,
+        errors: Option<&Noise>,
+    ) -> Result<Option<Looked<'b>>, String> {
+        let mut missing = self.missing_with(frame, errors.map(|it| &it.outputs[..]))?;
+        let signals = outputs(&missing.setting, &missing.windows, self.rig.plant.outputs.len());
+        for known in &found.unmodelled {
+            known.explain(&mut missing, self, &signals);
+        }
+        let mut location = missing.located();
+        if let Some(errors) = errors {
+            location
+                .background
+                .ports
+                .iter_mut()
+                .zip(&errors.ports)
+                .for_each(|(it, more)| *it = it.max(*more));
+        }
+        let candidates = self.candidates(&missing, &signals, &found.extended.terms);
+        let compared = self.compared(&missing, candidates, &location.background);
+        Ok(compared.map(|compared| Looked { missing, signals, location, compared }))
+    }
+
+    /// Fits the effects that explain most of what is missing, until one is confirmed.
+    fn named(
+        &self,
+        found: &mut Found,
+        compared: &Compared,
+        refused: &mut Vec<Term>,
+        progress: &(dyn Fn(&str) + Sync),
+    ) -> Result<Next, String> {
+        let mut names = compared.named.clone();
+        let mut features = &compared.features[..];
+        for _ in 0..ATTEMPTS {
+            let scores = match choose(compared.misses, &names, features, Limits::USUAL) {
+                Choice::Nothing => return Ok(Next::Nothing),
+                Choice::Unmodelled(score) => return Ok(Next::Curve(score)),
+                Choice::Named(scores) => scores,
+            };
+            // A fit is not worth its time where no signal would gain.
+            if scores.first().is_none_or(|it| self.improvement(&found.extended, it.share) < SMALLEST) {
+                return Ok(Next::Nothing);
+            }
+            let mut proposals = compared.proposals(&scores, Limits::USUAL.most);
+            proposals.retain(|it| !refused.contains(&it.term));
+            if !proposals.is_empty() {
+                progress(&format!("fitting {} effects", proposals.len()));
+                let tried = self.try_all(&found.base, &found.extended, &proposals);
+                let confirmed = self.confirmed(&found.base, &tried)?;
+                found.tried.extend(tried);
+                if let Some(Confirmed { accepted, fitted }) = confirmed {
+                    found.accepted.push(accepted);
+                    found.extended = fitted.clone();
+                    found.stages.push(fitted);
+                    return Ok(Next::Effect);
+                }
+            }
+            // What these laws nearly explained is no place without a name.
+            refused.extend(proposals.iter().map(|it| it.term));
+            names.retain(|it| !refused.iter().any(|term| compared.is_of(it, *term)));
+            features = &[];
+        }
+        Ok(Next::Nothing)
+    }
+
+    /// Takes features without a name as explained, as a curve in the model if there is one. Whether to look further.
+    fn unmodelled(
+        &self,
+        found: &mut Found,
+        (missing, compared): (&Missing<'_>, &Compared),
+        score: Score,
+    ) -> Result<bool, String> {
+        let improvement = self.improvement(&found.extended, score.share);
+        if found.unmodelled.len() == PLACES || improvement < SMALLEST {
+            return Ok(false);
+        }
+        let port = compared.feature(score.candidate).map(|(port, _)| &missing.setting.ports[port]);
+        let curve = compared.curve_for(score, port.and_then(|it| it.element));
+        if let Some((term, own)) = curve
+            && let Some(Confirmed { accepted, fitted }) = self.drawn(found, compared, own)?
+        {
+            found.unmodelled.push(Unmodelled::curve(term, own, improvement, &self.rig.plant));
+            found.accepted.push(accepted);
+            found.extended = fitted.clone();
+            found.stages.push(fitted);
+            return Ok(true);
+        }
+        // Without a curve in the model that the data confirm, its place and its variable are known all the same.
+        let curve = curve.map(|(term, own)| Unmodelled::curve(term, own, improvement, &self.rig.plant));
+        let unmodelled = Unmodelled::of(missing, compared, score, improvement);
+        let goes_on = unmodelled.is_some();
+        found.unmodelled.extend(unmodelled.or(curve));
+        Ok(goes_on)
+    }
+
+    /// A curve without a name in the model, if the data confirm it.
+    fn drawn(
+        &self,
+        found: &mut Found,
+        compared: &Compared,
+        score: Score,
+    ) -> Result<Option<Confirmed>, String> {
+        let tried = self.try_all(&found.base, &found.extended, &compared.proposals(&[score], 1));
+        let confirmed = self.confirmed(&found.base, &tried)?;
+        found.tried.extend(tried);
+        Ok(confirmed)
+    }
+
+    /// What is missing although nothing that was recorded explains it.
+    fn remainder(
+        &self,
+        fitted: &Fitted,
+        missing: &Missing<'_>,
+        location: &Location,
+        compared: &Compared,
+    ) -> Option<Unmodelled> {
+        let best = location.ranked.first().filter(|_| compared.misses >= 1.0)?;
+        let improvement = self.improvement(fitted, 2.0 * best.gain / compared.left);
+        (improvement >= SMALLEST).then(|| Unmodelled::remainder(missing, location, best.port))
+    }
+
+    /// Whether the fit of some signal would rise by what is worth reporting if its error were its noise alone.
+    fn is_worth_a_look(&self, fitted: &Fitted) -> bool {
+        let above = |(row, error): (usize, f64)| (error - self.floor[row]) / bent_rms(self.train, row);
+        self.roots(fitted).map(above).any(|it| it >= SMALLEST)
+    }
+
+    /// By how much the fit of the worst signal would rise without a share of its error's power.
+    fn improvement(&self, fitted: &Fitted, share: f64) -> f64 {
+        let of = |(row, error): (usize, f64)| error / bent_rms(self.train, row);
+        let worst = self.roots(fitted).map(of).fold(0.0, f64::max);
+        worst * (1.0 - (1.0 - share.clamp(0.0, 1.0)).sqrt())
+    }
+
+    /// Root mean square of each signal's error on the estimation records, by its row.
+    fn roots(&self, fitted: &Fitted) -> impl Iterator<Item = (usize, f64)> {
+        self.errors(&fitted.train).mean_squares().into_iter().map(f64::sqrt).enumerate()
+    }
+}
+
+impl Found {
+    fn nothing(base: Fitted) -> Self {
+        Self {
+            extended: base.clone(),
+            base,
+            stages: Vec::new(),
+            accepted: Vec::new(),
+            unmodelled: Vec::new(),
+            missing: None,
+            compared: Vec::new(),
+            tried: Vec::new(),
+        }
+    }
+}
