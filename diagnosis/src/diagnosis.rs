@@ -6,6 +6,7 @@ use crate::confirm::{Accepted, Confirmed, Tried};
 use crate::dataset::recorded::{Recorded, Source};
 use crate::dataset::split::Records;
 use crate::decision::rules::{Amount, is_determined};
+use crate::estimation::deadline::{Deadline, Stage};
 use crate::estimation::fit::{Handle, Point, Residuals};
 use crate::estimation::hypothesis::{Fitted, Term, World};
 use crate::estimation::intervals::Interval;
@@ -90,6 +91,8 @@ pub struct Options {
     pub known: Vec<(usize, f64, f64)>,
     /// Numbers of the effects that are looked at; none: all.
     pub only: Vec<String>,
+    /// Until when it may be looked further.
+    pub deadline: Deadline,
 }
 
 /// Diagnoses a rig from records; errors are told on the validation records as they were measured.
@@ -129,12 +132,16 @@ fn nominal(world: &mut World<'_>) -> Result<(Point, Fitted, Vec<Handle>), String
     let mut reversed = Vec::new();
     let mut base = world.fitted(&[], &[start.clone()], Stop::NOISY)?;
     if !fits(world, &base)
+        && !world.deadline.is_over(Stage::Nominal)
         && let Some(other) = shot(world, &start)
         && other.cost < base.cost
     {
         base = other;
     }
     for handle in signals(world.train) {
+        if world.deadline.is_over(Stage::Nominal) {
+            break;
+        }
         let mut turned = start.clone();
         turned.set(handle, -2.0);
         if let Some(other) = turned_over(world, &base, &turned, handle) {
@@ -166,7 +173,7 @@ impl World<'_> {
     /// Place, law, confirmation: until nothing is missing that matters.
     fn identified(&self, base: Fitted, progress: &(dyn Fn(&str) + Sync)) -> Result<Found, String> {
         let mut found = Found::nothing(base);
-        while found.accepted.len() < MOST {
+        while found.accepted.len() < MOST && !self.deadline.is_over(Stage::Search) {
             progress("estimating the missing signal");
             let terms = found.extended.terms.clone();
             let mut at = found.extended.point.clone();
@@ -197,6 +204,8 @@ impl World<'_> {
             let named = self.named(&mut found, &compared, progress)?;
             let goes_on = match named {
                 Next::Effect => true,
+                // Of what was not looked at to the end nothing is claimed.
+                _ if self.deadline.is_over(Stage::Search) => false,
                 Next::Curve(score) => self.unmodelled(&mut found, (&missing, &compared), score)?,
                 Next::Nothing => {
                     let rest = self.remainder(&found.extended, &missing, &location, &compared);
@@ -233,6 +242,10 @@ impl World<'_> {
             let proposals = compared.proposals(&scores, Limits::USUAL.most);
             progress(&format!("fitting {} effects", proposals.len()));
             let tried = self.try_all(&found.base, &found.extended, &proposals);
+            if self.deadline.is_over(Stage::Search) {
+                found.tried.extend(tried);
+                return Ok(Next::Nothing);
+            }
             let confirmed = self.confirmed(&found.base, &tried)?;
             found.tried.extend(tried);
             if let Some(Confirmed { accepted, fitted }) = confirmed {

@@ -15,6 +15,7 @@ pub mod diagnosis;
 pub mod estimation;
 pub mod explain;
 pub mod missing;
+pub mod plausibility;
 pub mod report;
 pub mod rig;
 pub mod screening;

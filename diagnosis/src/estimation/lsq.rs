@@ -4,6 +4,8 @@
 //! are few, by accumulated normal equations where they are many. J. J. Moré, The Levenberg–Marquardt algorithm:
 //! implementation and theory, Numerical Analysis, LNM 630 (1978).
 
+use std::time::Instant;
+
 use nalgebra::{DMatrix, DVector};
 
 /// Half a sum of squares, linearised: `½‖R d + q‖² + rest` for a small step d.
@@ -197,18 +199,20 @@ pub struct Stop {
     /// Cost that has to come in sight: it ends where neither the linearisation has its minimum below, nor as many steps as
     /// are left lead there if each gains as much as the last one.
     pub below: f64,
+    /// When it ends at the latest, with a step behind it.
+    pub until: Option<Instant>,
 }
 
 impl Stop {
     /// To the last digit.
     pub const EXACT: Self =
-        Self { damping: 100.0, iterations: 2000, cost: 0.0, step: 1e-14, below: f64::INFINITY };
+        Self { damping: 100.0, iterations: 2000, cost: 0.0, step: 1e-14, below: f64::INFINITY, until: None };
     /// As closely as noise deserves.
     pub const NOISY: Self =
-        Self { damping: 1e-3, iterations: 30, cost: 1e-5, step: 1e-6, below: f64::INFINITY };
+        Self { damping: 1e-3, iterations: 30, cost: 1e-5, step: 1e-6, below: f64::INFINITY, until: None };
     /// Well enough to compare causes.
     pub const ROUGH: Self =
-        Self { damping: 1e-3, iterations: 10, cost: 2e-3, step: 1e-4, below: f64::INFINITY };
+        Self { damping: 1e-3, iterations: 10, cost: 2e-3, step: 1e-4, below: f64::INFINITY, until: None };
 }
 
 /// A minimum.
@@ -272,7 +276,8 @@ pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum
                 let as_now = (stop.iterations - iterations) as f64 * fall;
                 cost - linear.fall(&freely).max(as_now) <= stop.below
             };
-            if small || iterations >= SOON && !in_sight() {
+            let is_late = stop.until.is_some_and(|until| Instant::now() >= until);
+            if small || is_late || iterations >= SOON && !in_sight() {
                 break;
             }
         } else {
@@ -374,6 +379,18 @@ mod tests {
         fn bounds(&self) -> &[(f64, f64)] {
             &[(-10.0, 10.0); 3]
         }
+    }
+
+    /// A sum of squares whose minimum takes many steps.
+    #[test]
+    fn time_that_is_up_leaves_one_step() {
+        let start = || DVector::from_row_slice(&[0.0, 1.0, 0.0]);
+        let careful = Stop { damping: 100.0, ..Stop::NOISY };
+        let problem = Ascending([-1.0, 2.0, 3.0]);
+        let late = minimise(&problem, start(), Stop { until: Some(Instant::now()), ..careful });
+        let whole = minimise(&problem, start(), careful);
+        assert_eq!(late.iterations, 2);
+        assert!(whole.iterations > 2 && whole.cost < late.cost && late.cost < problem.cost(&start()));
     }
 
     #[test]

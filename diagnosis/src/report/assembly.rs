@@ -11,7 +11,8 @@ use unmodelled::missing;
 
 use crate::catalogue::naming::{self, name};
 use crate::confirm::{Accepted, has_no_name};
-use crate::dataset::recorded::{Recorded, Source};
+use crate::dataset::recorded::Recorded;
+use crate::dataset::witness::same_excitation;
 use crate::decision::verdict::{Facts, verdict};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::estimation::fit::{Handle, Point, Residuals};
@@ -21,13 +22,10 @@ use crate::report::findings::{
     Answer, BaseParameter, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal,
     SignalCorrection, Start,
 };
-use crate::screening::rms;
 use crate::signal::distortion::{AFTER, Correction, Fault};
 
 /// Relative change of a base parameter that matters, if it is significant.
 const MISMATCH: f64 = 0.03;
-/// Difference of two excitations, over their magnitude, below which one is a repetition of the other.
-const SAME: f64 = 0.05;
 /// Fit of the best signal on validation data below which a model that drifts has lost what was measured: its errors are of what happened long before.
 const LOST: f64 = 0.95;
 
@@ -301,17 +299,4 @@ fn repeatability(records: &[Recorded], row: usize) -> Option<f64> {
     let values = one.measured[row].values.iter().zip(&two.measured[row].values);
     let differences: Vec<f64> = values.map(|(one, two)| one - two).collect();
     Some(root_mean_square(&differences) / 2.0_f64.sqrt())
-}
-
-/// Whether every measured input is the same but for noise.
-fn same_excitation(one: &Recorded, two: &Recorded) -> bool {
-    one.len() == two.len()
-        && (one.step - two.step).abs() < 1e-6 * one.step
-        && one.inputs.iter().zip(&two.inputs).all(|(one, two)| match (one, two) {
-            (Source::Measured(one), Source::Measured(two)) => {
-                let differences: Vec<f64> = one.iter().zip(two).map(|(one, two)| one - two).collect();
-                rms(&differences) < SAME * rms(one)
-            }
-            _ => true,
-        })
 }
