@@ -20,6 +20,8 @@ use crate::signal::distortion::Fault;
 
 /// Seconds of a record that are compared.
 const SECONDS: f64 = 20.0;
+/// Error over the measured rms from which other units of the inputs are tried.
+const DOUBTFUL: f64 = 0.3;
 
 /// What cannot be as it is recorded.
 ///
@@ -27,8 +29,10 @@ const SECONDS: f64 = 20.0;
 /// If the model refuses its settings.
 pub fn problems(rig: &Rig, records: &Records, options: &Options) -> Result<Vec<DataProblem>, String> {
     let known = |index: usize| rig.stated[index] || options.known.iter().any(|(other, _, _)| *other == index);
+    let nominal = rig.kind.base.iter().chain(rig.driven().map_or(&[][..], |it| it.base));
+    let mut nominal = nominal.filter_map(|name| rig.plant.parameter(name));
     // A start value of zero claims no magnitude.
-    if !rig.base().into_iter().all(|index| known(index) || rig.parameters[index] == 0.0) {
+    if !nominal.all(|index| known(index) || rig.parameters[index] == 0.0) {
         return Ok(Vec::new());
     }
     let mut problems = Vec::new();
@@ -61,8 +65,7 @@ impl Compared<'_> {
         }
         let dynamics = world.dynamics(&[])?;
         let fit = world.fit(&*dynamics, std::slice::from_ref(self.record), Vec::new());
-        let mut nominal =
-            Point { starts: world.starts(std::slice::from_ref(self.record)), ..world.origin() };
+        let mut nominal = Point { starts: world.starts(std::slice::from_ref(self.record)), ..world.origin() };
         for (parameter, value, _) in &self.options.known {
             nominal.parameters[*parameter] = *value;
         }
@@ -73,7 +76,11 @@ impl Compared<'_> {
         }
         let as_they_are = Alternative::new(None, &self.outputs(&now));
         let mut others = Vec::new();
-        if as_they_are.outputs.iter().any(|(likeness, it)| *it != Plausible::Fine || likeness.error > 0.5) {
+        if as_they_are
+            .outputs
+            .iter()
+            .any(|(likeness, it)| *it != Plausible::Fine || likeness.error > DOUBTFUL)
+        {
             for (index, source) in self.record.inputs.iter().enumerate() {
                 let Source::Measured(values) = source else { continue };
                 for reading in readings(self.rig.plant.inputs[index].unit.symbol) {
@@ -166,7 +173,9 @@ impl Compared<'_> {
                 let measured = root_mean_square(&self.record.bent(row));
                 let (measured, model) = (digits(measured, 2), digits(measured / likeness.ratio, 2));
                 let unit = unit(symbol);
-                format!("its rms is {measured} {unit}, and that of the model with the same inputs {model} {unit}")
+                format!(
+                    "its rms is {measured} {unit}, and that of the model with the same inputs {model} {unit}"
+                )
             };
             let (fatal, text) = match it {
                 Plausible::Fine => continue,
@@ -208,7 +217,11 @@ fn mended(name: &str, si: &str, reading: Reading) -> String {
 fn readings(si: &'static str) -> Vec<Reading> {
     let of = |unit: &&'static str| {
         let scale = conversion(unit, si).ok()?.scale;
-        Some([(false, 1.0 / scale), (true, scale)].map(|(in_header, factor)| Reading { unit, in_header, factor }))
+        Some([(false, 1.0 / scale), (true, scale)].map(|(in_header, factor)| Reading {
+            unit,
+            in_header,
+            factor,
+        }))
     };
     usual_units(si).iter().filter_map(of).flatten().collect()
 }
@@ -262,7 +275,8 @@ mod tests {
 
     #[test]
     fn the_message_says_what_to_write() {
-        let of = |in_header| mended("suspension.deflection", "m", Reading { unit: "mm", in_header, factor: 1e3 });
+        let of =
+            |in_header| mended("suspension.deflection", "m", Reading { unit: "mm", in_header, factor: 1e3 });
         assert!(of(false).contains("\"suspension.deflection [mm]\""), "{}", of(false));
         assert!(of(false).starts_with("the values are in mm, not in m."), "{}", of(false));
         assert!(of(true).starts_with("the values are in m, not in mm, as the header says."), "{}", of(true));

@@ -270,7 +270,9 @@ mod tests {
 
     #[test]
     fn one_value_and_gaps_are_constant() {
-        assert!(is_constant(&[2.0, f64::NAN, 2.0]) && !is_constant(&[2.0, 2.0, 2.1]) && !is_constant(&[f64::NAN]));
+        assert!(
+            is_constant(&[2.0, f64::NAN, 2.0]) && !is_constant(&[2.0, 2.0, 2.1]) && !is_constant(&[f64::NAN])
+        );
     }
 
     /// Sample 3 of the file is missing, so that its later samples stand one place further on the even grid.

@@ -92,11 +92,8 @@ pub fn plausible(likeness: Likeness, readings: &[Reading], alive: bool) -> Plaus
     if !ratio.is_finite() || ratio <= 0.0 || distance(ratio) <= FACTOR {
         return Plausible::Fine;
     }
-    let alike = if ratio > 1.0 {
-        alive || correlation.abs() >= ALIKE
-    } else {
-        correlation.abs() >= CLEARLY_ALIKE
-    };
+    let alike =
+        if ratio > 1.0 { alive || correlation.abs() >= ALIKE } else { correlation.abs() >= CLEARLY_ALIKE };
     let left = |reading: &&Reading| distance(ratio / reading.factor);
     let nearest = readings.iter().min_by(|a, b| left(a).total_cmp(&left(b)));
     match nearest.filter(|it| alike && left(it) <= NEAR) {
@@ -153,12 +150,13 @@ pub fn chosen<'a>(as_they_are: &'a Alternative, others: &'a [Alternative]) -> &'
     least.unwrap_or(as_they_are)
 }
 
-/// Whether two outputs look exchanged: each one fits the other's simulated signal clearly better than its own. The first of
-/// each pair is the likeness to its own signal, the second that to the other's.
+/// Whether two outputs look exchanged: each one fits the other's simulated signal better than its own, and both together do
+/// clearly. The first of each pair is the likeness to its own signal, the second that to the other's. An effect that makes two
+/// outputs alike, such as a strut that friction locks, does as much harm to one as good to the other.
 pub fn is_exchanged(one: (Likeness, Likeness), two: (Likeness, Likeness)) -> bool {
-    [one, two].iter().all(|(own, other)| {
-        other.error <= BETTER * own.error && other.correlation >= CLEARLY_ALIKE && own.error.is_finite()
-    })
+    let gain = |(own, other): (Likeness, Likeness)| other.error / own.error;
+    let better = [one, two].iter().all(|it| gain(*it) < 1.0 && it.1.correlation >= ALIKE);
+    better && gain(one) * gain(two) <= BETTER.powi(2)
 }
 
 /// A ratio or its inverse, whichever is above one.
@@ -274,6 +272,8 @@ mod tests {
         let (bad, good) = (like(0.3, 0.4), like(1.0, 0.98));
         assert!(is_exchanged((bad, good), (like(3.0, 0.4), good)));
         assert!(!is_exchanged((bad, good), (good, bad)));
+        let (fair, poor) = (like(0.9, 0.7), like(1.1, 0.5));
+        assert!(!is_exchanged((poor, fair), (poor, fair)) && is_exchanged((poor, good), (bad, fair)));
         assert!(!is_exchanged((bad, good), (like(1.0, 0.99), like(1.0, 0.98))));
         let nothing = Likeness { ratio: f64::NAN, correlation: f64::NAN, error: f64::NAN };
         assert!(!is_exchanged((nothing, nothing), (nothing, nothing)));

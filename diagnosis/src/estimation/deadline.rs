@@ -3,6 +3,10 @@
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
+/// Parts of the time limit, and how many of them the search may take: the others are for intervals and the report.
+const PARTS: u32 = 20;
+const SEARCH: u32 = 17;
+
 /// What a diagnosis does, in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stage {
@@ -22,7 +26,9 @@ impl Stage {
                 "The nominal parameters may not be at their best. Signs of signals and effects were not looked at."
             }
             Self::Search => "The search for effects is not complete. There may be others.",
-            Self::Segments => "Shorter segments, over which a model that drifts shows more, were not compared.",
+            Self::Segments => {
+                "Shorter segments, over which a model that drifts shows more, were not compared."
+            }
         }
     }
 }
@@ -38,7 +44,7 @@ pub struct Deadline {
 impl Deadline {
     /// A limit that starts now. Without one (the default) there is no end.
     pub fn after(limit: Duration) -> Self {
-        Self { limit: Some(limit), at: Instant::now().checked_add(limit), ..Self::default() }
+        Self { limit: Some(limit), at: Instant::now().checked_add(limit / PARTS * SEARCH), ..Self::default() }
     }
 
     /// The same end for another diagnosis, of which nothing is known yet.
@@ -77,6 +83,8 @@ mod tests {
         assert!(!none.is_over(Stage::Nominal) && none.stopped().is_none() && none.instant().is_none());
         let long = Deadline::after(Duration::MAX);
         assert!(!long.is_over(Stage::Search) && long.stopped().is_none());
+        let left = Deadline::after(Duration::from_secs(1000)).instant().unwrap() - Instant::now();
+        assert!(left > Duration::from_secs(800) && left <= Duration::from_secs(850), "{left:?}");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Findings from a diagnosis: verdict, words, tables and pictures.
 
 mod account;
+mod disagreements;
 mod pictures;
 mod summary;
 mod unmodelled;
@@ -15,6 +16,7 @@ use crate::dataset::recorded::Recorded;
 use crate::dataset::witness::same_excitation;
 use crate::decision::verdict::{Facts, verdict};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
+use crate::estimation::deadline::Stage;
 use crate::estimation::fit::{Handle, Point, Residuals};
 use crate::estimation::hypothesis::Term;
 use crate::explain::selection::Score;
@@ -53,6 +55,7 @@ impl Diagnosis<'_> {
         // What follows nothing is worth a word where a signal misses more than its noise.
         let open = account.iter().any(|it| it.open);
         unmodelled.retain(|it| open || it.validated > 0.0);
+        let stopped = world.deadline.stopped();
         let verdict = verdict(Facts {
             best_fit: self.best(),
             effects: effects.len(),
@@ -62,6 +65,7 @@ impl Diagnosis<'_> {
             unmodelled_first: self.found.accepted.first().is_none_or(|it| has_no_name(it.term)),
             mismatch: base_parameters.iter().any(|it| it.mismatch),
             open,
+            out_of_time: stopped.is_some_and(|(stage, _)| stage < Stage::Segments),
         });
         let experiment = effects.iter().find_map(|effect| effect.experiment.clone());
         let mut findings = Findings {
@@ -71,6 +75,10 @@ impl Diagnosis<'_> {
             test: world.test.iter().map(|record| record.name.clone()).collect(),
             verdict,
             summary: String::new(),
+            not_done: stopped.map(|(stage, limit)| {
+                format!("The time limit of {} s was reached. {}", limit.as_secs(), stage.not_done())
+            }),
+            disagreements: self.disagreements(),
             effects,
             base_parameters,
             pictures: self.pictures(),

@@ -29,6 +29,10 @@ pub struct Findings {
     pub verdict: Verdict,
     /// The verdict in one or two sentences for an engineer.
     pub summary: String,
+    /// What the time limit left undone; none if all was done.
+    pub not_done: Option<String>,
+    /// Nominal parameters on which records disagree, the clearest first.
+    pub disagreements: Vec<Disagreement>,
     /// The identified effects, the largest first.
     pub effects: Vec<Effect>,
     /// The nominal parameters: those of the starting model that were fitted.
@@ -69,6 +73,8 @@ impl Findings {
             test,
             verdict: Verdict::BadData,
             summary: format!("The data cannot be used. {}", texts.collect::<Vec<_>>().join(" ")),
+            not_done: None,
+            disagreements: Vec::new(),
             effects: Vec::new(),
             base_parameters: Vec::new(),
             signals: Vec::new(),
@@ -267,6 +273,30 @@ pub struct BaseParameter {
     pub high: f64,
     /// Whether the difference is both significant and large enough to matter.
     pub mismatch: bool,
+}
+
+/// A nominal parameter of which two records want different values.
+#[derive(Clone, Debug, Serialize)]
+pub struct Disagreement {
+    /// As in the FMU.
+    pub name: String,
+    /// SI.
+    pub unit: String,
+    /// What the two records want that disagree most clearly, the lower value first.
+    pub records: [RecordValue; 2],
+}
+
+/// The value of a parameter that a record on its own would choose.
+#[derive(Clone, Debug, Serialize)]
+pub struct RecordValue {
+    /// The file.
+    pub record: String,
+    /// The value.
+    pub value: f64,
+    /// Lower end of its 95 % interval.
+    pub low: f64,
+    /// Upper end of its 95 % interval.
+    pub high: f64,
 }
 
 /// The error of one signal, on the validation data.
