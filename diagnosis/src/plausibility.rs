@@ -1,7 +1,10 @@
 //! Columns that cannot be what they say: found by one simulation of the nominal model, before any fit.
 //!
 //! Each record is compared on its own, over its first seconds. Magnitudes are judged only where the parameters are those of a
-//! data sheet: of a model's start values nobody knows what the rig has.
+//! data sheet: of a model's start values nobody knows what the rig has. Columns of one motion are compared with each other in
+//! any case.
+
+mod kinematics;
 
 use crate::data::units::conversion;
 use crate::dataset::recorded::{Measured, Recorded, Source};
@@ -28,15 +31,19 @@ const DOUBTFUL: f64 = 0.3;
 /// # Errors
 /// If the model refuses its settings.
 pub fn problems(rig: &Rig, records: &Records, options: &Options) -> Result<Vec<DataProblem>, String> {
+    let records_of = || records.train.iter().chain(&records.test);
+    let mut problems: Vec<DataProblem> = records_of().flat_map(|it| kinematics::problems(rig, it)).collect();
+    if !problems.is_empty() {
+        return Ok(problems);
+    }
     let known = |index: usize| rig.stated[index] || options.known.iter().any(|(other, _, _)| *other == index);
     let nominal = rig.kind.base.iter().chain(rig.driven().map_or(&[][..], |it| it.base));
     let mut nominal = nominal.filter_map(|name| rig.plant.parameter(name));
     // A start value of zero claims no magnitude.
     if !nominal.all(|index| known(index) || rig.parameters[index] == 0.0) {
-        return Ok(Vec::new());
+        return Ok(problems);
     }
-    let mut problems = Vec::new();
-    for record in records.train.iter().chain(&records.test) {
+    for record in records_of() {
         problems.extend(Compared { rig, record: &shortened(record), options }.problems(records)?);
     }
     Ok(problems)
@@ -206,7 +213,7 @@ impl Compared<'_> {
 fn mended(name: &str, si: &str, reading: Reading) -> String {
     let Reading { unit: other, in_header, .. } = reading;
     let (values, header) = if in_header { (si, other) } else { (other, si) };
-    let is = if in_header { format!("{header}, as the header says") } else { format!("{header}") };
+    let is = if in_header { format!("{header}, as the header says") } else { header.to_owned() };
     format!(
         "the values are in {values}, not in {is}. Write the unit in the header, e.g. \"{name} [{values}]\", or in a map \
          (--map)"

@@ -113,6 +113,28 @@ fn a_drive_of_which_nothing_is_known_is_not_judged() {
     assert!(problems.is_empty(), "{problems:?}");
 }
 
+/// A position in millimetres beside a velocity in metres per second.
+#[test]
+fn columns_of_one_motion_are_compared_whatever_the_parameters() {
+    let with_velocity = |factor: f64| {
+        move |table: &mut Table| {
+            let step = 2e-3;
+            let position: Vec<f64> =
+                column(table, "position").1.iter().map(|cell| cell.parse().unwrap()).collect();
+            let rate = |k: usize| {
+                (position[(k + 1).min(position.len() - 1)] - position[k.saturating_sub(1)]) / step / 2.0
+            };
+            let velocity = (0..position.len()).map(|k| format!("{:.7e}", rate(k))).collect();
+            table.push(("velocity [m/s]".into(), velocity));
+            scale(table, "position", factor);
+        }
+    };
+    let problems = found("linear-drive", &[], with_velocity(1e3));
+    assert_eq!(fatal(&problems), ["position"], "{problems:?}");
+    assert!(problems[0].text.contains("e.g. \"position [mm]\""), "{}", problems[0].text);
+    assert!(found("linear-drive", &[], with_velocity(1.0)).is_empty());
+}
+
 #[test]
 fn wrong_units_are_found_with_something_hidden_in_the_rig() {
     let hidden = [("strut.coulomb.force", 60.0), ("strut.asymmetry.ratio", 0.3)];

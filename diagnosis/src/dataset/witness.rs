@@ -161,7 +161,7 @@ mod tests {
             let motion = multisine(seed, 3000);
             let rest = vec![0.0; 3000];
             let one = record("a", vec![noisy(&motion, sigma, seed), noisy(&rest, 0.1, seed + 1)], 1);
-            let again = vec![noisy(&motion, sigma, seed + 2), noisy(&rest, 0.1, seed + 3)];
+            let again = [noisy(&motion, sigma, seed + 2), noisy(&rest, 0.1, seed + 3)];
             let again = again.iter().map(|it| it[..3000 - shorter].to_vec()).collect();
             let again = record("b", again, 2);
             prop_assert!(same_excitation(&one, &again) && same_excitation(&again, &one));
@@ -189,7 +189,7 @@ mod tests {
         let [a, b] = [1, 2].map(|seed| record("a.csv", vec![multisine(seed, 3000)], seed));
         let b = Recorded { name: "b.csv".into(), ..b };
         assert!(texts(std::slice::from_ref(&a), std::slice::from_ref(&b)).is_empty());
-        let same = texts(&[a.clone()], &[a.clone()]);
+        let same = texts(std::slice::from_ref(&a), std::slice::from_ref(&a));
         assert!(same.len() == 1 && same[0].contains("they validate nothing"), "{same:?}");
         let again = Recorded { name: "c.csv".into(), ..record("", vec![multisine(1, 3000)], 9) };
         let again = texts(&[b.clone(), a.clone()], &[again]);
@@ -201,7 +201,7 @@ mod tests {
     #[test]
     fn a_short_record_is_told_once_however_often_it_is_given() {
         let short = record("a.csv", vec![multisine(1, 540)], 1);
-        let told = texts(&[short.clone()], &[short]);
+        let told = texts(std::slice::from_ref(&short), std::slice::from_ref(&short));
         assert_eq!(told.len(), 2, "{told:?}");
         assert!(told[0].contains("only 0.54 s long") && told[0].contains("at least 2 s"), "{}", told[0]);
         let enough = record("a.csv", vec![multisine(1, 2000)], 1);

@@ -150,6 +150,20 @@ pub fn chosen<'a>(as_they_are: &'a Alternative, others: &'a [Alternative]) -> &'
     least.unwrap_or(as_they_are)
 }
 
+/// Which of a motion and its rate is in another unit, by the likeness of the motion's derivative to the rate: whether it is the
+/// motion, and how it is to be read. None if they go together or nothing is alike.
+pub fn mismatched_rate(alike: Likeness, motion: &[Reading], rate: &[Reading]) -> Option<(bool, Reading)> {
+    if !alike.ratio.is_finite() || distance(alike.ratio) <= FACTOR || alike.correlation.abs() < ALIKE {
+        return None;
+    }
+    let left = |(is_motion, reading): &(bool, Reading)| {
+        distance(if *is_motion { alike.ratio / reading.factor } else { alike.ratio * reading.factor })
+    };
+    let all = motion.iter().map(|it| (true, *it)).chain(rate.iter().map(|it| (false, *it)));
+    let possible = all.filter(|it| left(it) <= NEAR);
+    possible.min_by(|a, b| a.1.doubt().cmp(&b.1.doubt()).then(left(a).total_cmp(&left(b))))
+}
+
 /// Whether two outputs look exchanged: each one fits the other's simulated signal better than its own, and both together do
 /// clearly. The first of each pair is the likeness to its own signal, the second that to the other's. An effect that makes two
 /// outputs alike, such as a strut that friction locks, does as much harm to one as good to the other.
@@ -265,6 +279,20 @@ mod tests {
         assert_eq!(chosen(&now, std::slice::from_ref(&fits)).input, Some((1, KN)));
         let half = Alternative::new(Some((1, KN)), &columns(&[(1.0, 0.99, &[]), (1.2, 0.8, &[])]));
         assert_eq!(chosen(&now, std::slice::from_ref(&half)).input, None);
+    }
+
+    #[test]
+    fn the_column_with_the_likelier_mistake_is_blamed() {
+        let rate = [
+            Reading { unit: "mm/s", in_header: false, factor: 1e3 },
+            Reading { unit: "mm/s", in_header: true, factor: 1e-3 },
+        ];
+        assert_eq!(mismatched_rate(like(1e3, 0.9), &[MM, M], &rate), Some((true, MM)));
+        assert_eq!(mismatched_rate(like(1e-3, -0.9), &[MM, M], &rate), Some((false, rate[0])));
+        assert_eq!(mismatched_rate(like(1e3, 0.9), &[M], &rate[..1]), None);
+        // Noise that a derivative makes large is not like the rate.
+        assert_eq!(mismatched_rate(like(1e3, 0.3), &[MM, M], &rate), None);
+        assert_eq!(mismatched_rate(like(20.0, 0.9), &[MM, M], &rate), None);
     }
 
     #[test]

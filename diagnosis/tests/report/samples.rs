@@ -255,7 +255,7 @@ pub fn sample(verdict: Verdict) -> Findings {
                 records: [value("multisine-1.csv", 423.0, 9.0), value("prbs-2.csv", 522.0, 14.0)],
             }];
             findings.summary = "The time limit of 30 s was reached. The search for effects is not complete. There may be \
-                others. The records disagree on strut.damping, in N s/m: 423 (95 %: 414 … 432) in multisine-1.csv, 522 \
+                others. The records disagree on strut.damping, in N·s/m: 423 (95 %: 414 … 432) in multisine-1.csv, 522 \
                 (95 %: 508 … 536) in prbs-2.csv."
                 .into();
         }

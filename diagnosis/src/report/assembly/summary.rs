@@ -222,7 +222,7 @@ mod tests {
             ..findings(Verdict::OutOfTime)
         };
         let text = self::of(&found);
-        let first = "The time limit of 5 s was reached. The records disagree on strut.damping, in N s/m: 700 (95 %: 690 \
+        let first = "The time limit of 5 s was reached. The records disagree on strut.damping, in N·s/m: 700 (95 %: 690 \
                      … 710) in a.csv, 900 (95 %: 890 … 910) in b.csv. They also disagree on tire.damping.";
         assert!(text.starts_with(first), "{text}");
     }
