@@ -2,7 +2,7 @@
 //!
 //! Each record is compared on its own, over its first seconds. Magnitudes are judged only where the parameters are those of a
 //! data sheet: of a model's start values nobody knows what the rig has. Columns of one motion are compared with each other in
-//! any case.
+//! any case, and without a data sheet lengths with what test rigs do.
 
 mod kinematics;
 
@@ -41,7 +41,7 @@ pub fn problems(rig: &Rig, records: &Records, options: &Options) -> Result<Vec<D
     let mut nominal = nominal.filter_map(|name| rig.plant.parameter(name));
     // A start value of zero claims no magnitude.
     if !nominal.all(|index| known(index) || rig.parameters[index] == 0.0) {
-        return Ok(problems);
+        return Ok(records_of().flat_map(|it| kinematics::beyond_any_rig(rig, it)).collect());
     }
     for record in records_of() {
         problems.extend(Compared { rig, record: &shortened(record), options }.problems(records)?);

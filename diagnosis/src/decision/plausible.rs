@@ -13,6 +13,8 @@ const ALIKE: f64 = 0.5;
 const CLEARLY_ALIKE: f64 = 0.8;
 /// Share of the error that is left where another reading of the columns fits clearly better.
 const BETTER: f64 = 0.5;
+/// Rms of a length in m and of its rate in m/s that no test rig reaches.
+pub const FARTHEST: (f64, f64) = (3.0, 10.0);
 /// Doubt about a column whose unit is missing …
 const MISSING: u32 = 2;
 /// … whose header names a wrong unit …
@@ -150,6 +152,11 @@ pub fn chosen<'a>(as_they_are: &'a Alternative, others: &'a [Alternative]) -> &'
     least.unwrap_or(as_they_are)
 }
 
+/// Whether a length with this rms, in m, or with this rms of its rate, in m/s, is beyond any test rig.
+pub fn is_beyond_any_rig(length: f64, rate: f64) -> bool {
+    length > FARTHEST.0 || rate > FARTHEST.1
+}
+
 /// Which of a motion and its rate is in another unit, by the likeness of the motion's derivative to the rate: whether it is the
 /// motion, and how it is to be read. None if they go together or nothing is alike.
 pub fn mismatched_rate(alike: Likeness, motion: &[Reading], rate: &[Reading]) -> Option<(bool, Reading)> {
@@ -279,6 +286,14 @@ mod tests {
         assert_eq!(chosen(&now, std::slice::from_ref(&fits)).input, Some((1, KN)));
         let half = Alternative::new(Some((1, KN)), &columns(&[(1.0, 0.99, &[]), (1.2, 0.8, &[])]));
         assert_eq!(chosen(&now, std::slice::from_ref(&half)).input, None);
+    }
+
+    #[test]
+    fn a_rig_moves_neither_metres_nor_at_ten_metres_per_second() {
+        // A long machine axis, a fast damper; a damper in millimetres, a slow axis in millimetres.
+        assert!(!is_beyond_any_rig(1.5, 1.0) && !is_beyond_any_rig(0.05, 5.0));
+        assert!(is_beyond_any_rig(1.0, 32.0) && is_beyond_any_rig(200.0, 5.0));
+        assert!(!is_beyond_any_rig(f64::NAN, f64::NAN));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Columns of one motion against each other: a velocity is the rate of its position whatever the rig's parameters are.
 
 use crate::dataset::recorded::{Recorded, Source, derivative};
-use crate::decision::plausible::mismatched_rate;
+use crate::decision::plausible::{FARTHEST, is_beyond_any_rig, mismatched_rate};
 use crate::report::findings::DataProblem;
 use crate::report::words::{digits, unit};
 use crate::rig::Rig;
@@ -16,8 +16,8 @@ const RATES: &[(&[&str], &str)] =
 /// A measured column: its name, its SI unit and its values.
 type Column<'a> = (&'a str, &'static str, &'a [f64]);
 
-/// Pairs of columns whose units do not go together.
-pub(super) fn problems(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
+/// All measured columns of a record.
+fn columns<'a>(rig: &'a Rig, record: &'a Recorded) -> Vec<Column<'a>> {
     let inputs = rig.plant.inputs.iter().zip(&record.inputs).filter_map(|(declared, source)| match source {
         Source::Measured(values) => Some((declared.name.as_str(), declared.unit.symbol, &values[..])),
         Source::DerivativeOf(_) | Source::Constant(_) => None,
@@ -26,7 +26,12 @@ pub(super) fn problems(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
         let declared = &rig.plant.outputs[measured.output];
         (declared.name.as_str(), declared.unit.symbol, &measured.values[..])
     });
-    let columns: Vec<Column<'_>> = inputs.chain(outputs).collect();
+    inputs.chain(outputs).collect()
+}
+
+/// Pairs of columns whose units do not go together.
+pub(super) fn problems(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
+    let columns = columns(rig, record);
     let mut problems: Vec<DataProblem> = Vec::new();
     for motion in &columns {
         for rate in columns.iter().filter(|rate| is_rate(motion.0, rate.0)) {
@@ -39,6 +44,27 @@ pub(super) fn problems(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
         }
     }
     problems
+}
+
+/// Lengths that no test rig goes, or not as fast.
+pub(super) fn beyond_any_rig(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
+    let of = |(name, si, values): Column<'_>| {
+        let rates = record.sections.iter().flat_map(|it| derivative(&values[it.clone()], record.step));
+        let (length, rate) = (rms(values), rms(&rates.collect::<Vec<_>>()));
+        let reading = readings(si).into_iter().find(|it| !it.in_header)?;
+        (si == "m" && is_beyond_any_rig(length, rate)).then(|| {
+            let text = format!(
+                "its rms is {} m, and that of its rate {} m/s. No test rig goes beyond {} m or {} m/s. It fits if {}",
+                digits(length, 2),
+                digits(rate, 2),
+                FARTHEST.0,
+                FARTHEST.1,
+                mended(name, si, reading)
+            );
+            DataProblem { record: record.name.clone(), signal: name.into(), text, fatal: true }
+        })
+    };
+    columns(rig, record).into_iter().filter_map(of).collect()
 }
 
 /// Whether a signal is the rate of another one, by their names.
