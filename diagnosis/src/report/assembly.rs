@@ -4,6 +4,7 @@ mod account;
 mod disagreements;
 mod pictures;
 mod summary;
+mod unfinished;
 mod unmodelled;
 
 use strut_model::Declaration;
@@ -16,7 +17,6 @@ use crate::dataset::recorded::Recorded;
 use crate::dataset::witness::same_excitation;
 use crate::decision::verdict::{Facts, verdict};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
-use crate::estimation::deadline::Stage;
 use crate::estimation::fit::{Handle, Point, Residuals};
 use crate::estimation::hypothesis::Term;
 use crate::explain::selection::Score;
@@ -55,7 +55,6 @@ impl Diagnosis<'_> {
         // What follows nothing is worth a word where a signal misses more than its noise.
         let open = account.iter().any(|it| it.open);
         unmodelled.retain(|it| open || it.validated > 0.0);
-        let stopped = world.deadline.stopped();
         let verdict = verdict(Facts {
             best_fit: self.best(),
             effects: effects.len(),
@@ -65,7 +64,7 @@ impl Diagnosis<'_> {
             unmodelled_first: self.found.accepted.first().is_none_or(|it| has_no_name(it.term)),
             mismatch: base_parameters.iter().any(|it| it.mismatch),
             open,
-            out_of_time: stopped.is_some_and(|(stage, _)| stage < Stage::Segments),
+            out_of_time: self.is_unfinished(),
         });
         let experiment = effects.iter().find_map(|effect| effect.experiment.clone());
         let mut findings = Findings {
@@ -75,9 +74,7 @@ impl Diagnosis<'_> {
             test: world.test.iter().map(|record| record.name.clone()).collect(),
             verdict,
             summary: String::new(),
-            not_done: stopped.map(|(stage, limit)| {
-                format!("The time limit of {} s was reached. {}", limit.as_secs(), stage.not_done())
-            }),
+            not_done: self.not_done(),
             disagreements: self.disagreements(),
             effects,
             base_parameters,
@@ -269,15 +266,18 @@ impl Diagnosis<'_> {
 
     fn candidates(&self) -> Vec<Candidate> {
         let plant = &self.world.rig.plant;
+        let late = || "not confirmed: the time limit was reached".to_owned();
         let of = |(term, score): &(Term, Score)| {
             let words = name(*term, plant);
             let tried = self.found.tried.iter().rev().find(|tried| tried.term == *term);
             let outcome = match tried {
                 _ if self.found.accepted.iter().any(|it| it.term == *term) => "accepted".into(),
+                None if self.is_unfinished() && self.found.tried.is_empty() => late(),
                 None => "explains less of the missing signal".into(),
                 Some(tried) => match (&tried.fitted, tried.evidence.refusal()) {
                     (Err(error), _) => error.clone(),
                     (Ok(_), Some(refusal)) => refusal,
+                    (Ok(_), None) if self.is_unfinished() && self.found.accepted.is_empty() => late(),
                     (Ok(_), None) => "another effect explains it better".into(),
                 },
             };
