@@ -13,8 +13,9 @@ use crate::decision::plausible::{
     Alternative, FACTOR, Likeness, Plausible, Reading, chosen, is_exchanged, usual_units,
 };
 use crate::diagnosis::{Options, root_mean_square};
-use crate::estimation::fit::{Fit, Handle, Point};
+use crate::estimation::fit::{Handle, Point};
 use crate::estimation::hypothesis::World;
+use crate::plant::Dynamics;
 use crate::report::findings::DataProblem;
 use crate::report::words::{digits, unit};
 use crate::rig::Rig;
@@ -22,9 +23,11 @@ use crate::screening::{bent_rms, rms};
 use crate::signal::distortion::Fault;
 
 /// Seconds of a record that are compared.
-const SECONDS: f64 = 20.0;
-/// Error over the measured rms from which other units of the inputs are tried.
-const DOUBTFUL: f64 = 0.3;
+const SECONDS: f64 = 10.0;
+/// Seconds over which other units of the inputs are tried.
+const FEWER_SECONDS: f64 = 5.0;
+/// Mean of the outputs' errors over their measured rms from which they are tried.
+const DOUBTFUL: f64 = 0.5;
 
 /// What cannot be as it is recorded.
 ///
@@ -43,15 +46,18 @@ pub fn problems(rig: &Rig, records: &Records, options: &Options) -> Result<Vec<D
     if !nominal.all(|index| known(index) || rig.parameters[index] == 0.0) {
         return Ok(records_of().flat_map(|it| kinematics::beyond_any_rig(rig, it)).collect());
     }
+    let dynamics = rig.plant.prepare(&rig.choices)?;
     for record in records_of() {
-        problems.extend(Compared { rig, record: &shortened(record), options }.problems(records)?);
+        let [whole, part] = [SECONDS, FEWER_SECONDS].map(|seconds| shortened(record, seconds));
+        let [whole, part] = [&whole, &part].map(|it| Compared::new(rig, it, records, options, &*dynamics));
+        problems.extend(whole.problems(&part));
     }
     Ok(problems)
 }
 
 /// The first seconds of a record.
-fn shortened(record: &Recorded) -> Recorded {
-    let end = (SECONDS / record.step) as usize;
+fn shortened(record: &Recorded, seconds: f64) -> Recorded {
+    let end = (seconds / record.step) as usize;
     let sections = record.sections.iter().filter(|it| it.start < end).map(|it| it.start..it.end.min(end));
     let sections: Vec<_> = sections.collect();
     if sections.is_empty() { record.clone() } else { Recorded { sections, ..record.clone() } }
@@ -61,51 +67,76 @@ fn shortened(record: &Recorded) -> Recorded {
 struct Compared<'a> {
     rig: &'a Rig,
     record: &'a Recorded,
-    options: &'a Options,
+    world: World<'a>,
+    dynamics: &'a dyn Dynamics,
 }
 
-impl Compared<'_> {
-    fn problems(&self, records: &Records) -> Result<Vec<DataProblem>, String> {
-        let mut world = World::new(self.rig, records, self.options.clone());
-        for (row, measured) in self.record.measured.iter().enumerate() {
-            world.sigma[measured.output] = bent_rms(std::slice::from_ref(self.record), row);
+impl<'a> Compared<'a> {
+    fn new(
+        rig: &'a Rig,
+        record: &'a Recorded,
+        records: &'a Records,
+        options: &Options,
+        dynamics: &'a dyn Dynamics,
+    ) -> Self {
+        let mut world = World::new(rig, records, options.clone());
+        for (row, measured) in record.measured.iter().enumerate() {
+            world.sigma[measured.output] = bent_rms(std::slice::from_ref(record), row);
         }
-        let dynamics = world.dynamics(&[])?;
-        let fit = world.fit(&*dynamics, std::slice::from_ref(self.record), Vec::new());
-        let mut nominal = Point { starts: world.starts(std::slice::from_ref(self.record)), ..world.origin() };
-        for (parameter, value, _) in &self.options.known {
+        Self { rig, record, world, dynamics }
+    }
+
+    fn nominal(&self) -> Point {
+        let starts = self.world.starts(std::slice::from_ref(self.record));
+        let mut nominal = Point { starts, ..self.world.origin() };
+        for (parameter, value, _) in &self.world.known {
             nominal.parameters[*parameter] = *value;
         }
-        let now = self.simulated(&fit, nominal.clone());
+        nominal
+    }
+
+    /// What is to be said with the inputs as they are, unless another unit of one explains more: tried on a shorter record.
+    fn problems(&self, shorter: &Self) -> Vec<DataProblem> {
+        let now = self.simulated(self.nominal());
         let exchanged = self.exchanged(&now);
         if !exchanged.is_empty() {
-            return Ok(exchanged);
+            return exchanged;
         }
         let as_they_are = Alternative::new(None, &self.outputs(&now));
-        let mut others = Vec::new();
-        if as_they_are
-            .outputs
-            .iter()
-            .any(|(likeness, it)| *it != Plausible::Fine || likeness.error > DOUBTFUL)
-        {
-            for (index, source) in self.record.inputs.iter().enumerate() {
-                let Source::Measured(values) = source else { continue };
-                for reading in readings(self.rig.plant.inputs[index].unit.symbol) {
-                    if rms(values) == 0.0 {
-                        continue;
-                    }
-                    let mut point = nominal.clone();
-                    point.set(Handle::Input(index, Fault::Gain), 1.0 / reading.factor - 1.0);
-                    let then = self.outputs(&self.simulated(&fit, point));
-                    others.push(Alternative::new(Some((index, reading)), &then));
-                }
+        let outputs = &as_they_are.outputs;
+        let error = outputs.iter().map(|(likeness, _)| likeness.error).sum::<f64>() / outputs.len() as f64;
+        if error > DOUBTFUL || outputs.iter().any(|(_, it)| *it != Plausible::Fine) {
+            let as_they_are = Alternative::new(None, &shorter.outputs(&shorter.simulated(shorter.nominal())));
+            let others = shorter.others();
+            let chosen = chosen(&as_they_are, &others);
+            if chosen.input.is_some() {
+                return shorter.told(chosen);
             }
         }
-        Ok(self.told(chosen(&as_they_are, &others)))
+        self.told(&as_they_are)
+    }
+
+    /// The outputs with each input in other units.
+    fn others(&self) -> Vec<Alternative> {
+        let mut others = Vec::new();
+        for (index, source) in self.record.inputs.iter().enumerate() {
+            let Source::Measured(values) = source else { continue };
+            if rms(values) == 0.0 {
+                continue;
+            }
+            for reading in readings(self.rig.plant.inputs[index].unit.symbol) {
+                let mut point = self.nominal();
+                point.set(Handle::Input(index, Fault::Gain), 1.0 / reading.factor - 1.0);
+                let then = self.outputs(&self.simulated(point));
+                others.push(Alternative::new(Some((index, reading)), &then));
+            }
+        }
+        others
     }
 
     /// The measured outputs as the model has them, each from the states at the start that fit best.
-    fn simulated(&self, fit: &Fit<'_>, point: Point) -> Recorded {
+    fn simulated(&self, point: Point) -> Recorded {
+        let fit = self.world.fit(self.dynamics, std::slice::from_ref(self.record), Vec::new());
         let point = fit.settled(point);
         let signals = fit.predictions(&point).swap_remove(0);
         let measured = self.record.measured.iter().zip(signals).map(|(measured, mut values)| {
