@@ -27,7 +27,7 @@ const SECONDS: f64 = 10.0;
 /// Seconds over which other units of the inputs are tried.
 const FEWER_SECONDS: f64 = 5.0;
 /// Mean of the outputs' errors over their measured rms from which they are tried.
-const DOUBTFUL: f64 = 0.5;
+const DOUBTFUL: f64 = 0.3;
 
 /// What cannot be as it is recorded.
 ///

@@ -1,5 +1,6 @@
 //! What a diagnosis finds: the contents of `report.json`.
 
+mod disagreement;
 mod pictures;
 
 use std::collections::BTreeMap;
@@ -8,6 +9,7 @@ use serde::Serialize;
 
 pub use crate::decision::verdict::Verdict;
 
+pub use disagreement::{Disagreement, RecordValue};
 pub(crate) use pictures::LARGEST;
 pub use pictures::{Binned, Coherence, Mark, Parity, Periodogram, Pictures, Spectrum, Trace};
 
@@ -273,30 +275,6 @@ pub struct BaseParameter {
     pub high: f64,
     /// Whether the difference is both significant and large enough to matter.
     pub mismatch: bool,
-}
-
-/// A nominal parameter of which two records want different values.
-#[derive(Clone, Debug, Serialize)]
-pub struct Disagreement {
-    /// As in the FMU.
-    pub name: String,
-    /// SI.
-    pub unit: String,
-    /// What the two records want that disagree most clearly, the lower value first.
-    pub records: [RecordValue; 2],
-}
-
-/// The value of a parameter that a record on its own would choose.
-#[derive(Clone, Debug, Serialize)]
-pub struct RecordValue {
-    /// The file.
-    pub record: String,
-    /// The value.
-    pub value: f64,
-    /// Lower end of its 95 % interval.
-    pub low: f64,
-    /// Upper end of its 95 % interval.
-    pub high: f64,
 }
 
 /// The error of one signal, on the validation data.
