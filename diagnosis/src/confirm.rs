@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use crate::catalogue::{Onset, Part, RESPONSE, naming};
 use crate::decision::rules::{Amount, CERTAIN, is_determined};
+use crate::estimation::deadline::Stage;
 use crate::estimation::fit::{Handle, Point};
 use crate::estimation::hypothesis::{Fitted, Term, World};
 use crate::estimation::lsq::Stop;
@@ -68,7 +69,11 @@ impl World<'_> {
         if null.terms.is_empty() {
             starts.push(with(start, &start.parameters));
         }
-        let fitted = self.fitted(&terms, &starts, comparing(base, null));
+        // What the time limit leaves no time for is not begun.
+        let fitted = match self.deadline.is_over(Stage::Search) {
+            true => Err("not fitted: the time limit was reached".into()),
+            false => self.fitted(&terms, &starts, comparing(base, null)),
+        };
         self.weighed(base, null, proposal.term, fitted)
     }
 

@@ -7,6 +7,7 @@ mod search;
 use crate::confirm::{Accepted, Tried};
 use crate::dataset::recorded::Recorded;
 use crate::dataset::split::Records;
+use crate::estimation::deadline::Deadline;
 use crate::estimation::fit::{Handle, Point};
 use crate::estimation::hypothesis::{Fitted, Term, World};
 use crate::estimation::intervals::Interval;
@@ -59,6 +60,8 @@ pub struct Options {
     pub known: Vec<(usize, f64, f64)>,
     /// Numbers of the effects that are looked at; none: all.
     pub only: Vec<String>,
+    /// Until when it may be looked further.
+    pub deadline: Deadline,
 }
 
 /// Diagnoses a rig from records; errors are told on the validation records as they were measured.

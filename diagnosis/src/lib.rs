@@ -1,6 +1,7 @@
 //! From measured data to an identified effect, an extended model and a measured gain.
 //!
-//! [`data`] reads and checks records, [`dataset`] puts them on a [`rig`]'s inputs and outputs. [`diagnosis`] fits the
+//! [`data`] reads and checks records, [`dataset`] puts them on a [`rig`]'s inputs and outputs. Their [`plausibility`] is seen
+//! from one simulation. [`diagnosis`] fits the
 //! starting model ([`estimation`], [`plant`]), estimates what signal is [`missing`] and where, compares the effects of the
 //! [`catalogue`] and features without a name to it ([`explain`]), lets the data [`confirm`] them and makes the account and
 //! the verdict ([`decision`]). [`report`] shows what comes out and writes the extended model.
@@ -15,6 +16,7 @@ pub mod diagnosis;
 pub mod estimation;
 pub mod explain;
 pub mod missing;
+pub mod plausibility;
 pub mod report;
 pub mod rig;
 pub mod screening;

@@ -79,6 +79,10 @@ pub struct DiagnosisArguments {
     #[arg(long, value_name = "N")]
     pub jobs: Option<usize>,
 
+    /// Time after which the best answer so far is reported, in seconds; extended.fmu is built afterwards
+    #[arg(long, value_name = "SECONDS", default_value_t = 600)]
+    pub time_limit: u64,
+
     /// Do not build extended.fmu
     #[arg(long)]
     pub no_fmu: bool,

@@ -19,7 +19,10 @@ use crate::data::table::did_you_mean;
 use crate::dataset::import::{align, choose_drive, import};
 use crate::dataset::recorded::Recorded;
 use crate::dataset::split::Records;
+use crate::dataset::witness;
 use crate::diagnosis::Options;
+use crate::estimation::deadline::{Deadline, Stage};
+use crate::plausibility;
 use crate::report;
 use crate::report::file::replace;
 use crate::report::findings::{DataProblem, Findings};
@@ -101,24 +104,22 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
         problems.extend(imported.problems);
         records.extend(imported.recorded);
     }
-    if let Some(fatal) = problems.iter().find(|problem| problem.fatal) {
-        let text = format!("{}, {}: {}", fatal.record, fatal.signal, fatal.text);
-        let findings =
-            Findings::of_bad_data(&rig.name, names(&arguments.train), names(&arguments.test), problems);
-        report::write(&findings, &arguments.out).map_err(|error| error.to_string())?;
-        tell(&report::terminal(&findings));
-        let page = arguments.out.join("report.html");
-        return Err(format!("the data cannot be used; {text}; the whole list: {}", page.display()));
-    }
+    refuse(&rig, arguments, &problems)?;
     align(&mut records)?;
     let test: Vec<Recorded> = records.split_off(arguments.train.len());
-    let options = Options { known, only: arguments.effects.clone() };
+    problems.extend(witness::notes(&records, &test));
+    eprintln!("time limit {} s (--time-limit)", arguments.time_limit);
+    let deadline = Deadline::after(Duration::from_secs(arguments.time_limit));
+    let options = Options { known, only: arguments.effects.clone(), deadline };
     let bar = ProgressBar::new_spinner()
         .with_style(ProgressStyle::with_template("{spinner} {elapsed}  {msg}").expect("a valid template"));
     bar.enable_steady_tick(Duration::from_millis(100));
     let progress = |text: &str| bar.set_message(text.to_owned());
     bar.set_message("taking the noise off the inputs");
     let whole = Records::new(&records, test);
+    bar.set_message("comparing each column with the model");
+    problems.extend(plausibility::problems(&rig, &whole, &options)?);
+    refuse(&rig, arguments, &problems)?;
     let mut diagnosis = whole.diagnosed(&rig, options.clone(), &progress)?;
     let shorter = [const { OnceCell::new() }; SHORTER];
     let mut last = &whole;
@@ -127,9 +128,13 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
             break;
         }
         let Some(parts) = last.in_parts(&rig) else { break };
+        if diagnosis.world.deadline.is_over(Stage::Segments) {
+            break;
+        }
         last = cell.get_or_init(|| parts);
         bar.set_message("comparing over shorter stretches");
-        let again = last.diagnosed(&rig, options.clone(), &progress)?;
+        let options = Options { deadline: options.deadline.again(), ..options.clone() };
+        let again = last.diagnosed(&rig, options, &progress)?;
         if !again.is_lost() {
             problems.push(last.note());
             diagnosis = again;
@@ -144,6 +149,18 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
     tell(&report::terminal(&findings));
     tell(&format!("\nreport: {}\n", arguments.out.join("report.html").display()));
     Ok(())
+}
+
+/// Reports data that cannot be used, if they cannot.
+fn refuse(rig: &Rig, arguments: &DiagnosisArguments, problems: &[DataProblem]) -> Result<(), String> {
+    let Some(fatal) = problems.iter().find(|problem| problem.fatal) else { return Ok(()) };
+    let text = format!("{}, {}: {}", fatal.record, fatal.signal, fatal.text);
+    let (train, test) = (names(&arguments.train), names(&arguments.test));
+    let findings = Findings::of_bad_data(&rig.name, train, test, problems.to_vec());
+    report::write(&findings, &arguments.out).map_err(|error| error.to_string())?;
+    tell(&report::terminal(&findings));
+    let page = arguments.out.join("report.html");
+    Err(format!("the data cannot be used; {text}; the whole list: {}", page.display()))
 }
 
 fn rig(arguments: &DiagnosisArguments) -> Result<Rig, String> {

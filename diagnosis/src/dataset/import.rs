@@ -87,6 +87,15 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
     }
     let measured = rig.plant.outputs.iter().enumerate().filter_map(|(output, declared)| {
         let mut values = values(&declared.name)?;
+        if is_constant(&values) {
+            problems.push(DataProblem {
+                record: name.clone(),
+                signal: declared.name.clone(),
+                text: "constant: it is not compared with the model".into(),
+                fatal: false,
+            });
+            return None;
+        }
         let raw = mapped.record.channels.iter().zip(&unusable).find(|(it, _)| it.name == declared.name);
         let (raw, wrong) = raw.map_or((&[][..], &[][..]), |(channel, ranges)| (&channel.values[..], ranges));
         // Interpolated to an even grid, values no longer show the steps of their converter.
@@ -115,8 +124,8 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
         problems.push(DataProblem {
             record: name,
             signal: "all outputs".into(),
-            text: "no output is left to compare with the model, as too many samples of each are wrong: see what else is \
-                   told of this record, mend the sensors or their ranges, and record again"
+            text: "no output is left to compare with the model: each is constant or has too many wrong samples. See what \
+                   else is told of this record, mend the sensors or their ranges, and record again"
                 .into(),
             fatal: true,
         });
@@ -139,14 +148,19 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
 
 /// Columns that no signal of the rig is, on the even grid of the record; none that is constant or has gaps.
 fn others(time: &[f64], unused: Vec<Channel>) -> Vec<Channel> {
-    let varies = |values: &[f64]| values.windows(2).any(|pair| pair[0] != pair[1]);
     let on_grid = |channel: Channel| {
         let record = data::Record { name: String::new(), time: time.to_vec(), channels: vec![channel] };
         let (even, _) = uniform(&record).ok()?;
         let channel = even.channels.into_iter().next()?;
-        (channel.values.iter().all(|it| it.is_finite()) && varies(&channel.values)).then_some(channel)
+        (channel.values.iter().all(|it| it.is_finite()) && !is_constant(&channel.values)).then_some(channel)
     };
     unused.into_iter().filter_map(on_grid).collect()
+}
+
+/// Whether a signal shows one value only.
+fn is_constant(values: &[f64]) -> bool {
+    let mut known = values.iter().filter(|value| value.is_finite());
+    known.next().is_some_and(|first| known.all(|value| value == first))
 }
 
 /// Takes away the values on the even grid that come from ranges of the file's samples, and tells how many there were.
@@ -273,6 +287,13 @@ pub fn align(records: &mut [Recorded]) -> Result<(), String> {
 mod tests {
     use super::*;
     use crate::data::{Channel, Record};
+
+    #[test]
+    fn one_value_and_gaps_are_constant() {
+        assert!(
+            is_constant(&[2.0, f64::NAN, 2.0]) && !is_constant(&[2.0, 2.0, 2.1]) && !is_constant(&[f64::NAN])
+        );
+    }
 
     /// Sample 3 of the file is missing, so that its later samples stand one place further on the even grid.
     #[test]

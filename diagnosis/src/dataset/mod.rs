@@ -1,6 +1,7 @@
-//! A table of columns as a rig's inputs and outputs: import, conditioning, segments.
+//! A table of columns as a rig's inputs and outputs: import, conditioning, segments, witnesses.
 
 pub mod conditioning;
 pub mod import;
 pub mod recorded;
 pub mod split;
+pub mod witness;

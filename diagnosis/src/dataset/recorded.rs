@@ -49,7 +49,7 @@ pub struct Measured {
 }
 
 /// Length of the blocks of time over which errors and scores are summed, in seconds: longer than the residuals' memory.
-const BLOCK: f64 = 0.5;
+pub const BLOCK: f64 = 0.5;
 
 impl Recorded {
     /// Number of samples in such a block.

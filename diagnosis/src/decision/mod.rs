@@ -1,5 +1,7 @@
 //! Decisions as pure functions of numbers: no file, no simulation.
 
 pub mod account;
+pub mod disagreement;
+pub mod plausible;
 pub mod rules;
 pub mod verdict;

@@ -20,6 +20,8 @@ pub enum Verdict {
     SensorFault,
     /// The model explains too little for anything to be told.
     ModelInadequate,
+    /// The time limit was reached before an effect was identified.
+    OutOfTime,
     /// The data cannot be used.
     BadData,
 }
@@ -43,6 +45,8 @@ pub struct Facts {
     pub mismatch: bool,
     /// Whether a signal misses more than its noise.
     pub open: bool,
+    /// Whether the time limit ended the search.
+    pub out_of_time: bool,
 }
 
 /// Fit of the best signal below which nothing is to be believed.
@@ -50,8 +54,12 @@ pub const INADEQUATE: f64 = 0.2;
 
 /// The verdict.
 pub fn verdict(facts: Facts) -> Verdict {
-    let Facts { best_fit, effects, ambiguous, sensors, unmodelled, unmodelled_first, mismatch, open } = facts;
-    if best_fit < INADEQUATE && unmodelled == 0.0 {
+    let Facts { best_fit, effects, ambiguous, sensors, unmodelled, unmodelled_first, mismatch, open, .. } =
+        facts;
+    // Of what was not looked at, nothing is claimed.
+    if facts.out_of_time && effects == 0 && unmodelled == 0.0 {
+        Verdict::OutOfTime
+    } else if best_fit < INADEQUATE && unmodelled == 0.0 {
         Verdict::ModelInadequate
     } else if unmodelled > 0.0 && (effects == 0 || unmodelled_first || sensors) || effects == 0 && open {
         Verdict::Unmodelled
@@ -81,6 +89,7 @@ mod tests {
         unmodelled_first: false,
         mismatch: false,
         open: false,
+        out_of_time: false,
     };
 
     #[test]
@@ -88,6 +97,21 @@ mod tests {
         assert_eq!(verdict(FITS), Verdict::NoEffect);
         assert_eq!(verdict(Facts { mismatch: true, ..FITS }), Verdict::ParameterMismatch);
         assert_eq!(verdict(Facts { open: true, ..FITS }), Verdict::Unmodelled);
+    }
+
+    #[test]
+    fn a_search_that_was_ended_claims_no_absence() {
+        let ended = Facts { out_of_time: true, ..FITS };
+        for facts in [
+            ended,
+            Facts { mismatch: true, ..ended },
+            Facts { open: true, ..ended },
+            Facts { best_fit: -3.0, ..ended },
+        ] {
+            assert_eq!(verdict(facts), Verdict::OutOfTime);
+        }
+        assert_eq!(verdict(Facts { effects: 1, ..ended }), Verdict::Identified);
+        assert_eq!(verdict(Facts { unmodelled: 0.3, ..ended }), Verdict::Unmodelled);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::dataset::recorded::{Recorded, Source};
+use crate::estimation::deadline::Stage;
 use crate::estimation::fit::{Handle, Point, Residuals};
 use crate::estimation::hypothesis::{Fitted, World};
 use crate::estimation::lsq::Stop;
@@ -41,12 +42,16 @@ pub(super) fn fit(world: &mut World<'_>) -> Result<(Point, Fitted, Vec<Handle>),
     }
     let mut base = world.fitted(&[], &starts, Stop::NOISY)?;
     if !fits(world, &base)
+        && !world.deadline.is_over(Stage::Nominal)
         && let Some(other) = shot(world, &start)
         && other.cost < base.cost
     {
         base = other;
     }
     for handle in signals(world.train) {
+        if world.deadline.is_over(Stage::Nominal) {
+            break;
+        }
         let mut turned = start.clone();
         turned.set(handle, -2.0);
         if let Some(other) = turned_over(world, &base, &turned, handle) {

@@ -1,6 +1,7 @@
 //! Place, law, confirmation: until nothing is missing that matters.
 
 use crate::confirm::Confirmed;
+use crate::estimation::deadline::Stage;
 use crate::estimation::fit::Point;
 use crate::estimation::hypothesis::{Fitted, Term, World};
 use crate::explain::candidates::outputs;
@@ -62,7 +63,7 @@ impl World<'_> {
     pub(super) fn identified(&self, base: Fitted, progress: &(dyn Fn(&str) + Sync)) -> Result<Found, String> {
         let mut found = Found::nothing(base);
         let (mut errors, mut refinements, mut refused) = (None, 0, Vec::new());
-        while found.accepted.len() < MOST {
+        while found.accepted.len() < MOST && !self.deadline.is_over(Stage::Search) {
             progress("estimating the missing signal");
             let terms = found.extended.terms.clone();
             let at = match terms.is_empty() {
@@ -83,7 +84,8 @@ impl World<'_> {
                 found.compared = compared.ranking();
             }
             let named = self.named(&mut found, &compared, &mut refused, progress)?;
-            if !matches!(named, Next::Effect) && refinements < REFINEMENTS {
+            let over = self.deadline.is_over(Stage::Search);
+            if !matches!(named, Next::Effect) && refinements < REFINEMENTS && !over {
                 // Sensors that disagree by more than their noise decide what is missing until they are believed less.
                 let background = &location.background;
                 let larger = missing.refined(background, &compared.best().unwrap_or_default());
@@ -97,6 +99,8 @@ impl World<'_> {
                     refused.clear();
                     true
                 }
+                // Of what was not looked at to the end nothing is claimed.
+                _ if over => false,
                 Next::Curve(score) => self.unmodelled(&mut found, (&missing, &compared), score)?,
                 Next::Nothing => {
                     let rest = self.remainder(&found.extended, &missing, &location, &compared);
@@ -162,6 +166,10 @@ impl World<'_> {
             if !proposals.is_empty() {
                 progress(&format!("fitting {} effects", proposals.len()));
                 let tried = self.try_all(&found.base, &found.extended, &proposals);
+                if self.deadline.is_over(Stage::Search) {
+                    found.tried.extend(tried);
+                    return Ok(Next::Nothing);
+                }
                 let confirmed = self.confirmed(&found.base, &tried)?;
                 found.tried.extend(tried);
                 if let Some(Confirmed { accepted, fitted }) = confirmed {

@@ -6,6 +6,7 @@ use crate::catalogue::{self, Bounds, Cause, Element, Part, Scale, Signal, Table,
 use crate::dataset::recorded::{Recorded, Source};
 use crate::dataset::split::Records;
 use crate::diagnosis::Options;
+use crate::estimation::deadline::Deadline;
 use crate::estimation::fit::{Coordinate, Fit, Handle, Point, Residuals, Trace};
 use crate::estimation::lsq::{self, Linear, Problem, Stop};
 use crate::plant::Dynamics;
@@ -83,6 +84,8 @@ pub struct World<'a> {
     pub sigma: Vec<f64>,
     /// Noise of each measured output, in the order of a record's.
     pub floor: Vec<f64>,
+    /// Until when it may be looked further.
+    pub deadline: Deadline,
 }
 
 /// A hypothesis with its parameters fitted.
@@ -121,6 +124,7 @@ impl<'a> World<'a> {
             looks: 1.0,
             sigma: vec![1.0; rig.plant.outputs.len()],
             floor: Vec::new(),
+            deadline: options.deadline,
         }
     }
 }
@@ -357,6 +361,7 @@ impl World<'_> {
     /// # Errors
     /// If the model refuses its settings, or diverges from every point.
     pub fn fitted(&self, terms: &[Term], starts: &[Point], stop: Stop) -> Result<Fitted, String> {
+        let stop = Stop { until: self.deadline.instant(), ..stop };
         let dynamics = self.dynamics(terms)?;
         let coordinates = self.coordinates(terms);
         let fit = self.fit(&*dynamics, self.train, coordinates.clone());

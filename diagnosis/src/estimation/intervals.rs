@@ -17,6 +17,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::confirm::worth;
 use crate::dataset::recorded::Recorded;
+use crate::decision::disagreement::{Wish, wish};
 use crate::estimation::fit::{Coordinate, Handle, Normal, Point};
 use crate::estimation::hypothesis::{Fitted, POINTS, Term, World};
 use crate::estimation::lsq::Problem;
@@ -36,7 +37,7 @@ const ANOTHER_SHAPE: f64 = 0.5;
 const NORMAL: f64 = 1.96;
 
 /// What is known of a coordinate.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Interval {
     /// The coordinate.
     pub handle: Handle,
@@ -44,6 +45,8 @@ pub struct Interval {
     pub value: f64,
     /// Half the interval that holds the true value with 95 %; infinite if nothing is known.
     pub half: f64,
+    /// What each record on its own would choose, estimation records first.
+    pub wishes: Vec<Wish>,
     /// Values that are possible.
     bounds: (f64, f64),
 }
@@ -69,6 +72,8 @@ struct Opinion {
     variance: f64,
     /// Whether it was learnt from.
     learnt: bool,
+    /// The record's number, estimation records first.
+    record: usize,
 }
 
 impl World<'_> {
@@ -88,7 +93,13 @@ impl World<'_> {
                 NORMAL.powi(2) * own[(index, index)].max(0.0) + quantile.powi(2) * between + 2.0 * pulled;
             let value = fitted.point.get(coordinate.handle);
             let (handle, bounds) = (coordinate.handle, coordinate.bounds);
-            Interval { handle, value, half: variance.sqrt(), bounds }
+            let said = |record: usize| {
+                let of = all.iter().filter(move |it| it.record == record);
+                of.map(|it| (value + it.shift, it.variance)).collect::<Vec<_>>()
+            };
+            let records = 0..self.train.len() + self.test.len();
+            let wishes = records.filter_map(|record| wish(record, &said(record))).collect();
+            Interval { handle, value, half: variance.sqrt(), wishes, bounds }
         };
         Ok(fitted.coordinates.iter().enumerate().map(interval).collect())
     }
@@ -120,7 +131,7 @@ impl World<'_> {
     /// What each excitation says of each coordinate: a Gauss–Newton step from the fit.
     fn opinions(&self, fitted: &Fitted) -> Result<Vec<Vec<Opinion>>, String> {
         let dynamics = self.dynamics(&fitted.terms)?;
-        let of = |record: &Recorded, learnt: bool| {
+        let of = |record: &Recorded, learnt: bool, number: usize| {
             let records = std::slice::from_ref(record);
             let starts = self.starts(records);
             let fit = self.fit(&*dynamics, records, fitted.coordinates.clone());
@@ -128,18 +139,20 @@ impl World<'_> {
             let (linear, trace) = fit.linearise(&point);
             let shift = linear.minimiser();
             let covariance = linear.robust_covariance(&trace.scores);
-            let one =
-                |index: usize| Opinion { shift: shift[index], variance: covariance[(index, index)], learnt };
+            let one = |index: usize| {
+                let variance = covariance[(index, index)];
+                Opinion { shift: shift[index], variance, learnt, record: number }
+            };
             (0..fitted.coordinates.len()).map(one).collect()
         };
         let pieces = EXCITATIONS.div_ceil(self.train.len() + self.test.len());
         let all = self.train.iter().map(|it| (it, true)).chain(self.test.iter().map(|it| (it, false)));
-        let cut = all.flat_map(|(record, learnt)| {
+        let cut = all.enumerate().flat_map(|(number, (record, learnt))| {
             cut(record, pieces)
                 .into_iter()
-                .map(move |sections| (Recorded { sections, ..record.clone() }, learnt))
+                .map(move |sections| (Recorded { sections, ..record.clone() }, learnt, number))
         });
-        Ok(cut.map(|(record, learnt)| of(&record, learnt)).collect())
+        Ok(cut.map(|(record, learnt, number)| of(&record, learnt, number)).collect())
     }
 }
 
@@ -268,7 +281,12 @@ mod tests {
     use crate::plant::Between;
 
     fn opinions(shifts: &[f64], variance: f64) -> Vec<Opinion> {
-        let of = |(index, shift): (usize, &f64)| Opinion { shift: *shift, variance, learnt: index < 2 };
+        let of = |(index, shift): (usize, &f64)| Opinion {
+            shift: *shift,
+            variance,
+            learnt: index < 2,
+            record: index,
+        };
         shifts.iter().enumerate().map(of).collect()
     }
 
@@ -326,7 +344,8 @@ mod tests {
     #[test]
     fn what_no_variance_is_known_of_does_not_count() {
         let all = opinions(&[1.0, -1.0, 3.0, -3.0], 0.5);
-        let unknown = [f64::INFINITY, 0.0].map(|variance| Opinion { shift: 7.0, variance, learnt: true });
+        let unknown =
+            [f64::INFINITY, 0.0].map(|variance| Opinion { shift: 7.0, variance, learnt: true, record: 0 });
         assert_eq!(between(&[all.clone(), unknown.to_vec()].concat()), between(&all));
         assert_eq!(between(&[all[..1].to_vec(), unknown.to_vec()].concat()), (0.0, 0.0));
     }

@@ -4,7 +4,11 @@
 //! are few, by accumulated normal equations where they are many. J. J. Moré, The Levenberg–Marquardt algorithm:
 //! implementation and theory, Numerical Analysis, LNM 630 (1978).
 
+mod stop;
+
 use nalgebra::{DMatrix, DVector};
+
+pub use stop::Stop;
 
 /// Half a sum of squares, linearised: `½‖R d + q‖² + rest` for a small step d.
 #[derive(Clone, Debug)]
@@ -183,34 +187,6 @@ const FREELY: f64 = 1e-9;
 /// How often the way to where a coordinate cannot be is halved, before it stays.
 const HALVINGS: usize = 6;
 
-/// How to start and when to stop.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stop {
-    /// Damping of the first step: the larger, the more careful.
-    pub damping: f64,
-    /// Linearisations at most.
-    pub iterations: usize,
-    /// Relative fall of the cost below which it ends.
-    pub cost: f64,
-    /// Relative change of the coordinates, in units of their scale, below which it ends.
-    pub step: f64,
-    /// Cost that has to come in sight: it ends where neither the linearisation has its minimum below, nor as many steps as
-    /// are left lead there if each gains as much as the last one.
-    pub below: f64,
-}
-
-impl Stop {
-    /// To the last digit.
-    pub const EXACT: Self =
-        Self { damping: 100.0, iterations: 2000, cost: 0.0, step: 1e-14, below: f64::INFINITY };
-    /// As closely as noise deserves.
-    pub const NOISY: Self =
-        Self { damping: 1e-3, iterations: 30, cost: 1e-5, step: 1e-6, below: f64::INFINITY };
-    /// Well enough to compare causes.
-    pub const ROUGH: Self =
-        Self { damping: 1e-3, iterations: 10, cost: 2e-3, step: 1e-4, below: f64::INFINITY };
-}
-
 /// A minimum.
 #[derive(Clone, Debug)]
 pub struct Minimum<P, T> {
@@ -272,7 +248,7 @@ pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum
                 let as_now = (stop.iterations - iterations) as f64 * fall;
                 cost - linear.fall(&freely).max(as_now) <= stop.below
             };
-            if small || iterations >= SOON && !in_sight() {
+            if small || stop.is_late() || iterations >= SOON && !in_sight() {
                 break;
             }
         } else {
@@ -341,6 +317,7 @@ fn clamped_step(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::time::Instant;
 
     /// Distances from a target, the first two of which must ascend: the third is reached all the same.
     struct Ascending([f64; 3]);
@@ -374,6 +351,18 @@ mod tests {
         fn bounds(&self) -> &[(f64, f64)] {
             &[(-10.0, 10.0); 3]
         }
+    }
+
+    /// A sum of squares whose minimum takes many steps.
+    #[test]
+    fn time_that_is_up_leaves_one_step() {
+        let start = || DVector::from_row_slice(&[0.0, 1.0, 0.0]);
+        let careful = Stop { damping: 100.0, ..Stop::NOISY };
+        let problem = Ascending([-1.0, 2.0, 3.0]);
+        let late = minimise(&problem, start(), Stop { until: Some(Instant::now()), ..careful });
+        let whole = minimise(&problem, start(), careful);
+        assert_eq!(late.iterations, 2);
+        assert!(whole.iterations > 2 && whole.cost < late.cost && late.cost < problem.cost(&start()));
     }
 
     #[test]

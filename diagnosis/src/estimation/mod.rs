@@ -1,6 +1,7 @@
 //! Estimating parameters: hypotheses, output error, least squares, intervals.
 
 pub mod comparison;
+pub mod deadline;
 pub mod fit;
 pub mod held;
 pub mod hypothesis;

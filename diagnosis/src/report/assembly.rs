@@ -1,8 +1,10 @@
 //! Findings from a diagnosis: verdict, words, tables and pictures.
 
 mod account;
+mod disagreements;
 mod pictures;
 mod summary;
+mod unfinished;
 mod unmodelled;
 
 use strut_model::Declaration;
@@ -11,7 +13,8 @@ use unmodelled::missing;
 
 use crate::catalogue::naming::{self, name};
 use crate::confirm::{Accepted, has_no_name};
-use crate::dataset::recorded::{Recorded, Source};
+use crate::dataset::recorded::Recorded;
+use crate::dataset::witness::same_excitation;
 use crate::decision::verdict::{Facts, verdict};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::estimation::fit::{Handle, Point, Residuals};
@@ -21,13 +24,10 @@ use crate::report::findings::{
     Answer, BaseParameter, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal,
     SignalCorrection, Start,
 };
-use crate::screening::rms;
 use crate::signal::distortion::{AFTER, Correction, Fault};
 
 /// Relative change of a base parameter that matters, if it is significant.
 const MISMATCH: f64 = 0.03;
-/// Difference of two excitations, over their magnitude, below which one is a repetition of the other.
-const SAME: f64 = 0.05;
 /// Fit of the best signal on validation data below which a model that drifts has lost what was measured: its errors are of what happened long before.
 const LOST: f64 = 0.95;
 
@@ -66,6 +66,7 @@ impl Diagnosis<'_> {
             unmodelled_first: self.found.accepted.first().is_none_or(|it| has_no_name(it.term)),
             mismatch: base_parameters.iter().any(|it| it.mismatch),
             open,
+            out_of_time: self.is_unfinished(),
         });
         let experiment = effects.iter().find_map(|effect| effect.experiment.clone());
         let mut findings = Findings {
@@ -75,6 +76,8 @@ impl Diagnosis<'_> {
             test: world.test.iter().map(|record| record.name.clone()).collect(),
             verdict,
             summary: String::new(),
+            not_done: self.not_done(),
+            disagreements: self.disagreements(),
             effects,
             base_parameters,
             pictures: self.pictures(),
@@ -244,15 +247,18 @@ impl Diagnosis<'_> {
 
     fn candidates(&self) -> Vec<Candidate> {
         let plant = &self.world.rig.plant;
+        let late = || "not confirmed: the time limit was reached".to_owned();
         let of = |(term, score): &(Term, Score)| {
             let words = name(*term, plant);
             let tried = self.found.tried.iter().rev().find(|tried| tried.term == *term);
             let outcome = match tried {
                 _ if self.found.accepted.iter().any(|it| it.term == *term) => "accepted".into(),
+                None if self.is_unfinished() && self.found.tried.is_empty() => late(),
                 None => "explains less of the missing signal".into(),
                 Some(tried) => match (&tried.fitted, tried.evidence.refusal()) {
                     (Err(error), _) => error.clone(),
                     (Ok(_), Some(refusal)) => refusal,
+                    (Ok(_), None) if self.is_unfinished() && self.found.accepted.is_empty() => late(),
                     (Ok(_), None) => "another effect explains it better".into(),
                 },
             };
@@ -282,17 +288,4 @@ fn repeatability(records: &[Recorded], row: usize) -> Option<f64> {
     let values = one.measured[row].values.iter().zip(&two.measured[row].values);
     let differences: Vec<f64> = values.map(|(one, two)| one - two).collect();
     Some(root_mean_square(&differences) / 2.0_f64.sqrt())
-}
-
-/// Whether every measured input is the same but for noise.
-fn same_excitation(one: &Recorded, two: &Recorded) -> bool {
-    one.len() == two.len()
-        && (one.step - two.step).abs() < 1e-6 * one.step
-        && one.inputs.iter().zip(&two.inputs).all(|(one, two)| match (one, two) {
-            (Source::Measured(one), Source::Measured(two)) => {
-                let differences: Vec<f64> = one.iter().zip(two).map(|(one, two)| one - two).collect();
-                rms(&differences) < SAME * rms(one)
-            }
-            _ => true,
-        })
 }

@@ -1,5 +1,6 @@
 //! What a diagnosis finds: the contents of `report.json`.
 
+mod disagreement;
 mod pictures;
 
 use std::collections::BTreeMap;
@@ -8,6 +9,7 @@ use serde::Serialize;
 
 pub use crate::decision::verdict::Verdict;
 
+pub use disagreement::{Disagreement, RecordValue};
 pub(crate) use pictures::LARGEST;
 pub use pictures::{Binned, Coherence, Mark, Parity, Periodogram, Pictures, Spectrum, Trace};
 
@@ -29,6 +31,10 @@ pub struct Findings {
     pub verdict: Verdict,
     /// The verdict in one or two sentences for an engineer.
     pub summary: String,
+    /// What the time limit left undone; none if all was done.
+    pub not_done: Option<String>,
+    /// Nominal parameters on which records disagree, the clearest first.
+    pub disagreements: Vec<Disagreement>,
     /// The identified effects, the largest first.
     pub effects: Vec<Effect>,
     /// The nominal parameters: those of the starting model that were fitted.
@@ -69,6 +75,8 @@ impl Findings {
             test,
             verdict: Verdict::BadData,
             summary: format!("The data cannot be used. {}", texts.collect::<Vec<_>>().join(" ")),
+            not_done: None,
+            disagreements: Vec::new(),
             effects: Vec::new(),
             base_parameters: Vec::new(),
             signals: Vec::new(),

@@ -5,13 +5,13 @@ mod parts;
 use std::sync::LazyLock;
 
 use strut_diagnosis::report::findings::{
-    Curve, DataProblem, Evidence, FORMAT, Findings, Pictures, Signal, Verdict,
+    Curve, DataProblem, Disagreement, Evidence, FORMAT, Findings, Pictures, RecordValue, Signal, Verdict,
 };
 
 use crate::simulation::{self, Comparison, balances, binned, comparisons, missing};
 use parts::{account, base, candidates, friction, parameter, unmodelled};
 
-pub const VERDICTS: [Verdict; 8] = [
+pub const VERDICTS: [Verdict; 9] = [
     Verdict::NoEffect,
     Verdict::ParameterMismatch,
     Verdict::Identified,
@@ -19,6 +19,7 @@ pub const VERDICTS: [Verdict; 8] = [
     Verdict::Unmodelled,
     Verdict::SensorFault,
     Verdict::ModelInadequate,
+    Verdict::OutOfTime,
     Verdict::BadData,
 ];
 
@@ -31,6 +32,8 @@ pub fn empty(verdict: Verdict) -> Findings {
         test: vec![],
         verdict,
         summary: String::new(),
+        not_done: None,
+        disagreements: vec![],
         effects: vec![],
         base_parameters: vec![],
         signals: vec![],
@@ -234,6 +237,26 @@ pub fn sample(verdict: Verdict) -> Findings {
                 "92 % of wheel.acceleration is still unexplained on the validation data (62 × sensor \
                 noise). Parts of 2 other signals are unexplained, too. The model predicts too little of the validation \
                 data. Check the rig, the signal names, the units and the signs."
+                .into();
+        }
+        Verdict::OutOfTime => {
+            findings.not_done = Some(
+                "The time limit of 30 s was reached. The search for effects is not complete. There may be others.".into(),
+            );
+            let value = |record: &str, value: f64, half: f64| RecordValue {
+                record: record.into(),
+                value,
+                low: value - half,
+                high: value + half,
+            };
+            findings.disagreements = vec![Disagreement {
+                name: "strut.damping".into(),
+                unit: "N.s/m".into(),
+                records: [value("multisine-1.csv", 423.0, 9.0), value("prbs-2.csv", 522.0, 14.0)],
+            }];
+            findings.summary = "The time limit of 30 s was reached. The search for effects is not complete. There may be \
+                others. The records disagree on strut.damping, in N·s/m: 423 (95 %: 414 … 432) in multisine-1.csv, 522 \
+                (95 %: 508 … 536) in prbs-2.csv."
                 .into();
         }
         Verdict::BadData => {

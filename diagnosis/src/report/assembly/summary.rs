@@ -1,8 +1,8 @@
 //! The verdict in a few sentences, with the numbers that matter.
 
-use crate::report::findings::{Effect, Findings, Signal, Unmodelled, Verdict};
+use crate::report::findings::{Effect, Findings, RecordValue, Signal, Unmodelled, Verdict};
 use crate::report::words::{
-    count, digits, effect_name, fit, list, located, open_signals, percent, sized, value,
+    count, digits, effect_name, fit, interval, list, located, open_signals, percent, sized, unit, value,
 };
 
 /// Fit that the noise of the inputs costs, to be worth a sentence.
@@ -13,6 +13,8 @@ const IMPROVED: f64 = 0.005;
 /// The summary of findings that are complete otherwise.
 pub(super) fn of(findings: &Findings) -> String {
     let parts = [
+        findings.not_done.clone(),
+        disagreements(findings),
         open(findings),
         parameters(findings),
         effects(findings),
@@ -34,6 +36,25 @@ fn open(findings: &Findings) -> Option<String> {
     })
 }
 
+/// Records that want different parameters come before whatever was identified from them.
+fn disagreements(findings: &Findings) -> Option<String> {
+    let first = findings.disagreements.first()?;
+    let wish = |it: &RecordValue| {
+        let [value, low, high] = interval(it.value, it.low, it.high);
+        format!("{value} (95 %: {low} … {high}) in {}", it.record)
+    };
+    let [low, high] = &first.records;
+    let (low, high) = (wish(low), wish(high));
+    let unit = unit(&first.unit);
+    let of = if unit.is_empty() { String::new() } else { format!(", in {unit}") };
+    let others: Vec<String> = findings.disagreements[1..].iter().map(|it| it.name.clone()).collect();
+    let more = match others.len() {
+        0 => String::new(),
+        _ => format!(" They also disagree on {}.", list(&others, "and")),
+    };
+    Some(format!("The records disagree on {}{of}: {low}, {high}.{more}", first.name))
+}
+
 fn effects(findings: &Findings) -> Option<String> {
     let effects = &findings.effects;
     match findings.verdict {
@@ -45,6 +66,7 @@ fn effects(findings: &Findings) -> Option<String> {
              catalogue acts."
                 .to_owned(),
         ),
+        Verdict::OutOfTime => None,
         Verdict::BadData => Some("The data cannot be used.".to_owned()),
         Verdict::Identified | Verdict::Ambiguous | Verdict::SensorFault | Verdict::Unmodelled => {
             let sizes: Vec<String> = effects.iter().map(sized).collect();
@@ -137,7 +159,7 @@ fn noisy(findings: &Findings) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::findings::SignalAccount;
+    use crate::report::findings::{Disagreement, SignalAccount};
 
     fn findings(verdict: Verdict) -> Findings {
         Findings { verdict, ..Findings::of_bad_data("rig", vec![], vec![], vec![]) }
@@ -183,6 +205,29 @@ mod tests {
         assert!(text.contains("Part of wheel.acceleration is unexplained, too."), "{text}");
         found.account.iter_mut().for_each(|it| it.open = false);
         assert!(!of(&found).contains("unexplained"), "{}", of(&found));
+    }
+
+    #[test]
+    fn what_was_left_undone_and_what_records_disagree_on_come_first() {
+        let value = |record: &str, value: f64| RecordValue {
+            record: record.into(),
+            value,
+            low: value - 10.0,
+            high: value + 10.0,
+        };
+        let records = [value("a.csv", 700.0), value("b.csv", 900.0)];
+        let of =
+            |name: &str| Disagreement { name: name.into(), unit: "N.s/m".into(), records: records.clone() };
+        let found = Findings {
+            not_done: Some("The time limit of 5 s was reached.".into()),
+            disagreements: vec![of("strut.damping"), of("tire.damping")],
+            account: vec![open()],
+            ..findings(Verdict::OutOfTime)
+        };
+        let text = self::of(&found);
+        let first = "The time limit of 5 s was reached. The records disagree on strut.damping, in N·s/m: 700 (95 %: 690 \
+                     … 710) in a.csv, 900 (95 %: 890 … 910) in b.csv. They also disagree on tire.damping.";
+        assert!(text.starts_with(first), "{text}");
     }
 
     #[test]

@@ -24,6 +24,7 @@ pub fn headline(findings: &Findings) -> String {
         Verdict::SensorFault if effects.is_empty() => "A sensor is at fault, not the plant.".into(),
         Verdict::SensorFault => format!("A sensor is at fault, not the plant: {}.", list(&effects, "and")),
         Verdict::ModelInadequate => "The model predicts too little of the data to identify an effect.".into(),
+        Verdict::OutOfTime => "The time limit was reached before an effect was identified.".into(),
         Verdict::BadData => "The data cannot be used as they are.".into(),
     }
 }
@@ -76,6 +77,7 @@ pub fn badge(verdict: Verdict) -> (&'static str, &'static str) {
         Verdict::Unmodelled => ("unmodelled", "doubt"),
         Verdict::SensorFault => ("sensor fault", "found"),
         Verdict::ModelInadequate => ("model inadequate", "bad"),
+        Verdict::OutOfTime => ("out of time", "doubt"),
         Verdict::BadData => ("bad data", "bad"),
     }
 }

@@ -1,0 +1,121 @@
+//! Columns of one motion against each other: a velocity is the rate of its position whatever the rig's parameters are.
+
+use crate::dataset::recorded::{Recorded, Source, derivative};
+use crate::decision::plausible::{FARTHEST, is_beyond_any_rig, mismatched_rate};
+use crate::report::findings::DataProblem;
+use crate::report::words::{digits, unit};
+use crate::rig::Rig;
+use crate::screening::rms;
+
+use super::{likeness, mended, readings};
+
+/// Names' ends of motions and of their rates.
+const RATES: &[(&[&str], &str)] =
+    &[(&["position", "height", "deflection"], "velocity"), (&["velocity"], "acceleration")];
+
+/// A measured column: its name, its SI unit and its values.
+type Column<'a> = (&'a str, &'static str, &'a [f64]);
+
+/// All measured columns of a record.
+fn columns<'a>(rig: &'a Rig, record: &'a Recorded) -> Vec<Column<'a>> {
+    let inputs = rig.plant.inputs.iter().zip(&record.inputs).filter_map(|(declared, source)| match source {
+        Source::Measured(values) => Some((declared.name.as_str(), declared.unit.symbol, &values[..])),
+        Source::DerivativeOf(_) | Source::Constant(_) => None,
+    });
+    let outputs = record.measured.iter().map(|measured| {
+        let declared = &rig.plant.outputs[measured.output];
+        (declared.name.as_str(), declared.unit.symbol, &measured.values[..])
+    });
+    inputs.chain(outputs).collect()
+}
+
+/// Pairs of columns whose units do not go together.
+pub(super) fn problems(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
+    let columns = columns(rig, record);
+    let mut problems: Vec<DataProblem> = Vec::new();
+    for motion in &columns {
+        for rate in columns.iter().filter(|rate| is_rate(motion.0, rate.0)) {
+            // One wrong column is wrong beside each of its relatives.
+            if let Some(problem) = compared(record, *motion, *rate)
+                && !problems.iter().any(|it| it.signal == problem.signal)
+            {
+                problems.push(problem);
+            }
+        }
+    }
+    problems
+}
+
+/// Lengths that no test rig goes, or not as fast.
+pub(super) fn beyond_any_rig(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
+    let of = |(name, si, values): Column<'_>| {
+        let rates = record.sections.iter().flat_map(|it| derivative(&values[it.clone()], record.step));
+        let (length, rate) = (rms(values), rms(&rates.collect::<Vec<_>>()));
+        let reading = readings(si).into_iter().find(|it| !it.in_header)?;
+        (si == "m" && is_beyond_any_rig(length, rate)).then(|| {
+            let text = format!(
+                "its rms is {} m, and that of its rate {} m/s. No test rig goes beyond {} m or {} m/s. It fits if {}",
+                digits(length, 2),
+                digits(rate, 2),
+                FARTHEST.0,
+                FARTHEST.1,
+                mended(name, si, reading)
+            );
+            DataProblem { record: record.name.clone(), signal: name.into(), text, fatal: true }
+        })
+    };
+    columns(rig, record).into_iter().filter_map(of).collect()
+}
+
+/// Whether a signal is the rate of another one, by their names.
+fn is_rate(motion: &str, rate: &str) -> bool {
+    let of = |(motions, end): &(&[&str], &str)| {
+        let group = rate.strip_suffix(end)?;
+        Some(motions.iter().any(|it| motion.strip_suffix(it) == Some(group)))
+    };
+    RATES.iter().filter_map(of).any(|it| it)
+}
+
+fn compared(record: &Recorded, motion: Column<'_>, rate: Column<'_>) -> Option<DataProblem> {
+    let (mut derived, mut measured) = (Vec::new(), Vec::new());
+    for section in &record.sections {
+        let values = derivative(&motion.2[section.clone()], record.step);
+        let pairs = values.into_iter().zip(&rate.2[section.clone()]);
+        for (one, other) in pairs.filter(|(one, other)| one.is_finite() && other.is_finite()) {
+            derived.push(one);
+            measured.push(*other);
+        }
+    }
+    let about_mean = |values: &[f64]| {
+        let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+        values.iter().map(|value| value - mean).collect::<Vec<_>>()
+    };
+    let alike = likeness(&about_mean(&derived), &about_mean(&measured));
+    let (is_motion, reading) = mismatched_rate(alike, &readings(motion.1), &readings(rate.1))?;
+    let wrong = if is_motion { motion } else { rate };
+    let text = format!(
+        "{} and {} do not go together: the derivative of {} has an rms of {} {unit}, and {} one of {} {unit}. That fits if {}",
+        motion.0,
+        rate.0,
+        motion.0,
+        digits(rms(&derived), 2),
+        rate.0,
+        digits(rms(&measured), 2),
+        mended(wrong.0, wrong.1, reading),
+        unit = unit(rate.1),
+    );
+    Some(DataProblem { record: record.name.clone(), signal: wrong.0.into(), text, fatal: true })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rate_has_the_name_of_its_motion() {
+        assert!(is_rate("position", "velocity") && is_rate("velocity", "acceleration"));
+        assert!(is_rate("suspension.deflection", "suspension.velocity"));
+        assert!(!is_rate("body.position", "wheel.velocity") && !is_rate("position", "acceleration"));
+        assert!(!is_rate("velocity", "velocity"));
+    }
+}
