@@ -83,6 +83,7 @@ impl Diagnosis<'_> {
             unmodelled,
             missing: self.found.missing.as_ref().map(missing),
             experiment,
+            deciding: None,
             data_problems,
             candidates: self.candidates(),
             seconds,

@@ -4,8 +4,8 @@ use textwrap::Options;
 use unicode_width::UnicodeWidthStr;
 
 use super::words::{
-    badge, capitalised, count, digits, effect_name, effect_rank, headline, interval, located, number,
-    percent, quantity, unit,
+    badge, capitalised, chance, count, digits, effect_name, effect_rank, headline, interval, located, number,
+    pair, percent, quantity, source, unit,
 };
 use crate::report::findings::{AccountItem, Effect, Findings, SignalAccount};
 
@@ -36,6 +36,7 @@ pub fn terminal(findings: &Findings) -> String {
     if let Some(experiment) = &findings.experiment {
         lines.blank();
         lines.wrapped("", &format!("Next experiment: {experiment}"));
+        lines.deciding(findings);
     }
     lines.data_problems(findings);
     lines.blank();
@@ -158,6 +159,25 @@ impl Lines {
             self.wrapped("  ", &format!("{} (95 %: {low} … {high})", text.trim_end()));
         }
         self.more(wrong.len());
+    }
+
+    /// What the computed experiment separates, and what makes it.
+    fn deciding(&mut self, findings: &Findings) {
+        let Some(deciding) = &findings.deciding else { return };
+        if !deciding.pairs.is_empty() {
+            self.wrapped("  ", "Expected probability of a right decision:");
+        }
+        for it in deciding.pairs.iter().take(SHOWN) {
+            let recorded = digits(it.recorded, 2);
+            self.wrapped("    ", &format!("{}: {}, records d' = {recorded}", pair(findings, it), chance(it)));
+        }
+        self.more(deciding.pairs.len());
+        if deciding.decides {
+            self.wrapped("  ", "Signals: experiment.csv");
+        }
+        for it in deciding.drives.iter().filter_map(|it| it.source.as_ref()) {
+            self.wrapped("  ", &source(it));
+        }
     }
 
     fn data_problems(&mut self, findings: &Findings) {

@@ -40,6 +40,7 @@ pub fn empty(verdict: Verdict) -> Findings {
         unmodelled: vec![],
         missing: None,
         experiment: None,
+        deciding: None,
         data_problems: vec![],
         candidates: vec![],
         pictures: Pictures::default(),
