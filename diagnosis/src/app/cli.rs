@@ -77,6 +77,10 @@ pub struct DiagnosisArguments {
     #[arg(long, value_name = "N", value_parser = positive)]
     pub force: Option<f64>,
 
+    /// Largest rate of the road or motion in a deciding experiment in m/s [default: as in the records]
+    #[arg(long, value_name = "M/S", value_parser = positive)]
+    pub rate: Option<f64>,
+
     /// Highest frequency of a deciding experiment in Hz [default: the rig's usual one]
     #[arg(long, value_name = "HZ", value_parser = positive)]
     pub bandwidth: Option<f64>,

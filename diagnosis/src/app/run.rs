@@ -136,6 +136,7 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
     let limits = Limits {
         stroke: arguments.stroke,
         force: arguments.force,
+        rate: arguments.rate,
         duration: arguments.duration,
         bandwidth: arguments.bandwidth,
     };

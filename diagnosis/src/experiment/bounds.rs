@@ -17,6 +17,8 @@ pub struct Limits {
     pub stroke: Option<f64>,
     /// Largest force in N, or N.m of a torque.
     pub force: Option<f64>,
+    /// Largest rate of a motion that drives the rig, in m/s.
+    pub rate: Option<f64>,
     /// Longest duration in seconds.
     pub duration: Option<f64>,
     /// Highest frequency in Hz.
@@ -58,11 +60,14 @@ impl World<'_> {
         let inputs = plant.inputs.iter().enumerate().filter_map(|(input, declared)| {
             let (_, band) = self.rig.excitation(declared)?;
             let [amplitude, rate] = self.reached(input, declared.start)?;
-            let amplitude = match declared.unit.symbol {
-                "N" | "N.m" => limits.force.unwrap_or(amplitude),
+            let (amplitude, rate) = match declared.unit.symbol {
+                "N" | "N.m" => (limits.force.unwrap_or(amplitude), rate),
                 // A road may be as high as the stroke is long: the stroke itself is an output's bound.
-                "m" => limits.stroke.map_or(amplitude, |stroke| stroke.max(amplitude)),
-                _ => amplitude,
+                "m" => {
+                    let amplitude = limits.stroke.map_or(amplitude, |stroke| stroke.max(amplitude));
+                    (amplitude, limits.rate.unwrap_or(rate))
+                }
+                _ => (amplitude, rate),
             };
             let low = band.0.max(1.0 / duration);
             let high = limits.bandwidth.unwrap_or(band.1).min(SAMPLED / step).max(low);

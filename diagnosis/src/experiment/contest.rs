@@ -72,6 +72,11 @@ impl<'a> Contest<'a> {
         Some(Self { world, models, bounds, like, levels, independent })
     }
 
+    /// The chosen model, then each rival.
+    pub fn models(&self) -> &[Rival] {
+        &self.models
+    }
+
     /// The rivals of the chosen model.
     pub fn rivals(&self) -> &[Rival] {
         &self.models[1..]

@@ -13,20 +13,27 @@ pub const DECIDES: f64 = 0.95;
 /// Growth of the error power from which one model is told from another: below, the diagnosis calls both as good.
 pub const EXCESS: f64 = crate::confirm::SAME - 1.0;
 
+/// Distance d' that a probability of a right decision needs: Φ(d'/2).
+fn needed(probability: f64) -> f64 {
+    2.0 * Normal::standard().inverse_cdf(probability)
+}
+
 /// How far the predictions of a wrong model are from those of the right one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Separation {
     /// Distance in standard deviations of what sensors and the model leave: d'.
     pub distance: f64,
-    /// By how much the wrong model's error power exceeds the right one's.
+    /// By how much the wrong model's error power exceeds the right one's, as a share.
     pub excess: f64,
 }
 
 impl Separation {
-    /// From the weighted sum of squares of the difference and the number of independent samples in it.
+    /// From the weighted sum of squares of the difference and the number of independent samples in it. More samples than those
+    /// with which [`EXCESS`] just decides are no further evidence: no model is so right that its errors are all chance.
     pub fn of(squares: f64, independent: f64) -> Self {
-        let squares = squares.max(0.0);
-        Self { distance: squares.sqrt(), excess: squares / independent.max(1.0) }
+        let excess = squares.max(0.0) / independent.max(1.0);
+        let believed = needed(DECIDES).powi(2) / EXCESS;
+        Self { distance: (excess * independent.clamp(1.0, believed)).sqrt(), excess }
     }
 
     /// Probability that the likelier model is the right one: Φ(d'/2).
@@ -36,7 +43,7 @@ impl Separation {
 
     /// Whether it is enough to decide.
     pub fn decides(self) -> bool {
-        self.probability() >= DECIDES && self.excess >= EXCESS
+        self.probability() >= DECIDES
     }
 
     /// The smaller one.
@@ -108,8 +115,12 @@ mod tests {
         assert!((of(0.0).probability() - 0.5).abs() < 1e-12);
         assert!((of(3.29).probability() - 0.95).abs() < 1e-3);
         assert!(of(3.3).decides() && !of(3.2).decides());
-        // However many samples: an error that is no larger tells nothing.
-        assert!(!Separation::of(100.0, 1e6).decides() && Separation::of(100.0, 1e3).decides());
+        assert_eq!(Separation::of(25.0, 100.0), Separation { distance: 5.0, excess: 0.25 });
+        // However many samples: an error power that is hardly larger tells nothing.
+        for samples in [1e4, 1e6, 1e8] {
+            assert!(!Separation::of(0.99 * EXCESS * samples, samples).decides());
+            assert!(Separation::of(1.01 * EXCESS * samples, samples).decides());
+        }
     }
 
     #[test]
@@ -155,7 +166,7 @@ mod tests {
         #[test]
         fn a_larger_distance_is_never_less_sure(a in 0.0..20.0_f64, b in 0.0..20.0_f64) {
             let [one, two] = [a, b].map(|distance| Separation { distance, excess: 1.0 });
-            prop_assert_eq!(one.distance > two.distance, one.probability() > two.probability() || one.distance > two.distance && one.probability() == 1.0);
+            prop_assert!(a > b || one.probability() <= two.probability());
             prop_assert_eq!(one.min(two).distance, a.min(b));
         }
     }

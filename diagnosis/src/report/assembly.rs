@@ -1,6 +1,7 @@
 //! Findings from a diagnosis: verdict, words, tables and pictures.
 
 mod account;
+mod deciding;
 mod pictures;
 mod summary;
 mod unmodelled;

@@ -6,7 +6,7 @@ mod open;
 mod places;
 mod verdict;
 
-pub use experiment::{chance, pair, source};
+pub use experiment::{chance, experiment, pair, source};
 pub use numbers::{digits, fit, interval, labelled, number, percent, quantity, unit, value};
 pub use open::{open_signal, open_signals};
 pub use places::{Part, effect_name, effect_rank, element, located, part, place, sized};

@@ -68,14 +68,6 @@ pub fn chance(pair: &Distinction) -> String {
     format!("{} (d' = {})", percent(pair.probability), digits(pair.distance, 2))
 }
 
-impl Findings {
-    /// Takes an experiment that was computed in the place of the catalogue's advice.
-    pub fn decide(&mut self, deciding: DecidingExperiment) {
-        self.experiment = Some(experiment(self, &deciding));
-        self.deciding = Some(deciding);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
