@@ -102,10 +102,17 @@ impl Shape {
             let edge = (PI * amplitude / rate).clamp(EDGE, LONGEST_EDGE / frequency);
             return (Self::Square { frequency, edge }, amplitude.min(rate * edge / PI));
         }
-        let fastest = self.frequencies().1.unwrap_or(self.frequencies().0);
-        let step = 0.02 / fastest;
-        let signal = self.signal(1.0, step, (duration / step) as usize);
-        let steepest = signal.windows(2).map(|pair| (pair[1] - pair[0]).abs() / step).fold(0.0, f64::max);
+        let steepest = match self {
+            Self::Sine { frequency } => TAU * frequency,
+            Self::Chirp { from, to } => TAU * from.max(to),
+            Self::Triangle { frequency } => 4.0 * frequency,
+            Self::Square { .. } | Self::Multisine { .. } => {
+                let (from, to) = self.frequencies();
+                let step = 0.01 / to.unwrap_or(from);
+                let signal = self.signal(1.0, step, (duration / step) as usize);
+                signal.windows(2).map(|pair| (pair[1] - pair[0]).abs() / step).fold(0.0, f64::max)
+            }
+        };
         (self, amplitude.min(rate / steepest))
     }
 }

@@ -51,3 +51,25 @@ fn table(step: f64, columns: &[(String, Vec<f64>)]) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiment::excitation::Wave;
+
+    #[test]
+    fn a_table_has_every_input_and_a_road_its_profile() {
+        let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
+        let input = |name: &str| rig.plant.input(name).unwrap();
+        let wave = |name: &str, shape| Wave { input: input(name), shape, amplitude: 0.01 };
+        let triangle = wave("road.position", Shape::Triangle { frequency: 1.0 });
+        let both = files(&rig, &Excitation { waves: vec![triangle] }, 0.25, 1.0);
+        assert_eq!(both.iter().map(|(name, _)| &name[..]).collect::<Vec<_>>(), [TABLE, PROFILE]);
+        let lines: Vec<&str> = both[0].1.lines().collect();
+        assert_eq!(lines[0], "time [s],road.position [m],actuator.force [N]");
+        assert_eq!((lines.len(), lines[2]), (5, "0.250000,1.0000000e-2,0.0000000e0"));
+        assert!(both[1].1.starts_with("time [s],position [m]\n"));
+        let force = wave("actuator.force", Shape::Triangle { frequency: 1.0 });
+        assert_eq!(files(&rig, &Excitation { waves: vec![force] }, 0.25, 1.0).len(), 1);
+    }
+}
