@@ -21,8 +21,10 @@ const SMALLEST: f64 = 0.01;
 
 /// A model among rivals.
 pub struct Rival {
-    /// The effect that it has and the others do not.
+    /// The effect that it has.
     pub term: Term,
+    /// The chosen effect in whose place that is; the same one in the chosen model.
+    pub in_place_of: Term,
     /// The model, fitted to the estimation records.
     pub fitted: Fitted,
     /// Its equations.
@@ -82,7 +84,13 @@ impl<'a> Contest<'a> {
         &self.models[1..]
     }
 
-    /// How far the estimation records separate the chosen model from each rival, both as fitted to them.
+    /// Time between two samples of the simulated experiments in seconds.
+    pub fn step(&self) -> f64 {
+        self.like.step
+    }
+
+    /// How far the predictions of the chosen model and each rival are apart on the estimation records, both as fitted to them.
+    /// Where that is far and the records do not decide all the same, neither of them is quite right.
     pub fn present(&self) -> Vec<Separation> {
         let chosen = &self.models[0].fitted.train;
         let of = |rival: &Rival| {

@@ -65,7 +65,7 @@ impl Excitation {
             }
         });
         let unknown = |it: &Measured| Measured { values: vec![f64::NAN; count], ..it.clone() };
-        let longest = like.sections.iter().map(|it| it.len()).max().unwrap_or(count).max(1);
+        let longest = like.sections.iter().map(ExactSizeIterator::len).max().unwrap_or(count).max(1);
         let parts = count.div_ceil(longest).max(1);
         Recorded {
             name: "experiment".into(),

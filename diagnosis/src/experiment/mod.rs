@@ -43,18 +43,18 @@ impl<'a> Diagnosis<'a> {
         for (accepted, rival) in ambiguous.flat_map(|it| it.rivals.iter().map(move |rival| (it.term, *rival)))
         {
             if models.is_empty() {
-                models.push(self.rival(accepted, chosen.clone())?);
+                models.push(self.rival(accepted, accepted, chosen.clone())?);
             }
             let fitted = self.in_place_of(accepted, rival)?;
-            models.push(self.rival(rival, fitted)?);
+            models.push(self.rival(rival, accepted, fitted)?);
         }
         let bounds = self.world.bounds(limits, chosen);
         Ok(Contest::new(&self.world, models, bounds))
     }
 
-    fn rival(&self, term: Term, fitted: Fitted) -> Result<Rival, String> {
+    fn rival(&self, term: Term, in_place_of: Term, fitted: Fitted) -> Result<Rival, String> {
         let dynamics = self.world.dynamics(&fitted.terms)?;
-        Ok(Rival { term, fitted, dynamics })
+        Ok(Rival { term, in_place_of, fitted, dynamics })
     }
 
     /// The extended model with a rival in the place of an effect.

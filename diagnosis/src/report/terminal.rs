@@ -5,7 +5,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::words::{
     badge, capitalised, chance, count, digits, effect_name, effect_rank, headline, interval, located, number,
-    pair, percent, quantity, source, unit,
+    percent, quantity, unit,
 };
 use crate::report::findings::{AccountItem, Effect, Findings, SignalAccount};
 
@@ -161,23 +161,13 @@ impl Lines {
         self.more(wrong.len());
     }
 
-    /// What the computed experiment separates, and what makes it.
+    /// How well the computed experiment separates effects from their rivals.
     fn deciding(&mut self, findings: &Findings) {
         let Some(deciding) = &findings.deciding else { return };
-        if !deciding.pairs.is_empty() {
-            self.wrapped("  ", "Expected probability of a right decision:");
-        }
         for it in deciding.pairs.iter().take(SHOWN) {
-            let recorded = digits(it.recorded, 2);
-            self.wrapped("    ", &format!("{}: {}, records d' = {recorded}", pair(findings, it), chance(it)));
+            self.wrapped("  ", &chance(findings, it));
         }
         self.more(deciding.pairs.len());
-        if deciding.decides {
-            self.wrapped("  ", "Signals: experiment.csv");
-        }
-        for it in deciding.drives.iter().filter_map(|it| it.source.as_ref()) {
-            self.wrapped("  ", &source(it));
-        }
     }
 
     fn data_problems(&mut self, findings: &Findings) {

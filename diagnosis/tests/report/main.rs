@@ -102,14 +102,14 @@ fn the_page_says_what_the_findings_say() {
         "Guide friction in the body’s guide",
         "Stribeck friction",
         "Drive road.position with a chirp of",
-        "It does not decide between Coulomb friction in the strut and Stribeck friction in the strut.",
+        "guide friction in the body’s guide, not from Stribeck friction in the strut.",
         "Road: kind = Chirp, amplitude = 0.00612 m, chirp.start_frequency",
         "71 %",
     ] {
         assert!(ambiguous.contains(text), "{text}: {ambiguous}");
     }
     let terminal = report::terminal(&sample(Verdict::Ambiguous));
-    for text in ["Next experiment: Drive road.position", "99.9 % (d' = 8.2)", "Signals: experiment.csv"] {
+    for text in ["Next experiment: Drive road.position", "99.9 % (d' = 8.2, records 0.50)", "71 %"] {
         assert!(terminal.contains(text), "{text}: {terminal}");
     }
     let mut several = sample(Verdict::Ambiguous);

@@ -2,7 +2,6 @@
 
 use crate::catalogue::naming::name;
 use crate::diagnosis::Diagnosis;
-use crate::estimation::hypothesis::Term;
 use crate::experiment::{Contest, Rival, Separation, Trial, Wave, files};
 use crate::report::findings::{
     DecidingExperiment, Distinction, Drive, ExperimentLimit, Findings, Setting, SourceFmu, Value,
@@ -29,7 +28,7 @@ impl Diagnosis<'_> {
         let of_rival = |(number, (rival, present)): (usize, (&Rival, Separation))| {
             let expected = best.map_or(Separation::default(), |it| it.separations[number]);
             Distinction {
-                effect: self.effect_of(rival.term),
+                effect: name(rival.in_place_of, &rig.plant).short(),
                 rival: name(rival.term, &rig.plant).short(),
                 distance: expected.distance,
                 probability: expected.probability(),
@@ -43,7 +42,7 @@ impl Diagnosis<'_> {
         let decides = pairs.iter().any(|it| it.decides);
         let duration = contest.bounds.duration;
         let shown = best.filter(|_| decides);
-        let step = self.measured.first().map_or(1e-3, |it| it.step);
+        let step = self.measured.first().map_or(contest.step(), |it| it.step);
         DecidingExperiment {
             decides,
             compared,
@@ -55,12 +54,6 @@ impl Diagnosis<'_> {
             pairs,
             files: shown.map_or(Vec::new(), |it| files(rig, &it.excitation, step, duration)),
         }
-    }
-
-    /// Number and place of the effect that has a rival.
-    fn effect_of(&self, rival: Term) -> String {
-        let accepted = self.found.accepted.iter().find(|it| it.rivals.contains(&rival));
-        accepted.map_or(String::new(), |it| name(it.term, &self.world.rig.plant).short())
     }
 
     fn drive(&self, wave: &Wave, duration: f64) -> Drive {
@@ -106,7 +99,7 @@ impl Diagnosis<'_> {
         let inputs = contest.bounds.inputs.iter().flat_map(|bound| {
             let declared = &plant.inputs[bound.input];
             let signal = best.map(|it| {
-                let step = self.world.train.first().map_or(1e-3, |it| it.step);
+                let step = contest.step();
                 let count = (contest.bounds.duration / step) as usize;
                 let signal = it.excitation.signal(self.world.rig, bound.input, step, count);
                 let largest = signal.iter().fold(0.0_f64, |most, it| most.max((it - declared.start).abs()));

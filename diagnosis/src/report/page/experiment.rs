@@ -26,9 +26,9 @@ fn computed(findings: &Findings, deciding: &DecidingExperiment) -> Markup {
     html! {
         @if deciding.decides {
             p {
-                code { "experiment.csv" } " holds the signals."
+                code { "experiment.csv" } " holds the signals. "
                 @for source in deciding.drives.iter().filter_map(|it| it.source.as_ref()) {
-                    " " code { (self::source(source)) } "."
+                    "An FMU makes them, too: " code { (self::source(source)) } ". "
                 }
             }
         }
@@ -56,7 +56,7 @@ fn computed(findings: &Findings, deciding: &DecidingExperiment) -> Markup {
         }
         p.small {
             "d′ is the distance of the predictions in standard deviations of the remaining error, with the wrong model’s \
-             parameters fitted. The probability of a right decision is Φ(d′/2)."
+             parameters fitted. The probability of a right decision is that of a normal error below d′/2."
         }
     }
 }

@@ -10,38 +10,60 @@ const TYPED: usize = 6;
 
 /// What to do, or that nothing within the limits decides.
 pub fn experiment(findings: &Findings, deciding: &DecidingExperiment) -> String {
-    let of = |decides: bool| {
-        let pairs = deciding.pairs.iter().filter(move |it| it.decides == decides);
-        pairs.map(|it| pair(findings, it)).collect::<Vec<_>>()
-    };
     if deciding.compared == 0 {
         return "No excitation could be simulated within the limits.".into();
     }
-    let undecided = of(false);
+    let mut effects: Vec<&str> = deciding.pairs.iter().map(|it| &it.effect[..]).collect();
+    effects.dedup();
     if !deciding.decides {
+        let effects = effects.into_iter().map(|it| separation(findings, deciding, it, false));
         return format!(
-            "None of {} excitations within the limits decides between {}. Wider limits (--stroke, --force, --rate) or less \
+            "None of {} excitations within the limits separates {}. Wider limits (--stroke, --force, --rate) or less \
              noise may.",
             deciding.compared,
-            list(&undecided, "and between")
+            list(&effects.flatten().collect::<Vec<_>>(), "or")
         );
     }
     let drives: Vec<String> = deciding.drives.iter().map(drive).collect();
-    let mut text = format!(
-        "Drive {} for {}, with all other inputs at rest. This decides between {}.",
+    let all = effects.into_iter().map(|effect| {
+        let [yes, no] = [true, false].map(|it| separation(findings, deciding, effect, it));
+        match (yes, no) {
+            (Some(yes), None) => format!("It separates {yes}."),
+            (None, Some(no)) => format!("It does not separate {no}."),
+            (Some(yes), Some(_)) => {
+                format!("It separates {yes}, not from {}.", rivals(findings, deciding, effect, false))
+            }
+            (None, None) => String::new(),
+        }
+    });
+    format!(
+        "Drive {} for {} s, with all other inputs at rest (experiment.csv). {}",
         list(&drives, "and"),
-        format_args!("{} s", trimmed(deciding.duration, DIGITS)),
-        list(&of(true), "and between")
-    );
-    if !undecided.is_empty() {
-        text += &format!(" It does not decide between {}.", list(&undecided, "and between"));
-    }
-    text
+        trimmed(deciding.duration, DIGITS),
+        all.collect::<Vec<_>>().join(" ")
+    )
+}
+
+/// An effect and those of its rivals from which the experiment separates it, or does not; nothing if there are none.
+fn separation(
+    findings: &Findings,
+    deciding: &DecidingExperiment,
+    effect: &str,
+    decides: bool,
+) -> Option<String> {
+    let rivals = rivals(findings, deciding, effect, decides);
+    (!rivals.is_empty()).then(|| format!("{} from {rivals}", effect_name(findings, effect)))
+}
+
+fn rivals(findings: &Findings, deciding: &DecidingExperiment, effect: &str, decides: bool) -> String {
+    let rivals = deciding.pairs.iter().filter(|it| it.effect == effect && it.decides == decides);
+    let names: Vec<String> = rivals.map(|it| effect_name(findings, &it.rival)).collect();
+    list(&names, if decides { "and" } else { "or" })
 }
 
 /// An effect and its rival.
 pub fn pair(findings: &Findings, pair: &Distinction) -> String {
-    format!("{} and {}", effect_name(findings, &pair.effect), effect_name(findings, &pair.rival))
+    format!("{} or {}", effect_name(findings, &pair.effect), effect_name(findings, &pair.rival))
 }
 
 /// `road.position with a chirp of 0.006 m from 0.3 to 15 Hz`.
@@ -66,9 +88,14 @@ pub fn source(source: &SourceFmu) -> String {
     format!("{}: {}{behind}", source.fmu, all.join(", "))
 }
 
-/// `99.5 % right (d' = 5.2)`.
-pub fn chance(pair: &Distinction) -> String {
-    format!("{} (d' = {})", percent(pair.probability), digits(pair.distance, 2))
+/// `right decision against damper knee in the strut: 99.5 % (d' = 5.2, records 1.0)`.
+pub fn chance(findings: &Findings, pair: &Distinction) -> String {
+    let [expected, recorded] = [pair.distance, pair.recorded].map(|it| digits(it, 2));
+    let rival = effect_name(findings, &pair.rival);
+    format!(
+        "right decision against {rival}: {} (d' = {expected}, records {recorded})",
+        percent(pair.probability)
+    )
 }
 
 #[cfg(test)]
@@ -116,14 +143,13 @@ mod tests {
         assert_eq!(
             findings.experiment.as_deref(),
             Some(
-                "Drive road.position with a chirp of 0.00612 m from 0.3 to 15 Hz for 20 s, with all other inputs at rest. \
-                 This decides between 01 strut and 05 strut. It does not decide between 01 strut and 06 strut."
+                "Drive road.position with a chirp of 0.00612 m from 0.3 to 15 Hz for 20 s, with all other inputs at rest \
+                 (experiment.csv). It separates 01 strut from 05 strut, not from 06 strut."
             )
         );
         findings.decide(deciding(vec![pair("06 strut", false)]));
         let text = findings.experiment.unwrap();
-        let start =
-            "None of 69 excitations within the limits decides between 01 strut and 06 strut. Wider limits";
+        let start = "None of 69 excitations within the limits separates 01 strut from 06 strut. Wider limits";
         assert!(text.starts_with(start), "{text}");
     }
 
