@@ -152,6 +152,19 @@ fn the_right_model_wins_on_the_experiment() {
     }
 }
 
+/// Records in stretches make an experiment in stretches, each with states of its own at the start.
+#[test]
+fn stretches_of_a_record_are_those_of_the_experiment() {
+    let (rig, truth) = case();
+    let mut records = records(&rig, &truth);
+    for record in records.train.iter_mut().chain(&mut records.test) {
+        record.sections = vec![0..1200, 1200..2400];
+    }
+    let diagnosis = diagnosed(&rig, &records);
+    let deciding = diagnosis.deciding_experiment(WIDER).unwrap().unwrap();
+    assert!(deciding.decides && deciding.pairs[0].distance > 5.0, "{deciding:?}");
+}
+
 #[test]
 fn the_table_is_a_record_s_drive() {
     let (rig, truth) = case();
