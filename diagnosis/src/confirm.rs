@@ -18,6 +18,8 @@ use crate::explain::selection::Proposal;
 use crate::report::findings::Evidence;
 use crate::signal::distortion::Fault;
 
+pub(crate) use choice::SAME;
+
 /// Share of what may matter that any fit that is compared has to promise.
 const HINT: f64 = 0.2;
 

@@ -4,7 +4,8 @@
 //! from one simulation. [`diagnosis`] fits the
 //! starting model ([`estimation`], [`plant`]), estimates what signal is [`missing`] and where, compares the effects of the
 //! [`catalogue`] and features without a name to it ([`explain`]), lets the data [`confirm`] them and makes the account and
-//! the verdict ([`decision`]). [`report`] shows what comes out and writes the extended model.
+//! the verdict ([`decision`]). Where rivals remain, an [`experiment`] is computed that separates them. [`report`] shows what
+//! comes out and writes the extended model.
 
 pub mod app;
 pub mod catalogue;
@@ -14,6 +15,7 @@ pub mod dataset;
 pub mod decision;
 pub mod diagnosis;
 pub mod estimation;
+pub mod experiment;
 pub mod explain;
 pub mod missing;
 pub mod plausibility;

@@ -4,7 +4,7 @@ mod actuated;
 mod drives;
 mod kinds;
 
-use strut_model::{ParameterSet, Value};
+use strut_model::{Declaration, ParameterSet, Value};
 use strut_physics::PARAMETER_SETS;
 
 use crate::catalogue::{self, Element};
@@ -264,6 +264,25 @@ impl Rig {
     pub fn rate_of(&self, name: &str) -> Option<usize> {
         let group = name.strip_suffix("velocity")?;
         ["position", "height"].into_iter().find_map(|of| self.plant.input(&format!("{group}{of}")))
+    }
+
+    /// Usual amplitude, in the input's unit, and band in Hz of what drives an input; none if it rests. What a kind does not
+    /// tell follows from the unit.
+    pub fn excitation(&self, declared: &Declaration) -> Option<(f64, (f64, f64))> {
+        let idle = self.kind.drives.iter().any(|it| it.input == declared.name)
+            && self.driven().is_some_and(|driven| driven.input != declared.name);
+        if idle {
+            return None;
+        }
+        if self.kind.excitation.is_empty() {
+            return Some(match declared.unit.symbol {
+                "N" => (100.0, (0.5, 18.0)),
+                "V" => (2.0, (0.5, 18.0)),
+                _ => (8e-3, (0.3, 15.0)),
+            });
+        }
+        let excitation = self.kind.excitation.iter().find(|it| it.input == declared.name)?;
+        Some((excitation.amplitude, excitation.band))
     }
 
     /// Indices of the parameters that are fitted first: those of the data sheet, and all of each effect that the rig has

@@ -71,6 +71,26 @@ pub struct DiagnosisArguments {
     #[arg(long, value_delimiter = ',', value_name = "NUMBER")]
     pub effects: Vec<String>,
 
+    /// Largest stroke of a deciding experiment in m, or rad of a pivot [default: as in the records]
+    #[arg(long, value_name = "M", value_parser = positive)]
+    pub stroke: Option<f64>,
+
+    /// Largest force of a deciding experiment in N, or N.m of a torque [default: as in the records]
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub force: Option<f64>,
+
+    /// Largest rate of the road or motion in a deciding experiment in m/s [default: as in the records]
+    #[arg(long, value_name = "M/S", value_parser = positive)]
+    pub rate: Option<f64>,
+
+    /// Highest frequency of a deciding experiment in Hz [default: the rig's usual one]
+    #[arg(long, value_name = "HZ", value_parser = positive)]
+    pub bandwidth: Option<f64>,
+
+    /// Duration of a deciding experiment in s [default: as the records, at most 20 s]
+    #[arg(long, value_name = "S", value_parser = positive)]
+    pub duration: Option<f64>,
+
     /// Folder for the report and the extended model; made if it is missing
     #[arg(long, value_name = "DIR", default_value = "report")]
     pub out: PathBuf,
@@ -110,4 +130,10 @@ pub struct SimulateArguments {
     /// Folder for train.csv and test.csv; made if it is missing
     #[arg(long, value_name = "DIR", default_value = "records")]
     pub out: PathBuf,
+}
+
+/// A limit of an experiment.
+fn positive(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse::<f64>().ok().filter(|it| it.is_finite() && *it > 0.0);
+    number.ok_or_else(|| "write a positive number in SI units".into())
 }

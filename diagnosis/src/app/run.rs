@@ -22,6 +22,7 @@ use crate::dataset::split::Records;
 use crate::dataset::witness;
 use crate::diagnosis::Options;
 use crate::estimation::deadline::{Deadline, Stage};
+use crate::experiment::Limits;
 use crate::plausibility;
 use crate::report;
 use crate::report::file::replace;
@@ -140,8 +141,28 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
             diagnosis = again;
         }
     }
+    bar.set_message("comparing experiments that separate the rivals");
+    let limits = Limits {
+        stroke: arguments.stroke,
+        force: arguments.force,
+        rate: arguments.rate,
+        duration: arguments.duration,
+        bandwidth: arguments.bandwidth,
+    };
+    let deciding = diagnosis.deciding_experiment(limits).unwrap_or_else(|error| {
+        problems.push(DataProblem {
+            record: "all".into(),
+            signal: "experiment".into(),
+            text: format!("no experiment is computed: {error}"),
+            fatal: false,
+        });
+        None
+    });
     bar.set_message("writing the report");
-    let findings = diagnosis.findings(problems, clock.elapsed().as_secs_f64());
+    let mut findings = diagnosis.findings(problems, clock.elapsed().as_secs_f64());
+    if let Some(deciding) = deciding {
+        findings.decide(deciding);
+    }
     report::write(&findings, &arguments.out).map_err(|error| error.to_string())?;
     bar.set_message("building the extended model");
     diagnosis.write_extended(&arguments.out, !arguments.no_fmu)?;

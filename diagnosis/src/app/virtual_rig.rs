@@ -3,8 +3,6 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-use strut_model::Declaration;
-
 use crate::dataset::recorded::derivative;
 use crate::plant::{Between, Drive};
 use crate::rig::Rig;
@@ -48,7 +46,7 @@ pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String,
         .plant
         .inputs
         .iter()
-        .map(|declared| match excitation(rig, declared) {
+        .map(|declared| match rig.excitation(declared) {
             Some((amplitude, band)) => {
                 let signal = multisine(count, step, amplitude, band, &mut random);
                 signal.into_iter().map(|value| declared.start + value).collect()
@@ -95,26 +93,6 @@ pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String,
 /// Whether a signal is an input of its own, not the rate of another one.
 fn drives(rig: &Rig, name: &str) -> bool {
     rig.plant.input(name).is_some() && rig.rate_of(name).is_none()
-}
-
-/// Amplitude and frequencies of what drives an input; none if it rests. What a kind does not tell follows from the
-/// unit.
-fn excitation(rig: &Rig, declared: &Declaration) -> Option<(f64, (f64, f64))> {
-    let drives = rig.kind.drives;
-    let idle = drives.iter().any(|it| it.input == declared.name)
-        && rig.driven().is_some_and(|driven| driven.input != declared.name);
-    if idle {
-        return None;
-    }
-    if rig.kind.excitation.is_empty() {
-        return Some(match declared.unit.symbol {
-            "N" => (100.0, (0.5, 18.0)),
-            "V" => (2.0, (0.5, 18.0)),
-            _ => (8e-3, (0.3, 15.0)),
-        });
-    }
-    let excitation = rig.kind.excitation.iter().find(|it| it.input == declared.name)?;
-    Some((excitation.amplitude, excitation.band))
 }
 
 /// Sines at a third of an octave with random phases; large slow, small fast; about `amplitude` in all.

@@ -11,7 +11,7 @@ use super::{Tried, contains, has_no_name, parts};
 /// Student's t of the difference of two fits' errors beyond which they are told apart.
 const APART: f64 = 2.5;
 /// Errors that are larger by less than this factor tell nothing apart, however steady the difference is.
-const SAME: f64 = 1.005;
+pub(crate) const SAME: f64 = 1.005;
 /// Errors of a rough fit that are larger by less than this factor may be as small when it is a close one.
 const NEAR: f64 = 1.1;
 

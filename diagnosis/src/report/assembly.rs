@@ -1,6 +1,7 @@
 //! Findings from a diagnosis: verdict, words, tables and pictures.
 
 mod account;
+mod deciding;
 mod disagreements;
 mod pictures;
 mod summary;
@@ -88,6 +89,7 @@ impl Diagnosis<'_> {
             unmodelled,
             missing: self.found.missing.as_ref().map(missing),
             experiment,
+            deciding: None,
             data_problems,
             candidates: self.candidates(),
             seconds,

@@ -1,6 +1,7 @@
 //! What a diagnosis finds: the contents of `report.json`.
 
 mod disagreement;
+mod experiment;
 mod pictures;
 
 use std::collections::BTreeMap;
@@ -10,6 +11,7 @@ use serde::Serialize;
 pub use crate::decision::verdict::Verdict;
 
 pub use disagreement::{Disagreement, RecordValue};
+pub use experiment::{DecidingExperiment, Distinction, Drive, ExperimentLimit, Setting, SourceFmu, Value};
 pub(crate) use pictures::LARGEST;
 pub use pictures::{Binned, Coherence, Mark, Parity, Periodogram, Pictures, Spectrum, Trace};
 
@@ -53,6 +55,8 @@ pub struct Findings {
     pub missing: Option<Missing>,
     /// What would settle doubts.
     pub experiment: Option<String>,
+    /// The experiment that is computed where rivals remain.
+    pub deciding: Option<DecidingExperiment>,
     /// What is wrong with the data.
     pub data_problems: Vec<DataProblem>,
     /// Every candidate.
@@ -86,6 +90,7 @@ impl Findings {
             unmodelled: Vec::new(),
             missing: None,
             experiment: None,
+            deciding: None,
             data_problems: problems,
             candidates: Vec::new(),
             pictures: Pictures::default(),

@@ -45,17 +45,20 @@ pub enum ReportError {
     },
 }
 
-/// Writes `report.html` and `report.json` into a folder, which is made if need be. Each file is either
-/// complete or as it was before.
+/// Writes `report.html`, `report.json` and the files of an experiment into a folder, which is made if need be. Each file is
+/// either complete or as it was before.
 ///
 /// # Errors
 /// If the folder cannot be made or a file cannot be written.
 pub fn write(findings: &Findings, folder: &Path) -> Result<(), ReportError> {
     std::fs::create_dir_all(folder)
         .map_err(|cause| ReportError::Folder { folder: folder.to_owned(), cause })?;
-    for (name, text) in [("report.json", json(findings)), ("report.html", html(findings))] {
+    let texts = [("report.json", json(findings)), ("report.html", html(findings))];
+    let texts = texts.iter().map(|(name, text)| (*name, text));
+    let experiment = findings.deciding.iter().flat_map(|it| &it.files).map(|(name, text)| (&name[..], text));
+    for (name, text) in texts.chain(experiment) {
         let path = folder.join(name);
-        replace(&path, &text).map_err(|cause| ReportError::File { path, cause })?;
+        replace(&path, text).map_err(|cause| ReportError::File { path, cause })?;
     }
     Ok(())
 }

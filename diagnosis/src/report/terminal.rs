@@ -4,7 +4,7 @@ use textwrap::Options;
 use unicode_width::UnicodeWidthStr;
 
 use super::words::{
-    badge, capitalised, count, digits, effect_name, effect_rank, headline, interval, located, number,
+    badge, capitalised, chance, count, digits, effect_name, effect_rank, headline, interval, located, number,
     percent, quantity, unit,
 };
 use crate::report::findings::{AccountItem, Effect, Findings, SignalAccount};
@@ -36,6 +36,7 @@ pub fn terminal(findings: &Findings) -> String {
     if let Some(experiment) = &findings.experiment {
         lines.blank();
         lines.wrapped("", &format!("Next experiment: {experiment}"));
+        lines.deciding(findings);
     }
     lines.data_problems(findings);
     lines.blank();
@@ -158,6 +159,15 @@ impl Lines {
             self.wrapped("  ", &format!("{} (95 %: {low} … {high})", text.trim_end()));
         }
         self.more(wrong.len());
+    }
+
+    /// How well the computed experiment separates effects from their rivals.
+    fn deciding(&mut self, findings: &Findings) {
+        let Some(deciding) = &findings.deciding else { return };
+        for it in deciding.pairs.iter().take(SHOWN) {
+            self.wrapped("  ", &chance(findings, it));
+        }
+        self.more(deciding.pairs.len());
     }
 
     fn data_problems(&mut self, findings: &Findings) {

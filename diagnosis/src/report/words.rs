@@ -1,11 +1,13 @@
 //! The words of the page and of the terminal: numbers, places, the verdict, what is still unexplained.
 
+mod experiment;
 mod numbers;
 mod open;
 mod places;
 mod verdict;
 
-pub use numbers::{digits, fit, interval, labelled, number, percent, quantity, unit, value};
+pub use experiment::{chance, experiment, pair, source};
+pub use numbers::{digits, fit, interval, labelled, number, percent, quantity, trimmed, unit, value};
 pub use open::{open_signal, open_signals};
 pub use places::{Part, effect_name, effect_rank, element, located, part, place, sized};
 pub use verdict::{badge, headline};

@@ -98,8 +98,19 @@ fn the_page_says_what_the_findings_say() {
         assert!(named.contains(text), "{text}");
     }
     let ambiguous = report::html(&sample(Verdict::Ambiguous));
-    for text in ["Guide friction in the body’s guide", "Stribeck friction", "Lock the wheel"] {
-        assert!(ambiguous.contains(text), "{text}");
+    for text in [
+        "Guide friction in the body’s guide",
+        "Stribeck friction",
+        "Drive road.position with a chirp of",
+        "guide friction in the body’s guide, not from Stribeck friction in the strut.",
+        "Road: kind = Chirp, amplitude = 0.00612 m, chirp.start_frequency",
+        "71 %",
+    ] {
+        assert!(ambiguous.contains(text), "{text}: {ambiguous}");
+    }
+    let terminal = report::terminal(&sample(Verdict::Ambiguous));
+    for text in ["Next experiment: Drive road.position", "99.9 % (d' = 8.2, records 0.50)", "71 %"] {
+        assert!(terminal.contains(text), "{text}: {terminal}");
     }
     let mut several = sample(Verdict::Ambiguous);
     several
@@ -261,6 +272,10 @@ fn a_report_replaces_an_older_one_and_leaves_nothing_else() {
     assert_eq!(names, ["report.html", "report.json"]);
     let json = std::fs::read_to_string(folder.path().join("report.json")).unwrap();
     assert!(json.contains("\"bad_data\""));
+    let findings = sample(Verdict::Ambiguous);
+    report::write(&findings, folder.path()).unwrap();
+    let table = std::fs::read_to_string(folder.path().join("experiment.csv")).unwrap();
+    assert_eq!(table, findings.deciding.unwrap().files[0].1);
 }
 
 /// Every key of an object, with those of the objects within.

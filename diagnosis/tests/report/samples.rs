@@ -9,7 +9,7 @@ use strut_diagnosis::report::findings::{
 };
 
 use crate::simulation::{self, Comparison, balances, binned, comparisons, missing};
-use parts::{account, base, candidates, friction, parameter, unmodelled};
+use parts::{account, base, candidates, deciding, friction, parameter, unmodelled};
 
 pub const VERDICTS: [Verdict; 9] = [
     Verdict::NoEffect,
@@ -43,6 +43,7 @@ pub fn empty(verdict: Verdict) -> Findings {
         unmodelled: vec![],
         missing: None,
         experiment: None,
+        deciding: None,
         data_problems: vec![],
         candidates: vec![],
         pictures: Pictures::default(),
@@ -165,11 +166,7 @@ pub fn sample(verdict: Verdict) -> Findings {
                 strut."
                     .into();
             findings.account = account(&findings.signals, &[("Coulomb friction in the strut", 1.0)], 0.0);
-            findings.experiment = Some(
-                "Lock the wheel, drive the body slowly with a triangle of 5 mm/s and measure the strut's force: \
-                 friction of the guide does not show there."
-                    .into(),
-            );
+            findings.decide(deciding());
         }
         Verdict::Unmodelled => {
             let x: Vec<f64> = (-20..=20).map(|index| f64::from(index) * 0.025).collect();

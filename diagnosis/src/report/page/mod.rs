@@ -2,6 +2,7 @@
 
 mod account;
 mod effects;
+mod experiment;
 mod fit;
 mod missing;
 mod pictures;
@@ -39,7 +40,7 @@ pub fn html(findings: &Findings) -> String {
                     (missing::section(findings))
                     (effects::section(findings))
                     (unmodelled::section(findings))
-                    (experiment(findings))
+                    (experiment::section(findings))
                     (fit::section(findings))
                     @if !parameters_first { (tables::nominal_parameters(findings)) }
                     (pictures::section(findings))
@@ -87,18 +88,6 @@ fn files(names: &[String]) -> Markup {
 /// Whether anything was added to the starting model.
 fn extended(findings: &Findings) -> bool {
     !findings.effects.is_empty() || findings.unmodelled.iter().any(|it| it.curve.is_some())
-}
-
-fn experiment(findings: &Findings) -> Markup {
-    let ambiguous = findings.effects.iter().any(|effect| !effect.ambiguous_with.is_empty());
-    html! {
-        @if let Some(experiment) = &findings.experiment {
-            section.experiment {
-                h2 { @if ambiguous { "Experiment to tell the alternatives apart" } @else { "Next experiment" } }
-                p { (experiment) }
-            }
-        }
-    }
 }
 
 fn footer(findings: &Findings) -> Markup {

@@ -28,6 +28,15 @@ pub fn digits(value: f64, significant: usize) -> String {
     text.replace('-', "−")
 }
 
+/// A number of at most so many significant digits, without zeros at its end: one that is typed into a tool.
+pub fn trimmed(value: f64, significant: usize) -> String {
+    let text = digits(value, significant);
+    match text.contains('.') && !text.contains('e') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
 fn decimals(value: f64, places: usize) -> String {
     let text = format!("{value:.places$}").replace('-', "−");
     if text.trim_start_matches('−').chars().all(|c| c == '0' || c == '.') {
@@ -126,6 +135,12 @@ mod tests {
             [0.834, 0.012, f64::NAN, -0.0, 0.9999, 1.0].map(percent),
             ["83 %", "1.2 %", "–", "0 %", ">\u{2009}99.9 %", "100 %"]
         );
+    }
+
+    #[test]
+    fn a_number_to_be_typed_has_no_zeros_at_its_end() {
+        let texts = [0.3, 15.0, 20.0, 0.006_12, 1.5e-7, 100.0].map(|it| trimmed(it, 6));
+        assert_eq!(texts, ["0.3", "15", "20", "0.00612", "1.5e−7", "100"]);
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Parts of sample findings.
 
 use strut_diagnosis::report::findings::{
-    AccountItem, BaseParameter, Candidate, Curve, Effect, EffectParameter, Evidence, Signal, SignalAccount,
-    Unmodelled,
+    AccountItem, BaseParameter, Candidate, Curve, DecidingExperiment, Distinction, Drive, Effect,
+    EffectParameter, Evidence, ExperimentLimit, Setting, Signal, SignalAccount, SourceFmu, Unmodelled, Value,
 };
 
 pub fn friction() -> Effect {
@@ -132,5 +132,52 @@ pub fn unmodelled(curve: Option<Curve>) -> Unmodelled {
                       there)"
                 .into(),
         curve,
+    }
+}
+
+/// A chirp of the road that separates friction from that of a guide, and not from Stribeck's.
+pub fn deciding() -> DecidingExperiment {
+    let value = |name: &str, value: f64, unit: &str| Value { name: name.into(), value, unit: unit.into() };
+    let source = SourceFmu {
+        fmu: "Road".into(),
+        settings: vec![Setting { name: "kind".into(), choice: "Chirp".into() }],
+        parameters: vec![
+            value("amplitude", 0.006_12, "m"),
+            value("chirp.start_frequency", 0.3, "Hz"),
+            value("chirp.end_frequency", 15.0, "Hz"),
+            value("chirp.duration", 20.0, "s"),
+        ],
+        adapter: false,
+    };
+    let pair = |rival: &str, distance: f64, probability: f64, decides: bool| Distinction {
+        effect: "01 strut".into(),
+        rival: rival.into(),
+        distance,
+        probability,
+        excess: 5e-4 * distance * distance,
+        decides,
+        recorded: 0.5,
+    };
+    DecidingExperiment {
+        decides: true,
+        compared: 69,
+        duration: 20.0,
+        drives: vec![Drive {
+            input: "road.position".into(),
+            unit: "m".into(),
+            shape: "chirp".into(),
+            amplitude: 0.006_12,
+            frequency: 0.3,
+            last_frequency: Some(15.0),
+            source: Some(source),
+        }],
+        limits: vec![ExperimentLimit {
+            signal: "suspension.deflection".into(),
+            unit: "m".into(),
+            limit: 0.0214,
+            reached: Some(0.0192),
+        }],
+        pairs: vec![pair("16 body_guide", 8.21, 0.99998, true), pair("02 strut", 1.12, 0.712, false)],
+        files: vec![("experiment.csv".into(), "time [s],road.position [m]\n".into())],
     }
 }
