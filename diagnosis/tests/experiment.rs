@@ -45,6 +45,7 @@ fn record(rig: &Rig, parameters: &[f64], motion: Vec<f64>, seed: u64) -> Recorde
         inputs: vec![Source::Measured(motion), Source::DerivativeOf(0)],
         between: Between::Lines,
         measured: vec![Measured { output, values, noise_floor: NOISE }],
+        others: vec![],
         sections: std::iter::once(0..count).collect(),
     }
 }

@@ -28,6 +28,9 @@ pub use table::{TABLE, files};
 
 use separation::rank;
 
+/// Names of the files that an experiment is written to.
+pub const FILES: [&str; 2] = [table::TABLE, shape::PROFILE];
+
 /// Excitations whose separations are computed with fitted rivals.
 const FINALISTS: usize = 3;
 

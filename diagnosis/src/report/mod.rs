@@ -21,6 +21,7 @@ pub use terminal::terminal;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::experiment::FILES;
 use crate::report::file::replace;
 use crate::report::findings::Findings;
 
@@ -59,6 +60,14 @@ pub fn write(findings: &Findings, folder: &Path) -> Result<(), ReportError> {
     for (name, text) in texts.chain(experiment) {
         let path = folder.join(name);
         replace(&path, text).map_err(|cause| ReportError::File { path, cause })?;
+    }
+    // An experiment of an earlier run would pass for this one's.
+    let written = |name: &str| findings.deciding.iter().any(|it| it.files.iter().any(|(own, _)| own == name));
+    for name in FILES.into_iter().filter(|name| !written(name)) {
+        let path = folder.join(name);
+        if path.exists() {
+            std::fs::remove_file(&path).map_err(|cause| ReportError::File { path, cause })?;
+        }
     }
     Ok(())
 }
