@@ -21,7 +21,7 @@ pub const POINTS: usize = 11;
 pub const TIMING: f64 = 4e-4;
 
 /// Standard deviations within which a value is that was measured otherwise.
-const SURE: f64 = 3.0;
+pub(crate) const SURE: f64 = 3.0;
 /// Standard deviations of a channel's timing within which a signal is in time.
 const IN_TIME: f64 = 2.5;
 

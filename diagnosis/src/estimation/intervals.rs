@@ -12,27 +12,17 @@
 
 use std::ops::Range;
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use crate::confirm::worth;
 use crate::dataset::recorded::Recorded;
 use crate::decision::disagreement::{Wish, wish};
-use crate::estimation::fit::{Coordinate, Handle, Normal, Point};
-use crate::estimation::hypothesis::{Fitted, POINTS, Term, World};
+use crate::estimation::beside::Assumed;
+use crate::estimation::fit::{Coordinate, Handle, Point};
+use crate::estimation::hypothesis::{Fitted, Term, World};
 use crate::estimation::lsq::Problem;
-use crate::screening::TriedOut;
 
 /// Excitations that are compared at least: fewer records are cut in pieces.
 const EXCITATIONS: usize = 4;
-/// Share of a column's square below which it does nothing that the coordinates could not do: it is another name for one of
-/// them, as a force cell's offset is for a preload, and nothing that is left speaks of it.
-const ITS_OWN: f64 = 1e-6;
-/// The same of a table's points: held beyond its ends, it comes only near to the straight line that is another name for a
-/// gain or a rate.
-const POINTS_OWN: f64 = 1e-3;
-/// Share of what an identified effect does on its own, below which columns beside it are another shape of it.
-const ANOTHER_SHAPE: f64 = 0.5;
 /// Quantile of the normal distribution for 95 % within.
 const NORMAL: f64 = 1.96;
 
@@ -47,6 +37,8 @@ pub struct Interval {
     pub half: f64,
     /// What each record on its own would choose, estimation records first.
     pub wishes: Vec<Wish>,
+    /// Effects that do on these records what the coordinate does.
+    pub twins: Vec<Term>,
     /// Values that are possible.
     bounds: (f64, f64),
 }
@@ -84,7 +76,7 @@ impl World<'_> {
     pub fn intervals(&self, fitted: &Fitted) -> Result<Vec<Interval>, String> {
         let own = fitted.linear.robust_covariance(&fitted.trace.scores);
         let opinions = self.opinions(fitted)?;
-        let pulls = self.pulls(fitted)?;
+        let Assumed { pulls, twins } = self.assumed(fitted)?;
         let interval = |(index, coordinate): (usize, &Coordinate)| {
             let all: Vec<Opinion> = opinions.iter().map(|excitation| excitation[index]).collect();
             let (between, quantile) = between(&all);
@@ -99,33 +91,10 @@ impl World<'_> {
             };
             let records = 0..self.train.len() + self.test.len();
             let wishes = records.filter_map(|record| wish(record, &said(record))).collect();
-            Interval { handle, value, half: variance.sqrt(), wishes, bounds }
+            let twins = twins[index].clone();
+            Interval { handle, value, half: variance.sqrt(), wishes, twins, bounds }
         };
         Ok(fitted.coordinates.iter().enumerate().map(interval).collect())
-    }
-
-    /// How far each coordinate would move beside each cause that is not in the model, the cause being in the shape in which the
-    /// errors contain most of it; only of causes that are worth a fit.
-    fn pulls(&self, fitted: &Fitted) -> Result<Vec<DVector<f64>>, String> {
-        let TriedOut { terms, probes, normal: Normal { h, g, .. } } = self.tried_out(fitted)?;
-        let mut most: Vec<Option<Pull>> = vec![None; terms.len()];
-        let amounts: Vec<Handle> = fitted.terms.iter().flat_map(|term| self.sizes(*term)).collect();
-        let effects = fitted.coordinates.iter().map(|it| amounts.contains(&it.handle)).collect::<Vec<_>>();
-        let beside = Beside { h: &h, g: &g, effects: &effects, left: 2.0 * fitted.cost };
-        for (probe, range) in &probes {
-            // It can do all that a gain, a lag and a delay can, which count on their own.
-            if matches!(terms[probe.term], Term::Response(_)) {
-                continue;
-            }
-            let found = beside.pull(range).filter(|it| it.gain > worth(fitted));
-            let most = &mut most[probe.term];
-            if let Some(found) = found
-                && most.as_ref().is_none_or(|it| found.gain > it.gain)
-            {
-                *most = Some(found);
-            }
-        }
-        Ok(together(most.into_iter().flatten().collect(), beside.left))
     }
 
     /// What each excitation says of each coordinate: a Gauss–Newton step from the fit.
@@ -153,86 +122,6 @@ impl World<'_> {
                 .map(move |sections| (Recorded { sections, ..record.clone() }, learnt, number))
         });
         Ok(cut.map(|(record, learnt, number)| of(&record, learnt, number)).collect())
-    }
-}
-
-/// What an assumed effect does to a fit.
-#[derive(Clone, Debug)]
-struct Pull {
-    /// By how much the sum of squares falls with it.
-    gain: f64,
-    /// Sum of squares of all that it does.
-    size: f64,
-    /// How far each coordinate moves with it.
-    moved: DVector<f64>,
-}
-
-/// How far coordinates move with effects that are together no larger than the remaining errors' sum of squares.
-fn together(pulls: Vec<Pull>, left: f64) -> Vec<DVector<f64>> {
-    let total: f64 = pulls.iter().map(|it| it.size.min(left)).sum();
-    let share = (left / total).min(1.0);
-    pulls.into_iter().map(|it| it.moved * (share * (left / it.size).min(1.0)).sqrt()).collect()
-}
-
-/// Normal equations `H d = −g` of a fit's coordinates, at their minimum, and of further columns behind them.
-struct Beside<'a> {
-    h: &'a DMatrix<f64>,
-    g: &'a DVector<f64>,
-    /// Which of the fit's coordinates are amounts of identified effects.
-    effects: &'a [bool],
-    /// Sum of squares of the remaining errors.
-    left: f64,
-}
-
-impl Beside<'_> {
-    /// The normal matrix of some columns in units of each one's norm, factored; none if they depend on each other.
-    fn factor(&self, all: &[usize], norm: &[f64]) -> Option<Cholesky<f64, Dyn>> {
-        // What nothing depends on stays where it is.
-        let diagonal = |i: usize| 1e-9 + f64::from(self.h[(all[i], all[i])] == 0.0);
-        DMatrix::from_fn(all.len(), all.len(), |i, j| {
-            self.h[(all[i], all[j])] / norm[i] / norm[j] + if i == j { diagonal(i) } else { 0.0 }
-        })
-        .cholesky()
-    }
-
-    /// By how much the sum of squares falls with some further columns, and how far the fit's coordinates move with them.
-    /// None if the columns do nothing that the coordinates could not do, or are another shape of an identified effect.
-    fn pull(&self, columns: &Range<usize>) -> Option<Pull> {
-        let own = self.effects.len();
-        let (mut order, effects): (Vec<usize>, Vec<usize>) = (0..own).partition(|it| !self.effects[*it]);
-        let nominal = order.len();
-        order.extend(effects);
-        order.extend(columns.clone().map(|column| own + column));
-        let norm: Vec<f64> =
-            order.iter().map(|it| self.h[(*it, *it)].max(f64::MIN_POSITIVE).sqrt()).collect();
-        let factor = self.factor(&order, &norm)?;
-        // Squares of the pivots: what of each column none of those before it can do.
-        let pivot = |factor: &Cholesky<f64, Dyn>, it: usize| factor.l_dirty()[(it, it)].powi(2);
-        let least = if columns.len() < POINTS { ITS_OWN } else { POINTS_OWN };
-        if (own..order.len()).any(|it| pivot(&factor, it) < least) {
-            return None;
-        }
-        let rotated = |all: &[usize]| [&all[..nominal], &all[own..], &all[nominal..own]].concat();
-        let places: Vec<usize> = (0..order.len()).collect();
-        let places = rotated(&places);
-        let norms: Vec<f64> = places.iter().map(|it| norm[*it]).collect();
-        let behind = self.factor(&rotated(&order), &norms)?;
-        let replaces = |it: usize| pivot(&behind, it + columns.len()) < ANOTHER_SHAPE * pivot(&factor, it);
-        if (nominal..own).any(replaces) {
-            return None;
-        }
-        // What bounds hold has a gradient, and stays.
-        let right =
-            DVector::from_fn(order.len(), |i, _| if i < own { 0.0 } else { -self.g[order[i]] / norm[i] });
-        let step = factor.solve(&right);
-        let unscaled = |i: usize| step[i] / norm[i];
-        let beside = || own..order.len();
-        let done = |i: usize, j: usize| unscaled(i) * self.h[(order[i], order[j])] * unscaled(j);
-        let size: f64 = beside().map(|i| beside().map(|j| done(i, j)).sum::<f64>()).sum();
-        let mut moved = DVector::zeros(own);
-        (0..own).for_each(|i| moved[order[i]] = unscaled(i));
-        let pull = Pull { gain: step.dot(&right), size, moved };
-        Some(pull).filter(|it| it.gain.is_finite() && it.moved.iter().all(|it| it.is_finite()))
     }
 }
 
@@ -298,42 +187,6 @@ mod tests {
         assert!((between - 0.5 * (20.0 / 3.0 - 0.5)).abs() < 1e-12, "{between}");
         // Student's distribution with three degrees of freedom.
         assert!((quantile - 3.182).abs() < 1e-3, "{quantile}");
-    }
-
-    /// A straight line through points of a parabola: without its curvature, the line's height at zero is off by what the
-    /// joint fit says.
-    #[test]
-    fn what_is_not_in_the_model_pulls_what_is() {
-        let (height, slope, curvature) = (2.0, -1.0, 0.5);
-        let x = DVector::from_fn(20, |i, _| i as f64 / 10.0);
-        let y = x.map(|x| height + slope * x + curvature * x * x);
-        let all = DMatrix::from_fn(20, 3, |row, power| x[row].powi(power as i32));
-        let line = all.columns(0, 2).into_owned();
-        let fitted = (line.tr_mul(&line)).cholesky().unwrap().solve(&line.tr_mul(&y));
-        let left = &line * &fitted - &y;
-        // A column that is a combination of the others says nothing.
-        let none =
-            DMatrix::from_fn(20, 4, |row, column| if column < 3 { all[(row, column)] } else { 1.0 + x[row] });
-        let (h, g) = (none.tr_mul(&none), none.tr_mul(&left));
-        let beside = |effects: &'static [bool]| Beside { h: &h, g: &g, effects, left: left.norm_squared() };
-        let pull = beside(&[false; 2]).pull(&(0..1)).unwrap();
-        assert!((pull.gain - left.norm_squared()).abs() < 1e-6 * pull.gain, "{}", pull.gain);
-        let moved = &pull.moved;
-        assert!(
-            (moved[0] - (height - fitted[0])).abs() < 1e-6 && (moved[1] - (slope - fitted[1])).abs() < 1e-6
-        );
-        assert!(beside(&[false; 2]).pull(&(1..2)).is_none());
-        // A parabola is most of all a line: it is another shape of an effect in proportion to x.
-        assert!(beside(&[false, true]).pull(&(0..1)).is_none());
-    }
-
-    /// Two effects, each twice as large as what remains, are half of it each.
-    #[test]
-    fn assumed_effects_are_together_no_larger_than_the_remaining_errors() {
-        let pull = Pull { gain: 1.0, size: 4.0, moved: DVector::from_element(1, 1.0) };
-        let all = together(vec![pull.clone(), pull.clone()], 2.0);
-        assert!(all.iter().all(|it| (it[0].powi(2) * pull.size - 1.0).abs() < 1e-12), "{all:?}");
-        assert_eq!(together(vec![pull.clone()], 8.0)[0], pull.moved);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Estimating parameters: hypotheses, output error, least squares, intervals.
 
+pub mod beside;
 pub mod comparison;
 pub mod deadline;
 pub mod fit;

@@ -27,9 +27,10 @@ pub use shape::Shape;
 pub use table::{TABLE, files};
 
 use separation::rank;
+use shape::PROFILE;
 
 /// Names of the files that an experiment is written to.
-pub const FILES: [&str; 2] = [table::TABLE, shape::PROFILE];
+pub const FILES: [&str; 2] = [TABLE, PROFILE];
 
 /// Excitations whose separations are computed with fitted rivals.
 const FINALISTS: usize = 3;

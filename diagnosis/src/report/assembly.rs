@@ -19,12 +19,13 @@ use crate::dataset::witness::same_excitation;
 use crate::decision::verdict::{Facts, verdict};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::estimation::fit::{Handle, Point, Residuals};
-use crate::estimation::hypothesis::Term;
+use crate::estimation::hypothesis::{SURE, Term};
 use crate::explain::selection::Score;
 use crate::report::findings::{
     Answer, BaseParameter, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal,
     SignalCorrection, Start,
 };
+use crate::report::words::located;
 use crate::signal::distortion::{AFTER, Correction, Fault};
 
 /// Relative change of a base parameter that matters, if it is significant.
@@ -111,6 +112,8 @@ impl Diagnosis<'_> {
                 low: -1.0,
                 high: -1.0,
                 mismatch: true,
+                contradicted: false,
+                twins: Vec::new(),
             })
             .collect();
         let base = rig.base();
@@ -121,6 +124,13 @@ impl Diagnosis<'_> {
             {
                 let (before, declared) = (rig.parameters[index], &rig.plant.parameters[index]);
                 let change = (after - before).abs();
+                let mismatch = change > 1.5 * half && change > MISMATCH * before.abs();
+                let given = self.world.known.iter().find(|(known, _, _)| *known == index);
+                let contradicted = given.is_some_and(|(_, value, deviation)| {
+                    (after - value).abs() > (1.0 - MISMATCH) * SURE * deviation
+                });
+                let twins = interval.twins.iter().filter(|_| mismatch && before == 0.0);
+                let twins = twins.map(|term| name(*term, &rig.plant));
                 list.push(BaseParameter {
                     name: declared.name.clone(),
                     unit: declared.unit.symbol.into(),
@@ -128,7 +138,9 @@ impl Diagnosis<'_> {
                     after,
                     low: interval.low(),
                     high: interval.high(),
-                    mismatch: change > 1.5 * half && change > MISMATCH * before.abs(),
+                    mismatch,
+                    contradicted,
+                    twins: twins.map(|it| located(&it.name, &it.element)).collect(),
                 });
             }
         }

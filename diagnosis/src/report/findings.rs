@@ -280,6 +280,10 @@ pub struct BaseParameter {
     pub high: f64,
     /// Whether the difference is both significant and large enough to matter.
     pub mismatch: bool,
+    /// Whether the data contradict the value that the user gave with its standard deviation.
+    pub contradicted: bool,
+    /// Effects that do the same on these records, of a parameter that the starting model is without.
+    pub twins: Vec<String>,
 }
 
 /// The error of one signal, on the validation data.

@@ -1,6 +1,7 @@
 //! The verdict in a few sentences, with the numbers that matter.
 
-use crate::report::findings::{Effect, Findings, RecordValue, Signal, Unmodelled, Verdict};
+use crate::decision::rules::FALL;
+use crate::report::findings::{BaseParameter, Effect, Findings, RecordValue, Signal, Unmodelled, Verdict};
 use crate::report::words::{
     count, digits, effect_name, fit, interval, list, located, open_signals, percent, sized, unit, value,
 };
@@ -17,9 +18,12 @@ pub(super) fn of(findings: &Findings) -> String {
         disagreements(findings),
         open(findings),
         parameters(findings),
+        contradictions(findings),
+        twins(findings),
         effects(findings),
         unmodelled(findings),
         improvement(findings),
+        worse(findings),
         noisy(findings),
     ];
     parts.into_iter().flatten().filter(|it| !it.is_empty()).collect::<Vec<_>>().join(" ")
@@ -114,6 +118,37 @@ fn parameters(findings: &Findings) -> Option<String> {
         })
         .collect();
     (!changed.is_empty()).then(|| format!("Parameters: {}.", changed.join("; ")))
+}
+
+/// A value that the user was sure of and that the data refuse: more likely it is wrong than all the data.
+fn contradictions(findings: &Findings) -> Option<String> {
+    let all: Vec<String> =
+        findings.base_parameters.iter().filter(|it| it.contradicted).map(|it| it.name.clone()).collect();
+    (!all.is_empty())
+        .then(|| format!("The records contradict the given value of {}. Check it.", list(&all, "and")))
+}
+
+fn twins(findings: &Findings) -> Option<String> {
+    let of =
+        |it: &BaseParameter| format!("These records cannot tell {} from {}.", it.name, list(&it.twins, "or"));
+    let all: Vec<String> =
+        findings.base_parameters.iter().filter(|it| !it.twins.is_empty()).map(of).collect();
+    (!all.is_empty()).then(|| all.join(" "))
+}
+
+/// A signal that the final model meets less well than the starting model: the records want something else of it.
+fn worse(findings: &Findings) -> Option<String> {
+    let fall = |signal: &Signal| signal.phi_before - signal.phi_after;
+    let worst = findings.signals.iter().max_by(|a, b| fall(a).total_cmp(&fall(b)))?;
+    (worst.phi_before > 0.0 && fall(worst) > FALL).then(|| {
+        format!(
+            "The fit of {} on the validation data falls from {} to {}: what the estimation data ask for does not \
+             hold there.",
+            worst.name,
+            fit(worst.phi_before, 2),
+            fit(worst.phi_after, 2)
+        )
+    })
 }
 
 /// The fit of the signal that improves most; a fit below zero is no number to compare with.
@@ -242,6 +277,33 @@ mod tests {
         assert!(of(-15.9, 0.8).contains("(fit −15.9). The final model reaches a fit of 0.80"));
         assert!(of(0.3, 0.8).contains("rises from 0.30 to 0.80"));
         assert!(of(0.8, 0.8).is_empty());
+    }
+
+    #[test]
+    fn a_signal_that_is_met_less_well_is_told() {
+        let of = |before, after| {
+            of(&Findings { signals: vec![signal(before, after)], ..findings(Verdict::ParameterMismatch) })
+        };
+        assert!(of(0.4, 0.2).contains("falls from 0.40 to 0.20"), "{}", of(0.4, 0.2));
+        assert!(!of(0.4, 0.38).contains("falls") && !of(-3.0, -7.0).contains("falls"));
+    }
+
+    #[test]
+    fn what_the_records_say_of_a_parameter_beyond_its_value_is_told() {
+        let it = BaseParameter {
+            name: "constant_load".into(),
+            unit: "N".into(),
+            before: 0.0,
+            after: 15.0,
+            low: 12.0,
+            high: 18.0,
+            mismatch: true,
+            contradicted: true,
+            twins: vec!["guide friction in the guide".into()],
+        };
+        let text = of(&Findings { base_parameters: vec![it], ..findings(Verdict::ParameterMismatch) });
+        assert!(text.contains("The records contradict the given value of constant_load."), "{text}");
+        assert!(text.contains("cannot tell constant_load from guide friction in the guide."), "{text}");
     }
 
     #[test]

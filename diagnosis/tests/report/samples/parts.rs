@@ -37,7 +37,8 @@ pub fn parameter(name: &str, unit: &str, value: f64, low: f64, high: f64) -> Eff
 
 pub fn base(name: &str, unit: &str, before: f64, after: f64, half: f64, mismatch: bool) -> BaseParameter {
     let (name, unit) = (name.into(), unit.into());
-    BaseParameter { name, unit, before, after, low: after - half, high: after + half, mismatch }
+    let (low, high) = (after - half, after + half);
+    BaseParameter { name, unit, before, after, low, high, mismatch, contradicted: false, twins: vec![] }
 }
 
 pub fn candidates() -> Vec<Candidate> {
