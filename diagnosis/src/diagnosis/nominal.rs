@@ -35,7 +35,7 @@ pub(super) fn fit(world: &mut World<'_>) -> Result<(Point, Fitted, Vec<Handle>),
     }
     let mut reversed = Vec::new();
     let mut starts = vec![start.clone()];
-    if world.rig.base().into_iter().any(|index| world.is_unstated(index)) {
+    if world.rig.base().into_iter().any(|index| world.is_of_unknown_order(index)) {
         // A simulation from a mass that nobody gave shows nothing; a balance of forces does not simulate.
         world.sheet = world.balanced(&start)?;
         starts.push(Point { parameters: world.sheet.clone(), ..start.clone() });

@@ -1,14 +1,14 @@
 //! Place, law, confirmation: until nothing is missing that matters.
 
-use crate::confirm::Confirmed;
+use crate::confirm::{Confirmed, Tried};
 use crate::estimation::deadline::Stage;
 use crate::estimation::fit::Point;
 use crate::estimation::hypothesis::{Fitted, Term, World};
-use crate::explain::candidates::outputs;
 use crate::explain::describe::{MissingSignal, SMALLEST, Unmodelled};
 use crate::explain::selection::{Choice, Compared, Limits, Score, choose};
 use crate::missing::innovations::Noise;
 use crate::missing::locate::Location;
+use crate::missing::motion::outputs;
 use crate::missing::{Frame, Missing};
 use crate::plant::Signals;
 use crate::screening::bent_rms;
@@ -17,6 +17,9 @@ use super::Found;
 
 /// Effects at most.
 const MOST: usize = 4;
+/// Share of what free features explain that a fitted law has to explain, to be named in their place: in a rough shape it may
+/// look much worse than it is.
+const AS_GOOD: f64 = 0.9;
 /// How often other effects are fitted where the first ones are not confirmed.
 const ATTEMPTS: usize = 2;
 /// How often errors are made as large as the best explanation leaves, where no effect is confirmed.
@@ -151,15 +154,19 @@ impl World<'_> {
     ) -> Result<Next, String> {
         let mut names = compared.named.clone();
         let mut features = &compared.features[..];
+        let mut curve = None;
         for _ in 0..ATTEMPTS {
-            let scores = match choose(compared.misses, &names, features, Limits::USUAL) {
+            let (scores, least) = match choose(compared.misses, &names, features, Limits::USUAL) {
                 Choice::Nothing => return Ok(Next::Nothing),
-                Choice::Unmodelled(score) => return Ok(Next::Curve(score)),
-                Choice::Named(scores) => scores,
+                Choice::Unmodelled(score) => {
+                    curve = Some(score);
+                    (compared.likely(&names), AS_GOOD * score.share)
+                }
+                Choice::Named(scores) => (scores, 0.0),
             };
             // A fit is not worth its time where no signal would gain.
             if scores.first().is_none_or(|it| self.improvement(&found.extended, it.share) < SMALLEST) {
-                return Ok(Next::Nothing);
+                return Ok(curve.map_or(Next::Nothing, Next::Curve));
             }
             let mut proposals = compared.proposals(&scores, Limits::USUAL.most);
             proposals.retain(|it| !refused.contains(&it.term));
@@ -171,16 +178,23 @@ impl World<'_> {
                     return Ok(Next::Nothing);
                 }
                 let confirmed = self.confirmed(&found.base, &tried)?;
+                // What is confirmed and is less than free features may be more beside larger errors of the sensors.
+                let refusal = |it: &&Tried| curve.is_none() || it.evidence.refusal().is_some();
+                refused.extend(tried.iter().filter(refusal).map(|it| it.term));
                 found.tried.extend(tried);
-                if let Some(Confirmed { accepted, fitted }) = confirmed {
+                if let Some(Confirmed { accepted, fitted }) = confirmed
+                    && accepted.evidence.taken >= least
+                {
                     found.accepted.push(accepted);
                     found.extended = fitted.clone();
                     found.stages.push(fitted);
                     return Ok(Next::Effect);
                 }
             }
+            if let Some(score) = curve {
+                return Ok(Next::Curve(score));
+            }
             // What these laws nearly explained is no place without a name.
-            refused.extend(proposals.iter().map(|it| it.term));
             names.retain(|it| !refused.iter().any(|term| compared.is_of(it, *term)));
             features = &[];
         }

@@ -9,6 +9,7 @@ use crate::confirm::worth;
 use crate::estimation::fit::{Handle, Normal};
 use crate::estimation::hypothesis::{Fitted, POINTS, Term, World};
 use crate::screening::TriedOut;
+use crate::signal::distortion::Fault;
 
 /// Share of a column's square below which it does nothing that the coordinates could not do: it is another name for one of
 /// them, as a force cell's offset is for a preload, and nothing that is left speaks of it.
@@ -49,7 +50,12 @@ impl World<'_> {
             }
             let term = terms[probe.term];
             for (coordinate, twins) in twins.iter_mut().enumerate() {
-                if range.len() == 1 && !twins.contains(&term) && beside.is_twin(range.start, coordinate) {
+                // A gain scales all of a drive's parameters alike, which says nothing of any of them.
+                if range.len() == 1
+                    && !is_gain(term)
+                    && !twins.contains(&term)
+                    && beside.is_twin(range.start, coordinate)
+                {
                     twins.push(term);
                 }
             }
@@ -64,6 +70,10 @@ impl World<'_> {
         let pulls = together(most.into_iter().flatten().collect(), beside.left);
         Ok(Assumed { pulls, twins })
     }
+}
+
+fn is_gain(term: Term) -> bool {
+    matches!(term, Term::Fault(Handle::Input(_, Fault::Gain) | Handle::Output(_, Fault::Gain)))
 }
 
 /// What an assumed effect does to a fit.

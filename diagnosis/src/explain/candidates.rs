@@ -5,16 +5,16 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::catalogue::{Element, Typical};
-use crate::dataset::recorded::derivative;
 use crate::estimation::hypothesis::{Term, World};
 use crate::missing::Missing;
 use crate::missing::innovations::Column;
+use crate::missing::motion::{column, motions};
 use crate::missing::ports::Entry;
-use crate::missing::trajectory::{Setting, Window};
-use crate::plant::{Follower, Seen, Signals};
+use crate::missing::trajectory::Window;
+use crate::plant::Signals;
 use crate::screening::{Probe, typical};
 
-use super::features::{Group, Motion, column, features};
+use super::features::{Group, features};
 
 /// What may explain a missing signal.
 pub enum Kind {
@@ -62,39 +62,6 @@ impl Candidates {
         }
         self.list.push(Candidate { kind, columns: first..first + count, peaks });
     }
-}
-
-/// Every output of the plant along the trajectory of each window.
-pub fn outputs(setting: &Setting<'_>, windows: &[Window], outputs: usize) -> Vec<Signals> {
-    let wanted: Vec<usize> = (0..outputs).collect();
-    let of = |window: &Window| {
-        let mut all = All { active: &setting.active, window, signals: vec![Vec::new(); outputs] };
-        let start = &window.trajectory[0];
-        let parameters = &setting.point.parameters;
-        setting.dynamics.followed(parameters, start, &window.drive, (&[], &wanted), &mut all);
-        all.signals
-    };
-    windows.par_iter().map(of).collect()
-}
-
-struct All<'a> {
-    active: &'a [usize],
-    window: &'a Window,
-    signals: Signals,
-}
-
-impl Follower for All<'_> {
-    fn state(&mut self, sample: usize, state: &mut [f64]) {
-        for index in self.active {
-            state[*index] = self.window.trajectory[sample][*index];
-        }
-    }
-
-    fn seen(&mut self, _: usize, Seen { outputs, .. }: Seen<'_>, _: &mut [f64]) {
-        self.signals.iter_mut().zip(outputs).for_each(|(signal, value)| signal.push(*value));
-    }
-
-    fn advanced(&mut self, _: usize, _: &[f64], _: &[f64]) {}
 }
 
 impl World<'_> {
@@ -163,7 +130,9 @@ impl World<'_> {
             if setting.ties[number] != number {
                 continue;
             }
-            let Some((place, motions)) = motions(self, missing, outputs, number) else { continue };
+            let Some((place, motions)) = motions(self.rig, (setting, windows), outputs, number) else {
+                continue;
+            };
             for group in Group::all(&commands, others) {
                 let signals = features(group, &motions, (missing.records, windows));
                 let columns = windows.iter().enumerate().map(|(index, window)| {
@@ -178,26 +147,4 @@ impl World<'_> {
             }
         }
     }
-}
-
-/// The motion at a port of the plant, and its place among the slopes; none if the rig does not say what moves there.
-pub fn motions(
-    world: &World<'_>,
-    missing: &Missing<'_>,
-    outputs: &[Signals],
-    port: usize,
-) -> Option<(usize, Vec<Motion>)> {
-    let (ports, plant) = (missing.setting.ports, &world.rig.plant);
-    let own = ports.get(port).filter(|it| !it.is_sensor())?;
-    let before = ports[..port].iter().filter(|it| !it.is_sensor()).count();
-    let element = world.rig.kind.elements.iter().find(|it| Some(it.element) == own.element)?;
-    let deflection = plant.output(element.deflection)?;
-    let velocity = element.velocity.and_then(|name| plant.output(name));
-    let motion = |(window, signals): (&Window, &Signals)| Motion {
-        deflection: signals[deflection].clone(),
-        velocity: velocity
-            .map_or_else(|| derivative(&signals[deflection], window.step), |it| signals[it].clone()),
-    };
-    let motions = missing.windows.iter().zip(outputs).map(motion).collect();
-    Some((missing.setting.active.len() + before, motions))
 }

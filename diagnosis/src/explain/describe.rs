@@ -7,11 +7,11 @@ use crate::catalogue::naming::name;
 use crate::estimation::hypothesis::{Term, World};
 use crate::missing::Missing;
 use crate::missing::locate::Location;
+use crate::missing::motion::{Motion, column, motions};
 use crate::missing::trajectory::Window;
 use crate::plant::{Plant, Signals};
 
-use super::candidates::motions;
-use super::features::{Group, Motion, RESONANCES, column, features};
+use super::features::{Group, RESONANCES, features};
 use super::selection::{Compared, Score};
 
 /// Smallest rise of a signal's fit that is worth telling of, whether it has a name or not.
@@ -150,7 +150,8 @@ impl Unmodelled {
     /// Takes it as explained.
     pub fn explain(&self, missing: &mut Missing<'_>, world: &World<'_>, signals: &[Signals]) {
         let Some((number, group)) = self.features else { return };
-        let Some((place, motions)) = motions(world, missing, signals, number) else { return };
+        let about = (&missing.setting, &missing.windows[..]);
+        let Some((place, motions)) = motions(world.rig, about, signals, number) else { return };
         let own = features(group, &motions, (missing.records, &missing.windows));
         let port = &missing.setting.ports[number];
         let columns: Vec<_> = own
@@ -213,7 +214,9 @@ impl MissingSignal {
         let Some(best) = location.ranked.first() else { return Self::default() };
         let Some(window) = missing.windows.first() else { return Self::default() };
         let (value, deviation) = signal(missing, location, best.port, window);
-        let motion = motions(world, missing, signals, best.port).and_then(|(_, all)| all.into_iter().next());
+        let about = (&missing.setting, &missing.windows[..]);
+        let motion =
+            motions(world.rig, about, signals, best.port).and_then(|(_, all)| all.into_iter().next());
         let Motion { deflection, velocity } =
             motion.unwrap_or(Motion { deflection: vec![], velocity: vec![] });
         let step = window.samples.len().div_ceil(SHOWN).max(1);

@@ -1,8 +1,7 @@
 //! Features of a port's own motion, of commands and of time, in groups that say what a missing signal depends on.
 
 use crate::dataset::recorded::{Recorded, derivative};
-use crate::missing::innovations::Column;
-use crate::missing::ports::{Entry, Port};
+use crate::missing::motion::Motion;
 use crate::missing::trajectory::Window;
 
 /// Knots of a curve over a variable.
@@ -63,14 +62,6 @@ impl Group {
         Self::DeflectionAndVelocity,
         Self::Time,
     ];
-}
-
-/// A port's motion over a window.
-pub struct Motion {
-    /// Deflection or position.
-    pub deflection: Vec<f64>,
-    /// Velocity.
-    pub velocity: Vec<f64>,
 }
 
 /// Features of one group at a port over several windows: signals by feature, each over all windows.
@@ -161,35 +152,6 @@ pub fn features(
             late.collect()
         }
     }
-}
-
-/// A feature's signal as a column at a port.
-pub fn column(port: &Port, place: usize, window: &Window, signal: &[f64]) -> Column {
-    let (n, m, width) = (window.states, window.outputs, window.width);
-    let samples = window.samples.len();
-    let mut column =
-        Column { next: vec![0.0; (samples.saturating_sub(1)) * n], outputs: vec![0.0; samples * m] };
-    if let Entry::Sensor(row) = port.entry {
-        for (value, signal) in column.outputs.iter_mut().skip(row).step_by(m).zip(signal) {
-            *value = *signal as f32;
-        }
-        column.next.clear();
-        return column;
-    }
-    for sample in 0..samples {
-        for output in 0..m {
-            let slope = window.output_slopes[(sample * m + output) * width + place];
-            column.outputs[sample * m + output] = (slope * signal[sample]) as f32;
-        }
-        if sample + 1 < samples {
-            let middle = 0.5 * (signal[sample] + signal[sample + 1]);
-            for state in 0..n {
-                let slope = window.next_slopes[(sample * n + state) * width + place];
-                column.next[sample * n + state] = (slope * middle) as f32;
-            }
-        }
-    }
-    column
 }
 
 /// Root mean square over all windows.

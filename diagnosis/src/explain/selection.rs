@@ -287,6 +287,14 @@ impl Compared {
         all
     }
 
+    /// Names that explain anything of both data, the best first.
+    pub fn likely(&self, names: &[Score]) -> Vec<Score> {
+        let mut likely: Vec<Score> =
+            names.iter().filter(|it| it.share > 0.0 && it.validated > 0.0).copied().collect();
+        likely.sort_by(|a, b| b.share.total_cmp(&a.share));
+        likely
+    }
+
     /// The columns of what explains most, one list for each window.
     pub fn best(&self) -> Option<Vec<Vec<Column>>> {
         let all = self.named.iter().chain(&self.features);

@@ -9,6 +9,7 @@ pub mod filter;
 pub mod innovations;
 pub mod likelihood;
 pub mod locate;
+pub mod motion;
 mod nominal;
 pub mod ports;
 pub mod trajectory;
@@ -141,7 +142,7 @@ impl World<'_> {
         let mut precisions = self.precisions(&frame.parameters);
         precisions.extend(timing.iter().map(|_| (DELAY / TIMING).powi(2)));
         let point =
-            if frame.fresh { self.nominal_by_balance(&about, &precisions)? } else { frame.point.clone() };
+            if frame.fresh { self.nominal_by_balance(&about, &precisions) } else { frame.point.clone() };
         let (setting, windows) = self.along(&about, &point)?;
         let (records, train) = (&frame.records[..], self.train.len());
         let mut missing = Missing { records, train, setting, windows, precisions };

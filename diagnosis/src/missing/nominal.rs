@@ -40,8 +40,13 @@ pub(super) struct About<'a, 'b> {
 
 impl World<'_> {
     /// Whether neither a data sheet nor the user gives a parameter's value: the model's own is of no meaning then.
-    pub(crate) fn is_unstated(&self, index: usize) -> bool {
+    fn is_unstated(&self, index: usize) -> bool {
         !self.rig.stated[index] && !self.known.iter().any(|(known, _, _)| *known == index)
+    }
+
+    /// Whether not even the order of a parameter is known: what may be zero starts there, and a step tells its size.
+    pub(crate) fn is_of_unknown_order(&self, index: usize) -> bool {
+        self.is_unstated(index) && self.least(index) > 0.0
     }
 
     /// Nominal parameters from the balance alone, without a simulation.
@@ -69,25 +74,26 @@ impl World<'_> {
     }
 
     /// Corrects the nominal parameters as far as the missing signals allow.
-    pub(super) fn nominal_by_balance(
-        &self,
-        about: &About<'_, '_>,
-        precisions: &[f64],
-    ) -> Result<Point, String> {
+    pub(super) fn nominal_by_balance(&self, about: &About<'_, '_>, precisions: &[f64]) -> Point {
         let mut point = about.frame.point.clone();
         for (index, value, _) in &self.known {
             point.parameters[*index] = *value;
         }
-        let unstated: Vec<usize> =
-            about.frame.parameters.iter().copied().filter(|it| self.is_unstated(*it)).collect();
+        let parameters = about.frame.parameters.iter().copied();
+        let unstated: Vec<usize> = parameters.filter(|it| self.is_of_unknown_order(*it)).collect();
         let (shares, rounds) =
             if unstated.is_empty() { (&LOOSE[..], ROUNDS[0]) } else { (&ANY[..], ROUNDS[1]) };
-        for index in unstated.iter().filter(|it| about.frame.far && self.least(**it) > 0.0) {
+        for index in unstated.iter().filter(|_| about.frame.far) {
             point = self.of_the_right_order(about, (precisions, shares), *index, point);
         }
+        let mut before = point.parameters.clone();
         for _ in 0..rounds {
-            let Some((_, fitted)) = self.corrected(about, (precisions, shares), &point)? else { break };
-            let before = point.parameters.clone();
+            // A step too far is taken back.
+            let Ok(Some((_, fitted))) = self.corrected(about, (precisions, shares), &point) else {
+                point.parameters = before;
+                break;
+            };
+            before.clone_from(&point.parameters);
             for (index, step) in about.frame.parameters.iter().zip(fitted.values.iter()) {
                 point.parameters[*index] = self.moved(*index, before[*index], *step);
             }
@@ -102,7 +108,7 @@ impl World<'_> {
                 break;
             }
         }
-        Ok(point)
+        point
     }
 
     /// A point with one parameter of the order that makes the record likeliest: a force moves a mass that is off by decades

@@ -46,7 +46,7 @@ pub(super) fn problems(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
     problems
 }
 
-/// Lengths that no test rig goes, or not as fast.
+/// Lengths that no test rig goes, or not as fast. A drive may turn, and its angles are no lengths: they are told only.
 pub(super) fn beyond_any_rig(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
     let of = |(name, si, values): Column<'_>| {
         let rates = record.sections.iter().flat_map(|it| derivative(&values[it.clone()], record.step));
@@ -54,14 +54,15 @@ pub(super) fn beyond_any_rig(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
         let reading = readings(si).into_iter().find(|it| !it.in_header)?;
         (si == "m" && is_beyond_any_rig(length, rate)).then(|| {
             let text = format!(
-                "its rms is {} m, and that of its rate {} m/s. No test rig goes beyond {} m or {} m/s. It fits if {}",
+                "its rms is {} m, and that of its rate {} m/s. No test rig goes beyond {} m or {} m/s. It fits if {}. An \
+                 axis that turns, recorded in rad, may go as far",
                 digits(length, 2),
                 digits(rate, 2),
                 FARTHEST.0,
                 FARTHEST.1,
                 mended(name, si, reading)
             );
-            DataProblem { record: record.name.clone(), signal: name.into(), text, fatal: true }
+            DataProblem { record: record.name.clone(), signal: name.into(), text, fatal: false }
         })
     };
     columns(rig, record).into_iter().filter_map(of).collect()

@@ -1,0 +1,103 @@
+//! What moves at a port along the trajectory, and what a signal there changes of the predictions.
+
+use rayon::prelude::*;
+
+use crate::dataset::recorded::derivative;
+use crate::plant::{Follower, Seen, Signals};
+use crate::rig::Rig;
+
+use super::innovations::Column;
+use super::ports::{Entry, Port};
+use super::trajectory::{Setting, Window};
+
+/// A port's motion over a window.
+pub struct Motion {
+    /// Deflection or position.
+    pub deflection: Vec<f64>,
+    /// Velocity.
+    pub velocity: Vec<f64>,
+}
+
+/// Every output of the plant along the trajectory of each window.
+pub fn outputs(setting: &Setting<'_>, windows: &[Window], outputs: usize) -> Vec<Signals> {
+    let wanted: Vec<usize> = (0..outputs).collect();
+    let of = |window: &Window| {
+        let mut all = All { active: &setting.active, window, signals: vec![Vec::new(); outputs] };
+        let start = &window.trajectory[0];
+        let parameters = &setting.point.parameters;
+        setting.dynamics.followed(parameters, start, &window.drive, (&[], &wanted), &mut all);
+        all.signals
+    };
+    windows.par_iter().map(of).collect()
+}
+
+struct All<'a> {
+    active: &'a [usize],
+    window: &'a Window,
+    signals: Signals,
+}
+
+impl Follower for All<'_> {
+    fn state(&mut self, sample: usize, state: &mut [f64]) {
+        for index in self.active {
+            state[*index] = self.window.trajectory[sample][*index];
+        }
+    }
+
+    fn seen(&mut self, _: usize, Seen { outputs, .. }: Seen<'_>, _: &mut [f64]) {
+        self.signals.iter_mut().zip(outputs).for_each(|(signal, value)| signal.push(*value));
+    }
+
+    fn advanced(&mut self, _: usize, _: &[f64], _: &[f64]) {}
+}
+
+/// The motion at a port of the plant, and its place among the slopes; none if the rig does not say what moves there.
+pub fn motions(
+    rig: &Rig,
+    (setting, windows): (&Setting<'_>, &[Window]),
+    outputs: &[Signals],
+    port: usize,
+) -> Option<(usize, Vec<Motion>)> {
+    let (ports, plant) = (setting.ports, &rig.plant);
+    let own = ports.get(port).filter(|it| !it.is_sensor())?;
+    let before = ports[..port].iter().filter(|it| !it.is_sensor()).count();
+    let element = rig.kind.elements.iter().find(|it| Some(it.element) == own.element)?;
+    let deflection = plant.output(element.deflection)?;
+    let velocity = element.velocity.and_then(|name| plant.output(name));
+    let motion = |(window, signals): (&Window, &Signals)| Motion {
+        deflection: signals[deflection].clone(),
+        velocity: velocity
+            .map_or_else(|| derivative(&signals[deflection], window.step), |it| signals[it].clone()),
+    };
+    let motions = windows.iter().zip(outputs).map(motion).collect();
+    Some((setting.active.len() + before, motions))
+}
+
+/// A feature's signal as a column at a port.
+pub fn column(port: &Port, place: usize, window: &Window, signal: &[f64]) -> Column {
+    let (n, m, width) = (window.states, window.outputs, window.width);
+    let samples = window.samples.len();
+    let mut column =
+        Column { next: vec![0.0; (samples.saturating_sub(1)) * n], outputs: vec![0.0; samples * m] };
+    if let Entry::Sensor(row) = port.entry {
+        for (value, signal) in column.outputs.iter_mut().skip(row).step_by(m).zip(signal) {
+            *value = *signal as f32;
+        }
+        column.next.clear();
+        return column;
+    }
+    for sample in 0..samples {
+        for output in 0..m {
+            let slope = window.output_slopes[(sample * m + output) * width + place];
+            column.outputs[sample * m + output] = (slope * signal[sample]) as f32;
+        }
+        if sample + 1 < samples {
+            let middle = 0.5 * (signal[sample] + signal[sample + 1]);
+            for state in 0..n {
+                let slope = window.next_slopes[(sample * n + state) * width + place];
+                column.next[sample * n + state] = (slope * middle) as f32;
+            }
+        }
+    }
+    column
+}
