@@ -99,7 +99,14 @@ impl World<'_> {
         let of = |handle: Handle| {
             let index = fitted.coordinates.iter().position(|it| it.handle == handle)?;
             let value = fitted.point.get(handle) - base.point.get(handle);
-            Some(Amount { value, bounds: fitted.coordinates[index].bounds, half: half(index) })
+            let (low, high) = fitted.coordinates[index].bounds;
+            // A law may go to the end of what its parameter means, as a command that is clipped for good does.
+            let end = match handle {
+                Handle::Parameter(parameter) => self.rig.plant.parameters[parameter].max,
+                Handle::Input(..) | Handle::Output(..) => None,
+            };
+            let high = if end.is_some_and(|end| end <= high) { f64::INFINITY } else { high };
+            Some(Amount { value, bounds: (low, high), half: half(index) })
         };
         self.sizes(term).into_iter().filter_map(of).collect()
     }

@@ -51,6 +51,8 @@ pub struct Found {
     pub compared: Vec<(Term, Score)>,
     /// All that was fitted, the last word on each term.
     pub tried: Vec<Tried>,
+    /// What was confirmed and taken back.
+    pub retracted: Vec<Term>,
 }
 
 /// What is known, and what is looked for.
@@ -78,16 +80,21 @@ pub fn diagnose<'a>(
     progress("fitting the nominal parameters");
     let (before, base, reversed) = nominal::fit(&mut world)?;
     world.look_at(&base)?;
-    let mut found = world.identified(base, progress)?;
-    progress("comparing what each excitation says");
-    while let Some(harmful) = world.harmful(&found, &records.measured) {
-        world.drop(&mut found, harmful)?;
-    }
-    let mut intervals = world.intervals(&found.extended)?;
-    while let Some(doubtful) = world.doubtful(&found, &intervals) {
-        world.drop(&mut found, doubtful)?;
-        intervals = world.intervals(&found.extended)?;
-    }
+    let mut found = Found::nothing(base);
+    let intervals = loop {
+        // What is taken back makes room for what was second to it.
+        world.identify(&mut found, progress)?;
+        if let Some(harmful) = world.harmful(&found, &records.measured) {
+            world.retract(&mut found, harmful)?;
+            continue;
+        }
+        progress("comparing what each excitation says");
+        let intervals = world.intervals(&found.extended)?;
+        match world.doubtful(&found, &intervals) {
+            Some(doubtful) => world.retract(&mut found, doubtful)?,
+            None => break intervals,
+        }
+    };
     Ok(Diagnosis { world, measured: &records.measured, before, found, intervals, reversed })
 }
 

@@ -72,9 +72,11 @@ impl World<'_> {
         Some((settled, residuals))
     }
 
-    /// Takes an effect away again.
-    pub(super) fn drop(&self, found: &mut Found, index: usize) -> Result<(), String> {
-        found.accepted.remove(index);
+    /// Takes an effect back, and what was described beside it.
+    pub(super) fn retract(&self, found: &mut Found, index: usize) -> Result<(), String> {
+        let term = found.accepted.remove(index).term;
+        found.retracted.push(term);
+        found.unmodelled.retain(|it| it.curve.is_some_and(|curve| curve != term));
         found.stages.truncate(index);
         let mut last = found.stages.last().unwrap_or(&found.base).clone();
         for accepted in &found.accepted[index..] {

@@ -28,6 +28,7 @@ const REFINEMENTS: usize = 3;
 const PLACES: usize = 2;
 
 /// What a round of the search has found.
+#[derive(Clone, Copy)]
 enum Next {
     /// An effect with a name.
     Effect,
@@ -63,9 +64,9 @@ impl World<'_> {
     }
 
     /// Place, law, confirmation: until nothing is missing that matters.
-    pub(super) fn identified(&self, base: Fitted, progress: &(dyn Fn(&str) + Sync)) -> Result<Found, String> {
-        let mut found = Found::nothing(base);
-        let (mut errors, mut refinements, mut refused) = (None, 0, Vec::new());
+    pub(super) fn identify(&self, found: &mut Found, progress: &(dyn Fn(&str) + Sync)) -> Result<(), String> {
+        let (mut errors, mut refinements, mut refused) = (None, 0, found.retracted.clone());
+        let mut first = None;
         while found.accepted.len() < MOST && !self.deadline.is_over(Stage::Search) {
             progress("estimating the missing signal");
             let terms = found.extended.terms.clone();
@@ -74,7 +75,7 @@ impl World<'_> {
                 false => found.extended.point.clone(),
             };
             let frame = self.frame(&terms, &at)?;
-            let Some(looked) = self.looked(&frame, &found, errors.as_ref())? else { break };
+            let Some(looked) = self.looked(&frame, found, errors.as_ref())? else { break };
             let Looked { missing, signals, location, mut compared } = looked;
             if found.missing.is_none() {
                 found.missing = Some(MissingSignal::of(self, &missing, &location, &signals));
@@ -86,25 +87,34 @@ impl World<'_> {
             if found.compared.is_empty() {
                 found.compared = compared.ranking();
             }
-            let named = self.named(&mut found, &compared, &mut refused, progress)?;
+            let mut next = self.named(found, &compared, &mut refused, progress)?;
             let over = self.deadline.is_over(Stage::Search);
-            if !matches!(named, Next::Effect) && refinements < REFINEMENTS && !over {
+            if !matches!(next, Next::Effect) && refinements < REFINEMENTS && !over {
                 // Sensors that disagree by more than their noise decide what is missing until they are believed less.
                 let background = &location.background;
                 let larger = missing.refined(background, &compared.best().unwrap_or_default());
                 if larger != *background {
                     (errors, refinements) = (Some(larger), refinements + 1);
+                    first.get_or_insert(next);
                     continue;
                 }
             }
-            let goes_on = match named {
+            // Of what has no name, the sensors' own accuracy decides, as long as it does not depend on that.
+            if let Some(first) = first.take().filter(|_| !matches!(next, Next::Effect)) {
+                next = match first {
+                    Next::Curve(score) if compared.holds(score.candidate) => first,
+                    _ => Next::Nothing,
+                };
+            }
+            (errors, refinements) = (None, 0);
+            let goes_on = match next {
                 Next::Effect => {
-                    refused.clear();
+                    refused.clone_from(&found.retracted);
                     true
                 }
                 // Of what was not looked at to the end nothing is claimed.
                 _ if over => false,
-                Next::Curve(score) => self.unmodelled(&mut found, (&missing, &compared), score)?,
+                Next::Curve(score) => self.unmodelled(found, (&missing, &compared), score)?,
                 Next::Nothing => {
                     let rest = self.remainder(&found.extended, &missing, &location, &compared);
                     found.unmodelled.extend(rest);
@@ -115,7 +125,7 @@ impl World<'_> {
                 break;
             }
         }
-        Ok(found)
+        Ok(())
     }
 
     /// The missing signal, where it is and what may explain it, with errors of at least a size.
@@ -214,7 +224,7 @@ impl World<'_> {
         }
         let port = compared.feature(score.candidate).map(|(port, _)| &missing.setting.ports[port]);
         let curve = compared.curve_for(score, port.and_then(|it| it.element));
-        if let Some((term, own)) = curve
+        if let Some((term, own)) = curve.filter(|(term, _)| !found.retracted.contains(term))
             && let Some(Confirmed { accepted, fitted }) = self.drawn(found, compared, own)?
         {
             found.unmodelled.push(Unmodelled::curve(term, own, improvement, &self.rig.plant));
@@ -277,7 +287,8 @@ impl World<'_> {
 }
 
 impl Found {
-    fn nothing(base: Fitted) -> Self {
+    /// Before anything is found.
+    pub(super) fn nothing(base: Fitted) -> Self {
         Self {
             extended: base.clone(),
             base,
@@ -287,6 +298,7 @@ impl Found {
             missing: None,
             compared: Vec::new(),
             tried: Vec::new(),
+            retracted: Vec::new(),
         }
     }
 }

@@ -287,6 +287,13 @@ impl Compared {
         all
     }
 
+    /// Whether a candidate without a name explains what is worth it of both data.
+    pub fn holds(&self, candidate: usize) -> bool {
+        let limits = Limits::USUAL;
+        let own = self.features.iter().find(|it| it.candidate == candidate);
+        own.is_some_and(|it| it.share >= limits.smallest && it.is_confirmed(limits))
+    }
+
     /// Names that explain anything of both data, the best first.
     pub fn likely(&self, names: &[Score]) -> Vec<Score> {
         let mut likely: Vec<Score> =
