@@ -14,9 +14,9 @@ const IMPROVED: f64 = 0.005;
 /// The summary of findings that are complete otherwise.
 pub(super) fn of(findings: &Findings) -> String {
     let parts = [
+        open(findings),
         findings.not_done.clone(),
         disagreements(findings),
-        open(findings),
         parameters(findings),
         contradictions(findings),
         twins(findings),
@@ -138,7 +138,8 @@ fn twins(findings: &Findings) -> Option<String> {
 
 /// A signal that the final model meets less well than the starting model: the records want something else of it.
 fn worse(findings: &Findings) -> Option<String> {
-    let fall = |signal: &Signal| signal.phi_before - signal.phi_after;
+    // Noise of the measured inputs costs any model its fit.
+    let fall = |signal: &Signal| signal.phi_before - signal.phi_after.max(signal.phi_quiet);
     let worst = findings.signals.iter().max_by(|a, b| fall(a).total_cmp(&fall(b)))?;
     (worst.phi_before > 0.0 && fall(worst) > FALL).then(|| {
         format!(
