@@ -227,3 +227,77 @@ fn the_friction_damper_is_explained() {
     let named = named(&report);
     assert!(named.contains(&"03b"), "{named:?} lacks the backlash");
 }
+
+/// Diagnoses a drive from records of one and judges it by others.
+fn diagnose_drive(name: &str, records: &Path, [train, test]: [&str; 2], more: &[&str]) -> Value {
+    let out = folder(name);
+    let mut command = diagnose();
+    command.args(["--rig", "linear-drive", "--no-fmu", "--train"]).arg(records.join(train));
+    command.arg("--test").arg(records.join(test)).args(more);
+    let output = strut::run(command.arg("--out").arg(&out));
+    print!("{}", String::from_utf8_lossy(&output.stdout));
+    report(&out)
+}
+
+/// Value and interval of a nominal parameter.
+fn nominal(report: &Value, name: &str) -> [f64; 3] {
+    let all = report["base_parameters"].as_array().expect("a list");
+    let found = all.iter().find(|it| it["name"] == name).expect(name);
+    ["after", "low", "high"].map(|field| found[field].as_f64().expect("a number"))
+}
+
+/// Text of all that is to be said about the data.
+fn notes(report: &Value) -> String {
+    let all = report["data_problems"].as_array().expect("a list").iter();
+    all.filter_map(|it| it["text"].as_str()).collect::<Vec<_>>().join("\n")
+}
+
+/// By hand: an offset of 252 N and a friction of 145 N; fit 0.58 of a linear law, 0.72 with presliding friction.
+#[test]
+fn a_load_cell_that_was_not_zeroed_hides_no_friction() {
+    let Some(records) = real("real/mr-damper-sweep") else { return };
+    let (report, phi) = diagnose_element("sweep", &records, "tr.csv", &["te.csv"]);
+    assert!(phi >= 0.72, "Φ = {phi}");
+    assert_eq!(named(&report), ["01"]);
+    let force = &report["effects"][0]["parameters"][0];
+    let [low, high] = ["low", "high"].map(|field| force[field].as_f64().expect("a number"));
+    assert!(low < 145.0 && 145.0 < high && low > 40.0, "{force}");
+    let [_, low, high] = nominal(&report, "strut.preload");
+    assert!(low < 252.0 && 252.0 < high && low > 200.0, "{low} … {high}");
+}
+
+/// By hand, the force follows the coil's voltage, a column that no signal of the rig is: fit 0.60 without it, 0.76 with it.
+#[test]
+fn a_force_that_follows_another_column_is_told() {
+    let Some(records) = real("real/mr-damper-random") else { return };
+    let (report, phi) = diagnose_element("random", &records, "a.csv", &["b.csv"]);
+    assert!(phi >= 0.60, "Φ = {phi}");
+    let unmodelled = report["unmodelled"].as_array().expect("a list");
+    let voltage = unmodelled.iter().find(|it| it["depends_on"][0] == "column voltage").expect("the voltage");
+    assert_eq!(voltage["place"], "strut");
+    assert!(voltage["validated"].as_f64().expect("a number") > 0.5, "{voltage}");
+}
+
+/// By hand: 25.1 kg and 44 N s/m. One stroke of half a second is both estimation and validation record.
+#[test]
+fn one_stroke_tells_a_mass_and_is_no_second_witness() {
+    let Some(records) = real("real/rack-and-pinion") else { return };
+    let report = diagnose_drive("rack", &records, ["stroke.csv", "stroke.csv"], &[]);
+    assert!((nominal(&report, "moving_mass")[0] - 25.1).abs() < 0.5);
+    assert!((nominal(&report, "guide.damping")[0] - 44.0).abs() < 15.0);
+    assert!(named(&report).is_empty());
+    let notes = notes(&report);
+    assert!(notes.contains("same data") && notes.contains("0.54 s long"), "{notes}");
+}
+
+/// Made with 142122 N/m and 22.6 N s/m.
+#[test]
+fn a_spring_to_the_ground_is_found_at_sixty_hertz() {
+    let Some(records) = real("real/spring-60-hz") else { return };
+    let more = ["--known", "moving_mass=1.0±0.05", "--effects", "08,15"];
+    let report = diagnose_drive("spring", &records, ["tr.csv", "te.csv"], &more);
+    assert_eq!(named(&report), ["08"]);
+    let stiffness = report["effects"][0]["parameters"][0]["value"].as_f64().expect("a number");
+    assert!((stiffness / 142_122.0 - 1.0).abs() < 0.02, "{stiffness}");
+    assert!((nominal(&report, "guide.damping")[0] / 22.6 - 1.0).abs() < 0.1);
+}
