@@ -132,6 +132,7 @@ const NOTHING: [String; 0] = [];
 const SERVO: &str = "konieczny-servo-suspension";
 const PUMP: &str = "ajala-soft-pump-hydraulic-actuator";
 const SAS: &str = "kogut-sas-rig";
+const DRIVE: &str = "linear-drive";
 const MOTOR: &str = "excitation-motor";
 
 #[test]
@@ -209,6 +210,18 @@ fn a_damper_alone_has_no_spring() {
 #[test]
 fn nothing_is_claimed_of_a_sound_drive() {
     assert_eq!(Case { step: 4e-3, ..Case::of(MOTOR) }.diagnosed(&[]).terms, NOTHING);
+}
+
+/// The model's start value is 20 kg, and says nothing of this one.
+#[test]
+fn a_mass_that_nobody_states_may_be_of_any_order() {
+    for mass in [0.5, 900.0] {
+        let hidden = [("moving_mass", mass), ("guide.damping", 50.0), ("guide.coulomb.force", 8.0)];
+        let said = Case::of(DRIVE).diagnosed(&hidden);
+        assert_eq!(said.terms, ["16 guide"], "{mass} kg");
+        said.meets("moving_mass", mass, 0.02);
+        said.meets("guide.coulomb.force", 8.0, 0.05);
+    }
 }
 
 #[test]
