@@ -32,6 +32,8 @@ pub struct Unmodelled {
     pub place: String,
     /// Unit of the missing signal.
     pub unit: &'static str,
+    /// Whether it is missing in a measurement and not in the plant.
+    sensor: bool,
     /// What explains it: features at a port.
     features: Option<(usize, Group)>,
     /// What it depends on, in the words of the report.
@@ -59,6 +61,7 @@ impl Unmodelled {
         Some(Self {
             place: own.place.clone(),
             unit: own.unit,
+            sensor: own.is_sensor(),
             features: Some((port, group)),
             depends_on: words(group, missing),
             share: score.share,
@@ -83,6 +86,7 @@ impl Unmodelled {
         Self {
             place: name(term, plant).element,
             unit,
+            sensor: matches!(term, Term::Response(_)),
             features: None,
             depends_on,
             share: score.share,
@@ -111,6 +115,7 @@ impl Unmodelled {
         Self {
             place: own.place.clone(),
             unit: own.unit,
+            sensor: own.is_sensor(),
             features: None,
             depends_on,
             share: 0.0,
@@ -133,17 +138,15 @@ impl Unmodelled {
                 let frequency = self.frequency.unwrap_or_default();
                 format!("a force that remembers the motion, with a resonance near {frequency:.0} Hz")
             }
-            (["bursts"], _) => {
-                "a signal that comes in bursts and follows nothing that was recorded".to_owned()
-            }
+            (["bursts"], _) => "a signal that comes in bursts and follows no recorded signal".to_owned(),
             (["time"], _) => match self.frequency {
                 Some(frequency) => format!("a signal that is periodic in time, at {frequency:.2} Hz"),
                 None => "a signal that changes with time".to_owned(),
             },
-            ([], _) => "a signal that follows nothing that was recorded".to_owned(),
+            ([], _) => "a signal that follows no recorded signal".to_owned(),
             (words, _) => format!("a signal that follows the {}", words.join(" and the ")),
         };
-        let at = if self.place.contains('.') { "in the measurement of" } else { "at the" };
+        let at = if self.sensor { "in the measurement of" } else { "at the" };
         format!("{what} {at} {}", self.place)
     }
 

@@ -133,6 +133,10 @@ impl Lines {
         for it in findings.unmodelled.iter().take(SHOWN) {
             self.blank();
             self.wrapped("", &format!("Unmodelled: {}", it.description));
+            // What follows nothing covers nothing.
+            if it.share == 0.0 {
+                continue;
+            }
             self.wrapped(
                 "  ",
                 &format!(

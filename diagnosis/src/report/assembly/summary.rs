@@ -93,7 +93,7 @@ fn unmodelled(findings: &Findings) -> Option<String> {
     let first = findings.verdict == Verdict::Unmodelled;
     let of = |(index, it): (usize, &Unmodelled)| {
         if it.share == 0.0 {
-            return format!("What remains is most likely {}.", it.description);
+            return format!("The rest is {}.", it.description);
         }
         let what = match index {
             0 if first => "The description".to_owned(),

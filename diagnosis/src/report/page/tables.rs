@@ -89,6 +89,9 @@ pub fn nominal_parameters(findings: &Findings) -> Markup {
 }
 
 fn change(parameter: &BaseParameter) -> String {
+    if parameter.before == 0.0 {
+        return "–".into();
+    }
     let change = parameter.after / parameter.before - 1.0;
     let sign = if change > 0.0 { "+" } else { "" };
     format!("{sign}{}", percent(change))

@@ -25,9 +25,11 @@ fn entry(it: &Unmodelled) -> Markup {
             h3 { "Missing " (place(&it.place)) }
             p { (capitalised(&it.description)) "." }
             dl.facts {
-                div { dt { "Estimation data" } dd { (percent(it.share)) } }
-                div { dt { "Validation data" } dd { (percent(it.validated)) } }
-                div { dt { "Possible rise of the fit" } dd { (fit(it.improvement, 2)) } }
+                @if it.share > 0.0 {
+                    div { dt { "Estimation data" } dd { (percent(it.share)) } }
+                    div { dt { "Validation data" } dd { (percent(it.validated)) } }
+                    div { dt { "Possible rise of the fit" } dd { (fit(it.improvement, 2)) } }
+                }
                 @if let Some(frequency) = it.frequency { div { dt { "Frequency" } dd { (digits(frequency, 3)) " Hz" } } }
                 div {
                     dt { "Depends on" }
