@@ -1,6 +1,7 @@
 //! Whether an effect is true: the law enters the model, output error closes in, and another excitation judges.
 
 mod choice;
+mod clock;
 mod nested;
 mod weighing;
 
@@ -66,7 +67,7 @@ impl World<'_> {
             own.iter().for_each(|it| point.set(it.handle, start.get(it.handle)));
             point
         };
-        let start = &proposal.start;
+        let start = &self.by_clock(null, proposal.term).unwrap_or_else(|| proposal.start.clone());
         let mut starts = vec![with(start, &null.point.parameters)];
         if null.terms.is_empty() {
             starts.push(with(start, &start.parameters));

@@ -12,31 +12,17 @@ use rayon::prelude::*;
 
 use crate::catalogue::naming::name;
 use crate::catalogue::{self, Signal};
-use crate::confirm::has_no_name;
 use crate::dataset::recorded::{Recorded, Source};
-use crate::estimation::fit::{Handle, Normal, Point, contained};
+use crate::estimation::fit::{Handle, Normal, Point};
 use crate::estimation::hypothesis::{Fitted, Term, World};
 use crate::plant::{Dynamics, Signals};
-use crate::signal::distortion::{AFTER, Correction, Fault};
+use crate::signal::distortion::{AFTER, Correction};
 
 pub use probes::Probe;
 pub use typical::typical;
 
 /// How many times as long as a sensor remembers a stretch has to be: what a signal was before is not known.
 const MEMORIES: f64 = 4.0;
-
-/// A term that may explain something.
-#[derive(Clone, Debug)]
-pub struct Screened {
-    /// The term.
-    pub term: Term,
-    /// By how much the weighted sum of squares would fall, linearly.
-    pub gain: f64,
-    /// Points from which it is to be fitted, the most promising first.
-    pub starts: Vec<Point>,
-    /// The size of its first parameter that would be seen for certain: five standard deviations.
-    pub detectable: f64,
-}
 
 /// What every term would change beside a fit, in the signals predicted of the training data.
 pub struct TriedOut {
@@ -159,62 +145,6 @@ impl World<'_> {
         let mut kept = diverging.into_iter().map(|it| !it.into_inner());
         probes.retain(|_| kept.next().unwrap_or_default());
         Ok(TriedOut { terms, probes, normal })
-    }
-
-    /// Compares every term to what a fit misses.
-    ///
-    /// # Errors
-    /// If the model refuses its settings.
-    pub fn screened(&self, fitted: &Fitted) -> Result<Vec<Screened>, String> {
-        Ok(self.ranked(&self.tried_out(fitted)?, fitted))
-    }
-
-    /// Every term that was tried out beside a fit, compared to what it misses: the best first.
-    pub fn ranked(&self, TriedOut { terms, probes, normal }: &TriedOut, fitted: &Fitted) -> Vec<Screened> {
-        let Normal { h, g, .. } = contained(normal, fitted.coordinates.len());
-
-        let mut screened: Vec<Screened> = terms
-            .iter()
-            .map(|term| Screened { term: *term, gain: 0.0, starts: Vec::new(), detectable: f64::INFINITY })
-            .collect();
-        let mut found: Vec<Vec<(f64, Point)>> = vec![Vec::new(); terms.len()];
-        for (probe, range) in probes {
-            let mut block = h.view((range.start, range.start), (range.len(), range.len())).into_owned();
-            for index in 0..range.len() {
-                block[(index, index)] = block[(index, index)] * (1.0 + 1e-6) + f64::MIN_POSITIVE;
-            }
-            let right = g.rows(range.start, range.len()).into_owned();
-            let Some(factor) = block.cholesky() else { continue };
-            let amounts = factor.solve(&right);
-            let gain = amounts.dot(&right);
-            let screened = &mut screened[probe.term];
-            // A limit shows by how low it is, and not by how large.
-            let sized = !matches!(terms[probe.term], Term::Fault(Handle::Input(_, Fault::Limit)));
-            if sized && !has_no_name(terms[probe.term]) {
-                let size = self.first_size(terms[probe.term], &probe.points[0], &fitted.point);
-                screened.detectable = screened.detectable.min(5.0 * size * factor.inverse()[(0, 0)].sqrt());
-            }
-            let (gain, point) = self.start(terms[probe.term], probe, &amounts, gain, &fitted.point);
-            found[probe.term].push((gain, point));
-        }
-        for (screened, mut found) in screened.iter_mut().zip(found) {
-            found.sort_by(|a, b| b.0.total_cmp(&a.0));
-            screened.gain = found.first().map_or(0.0, |(gain, _)| *gain);
-            // A second start where it may lead as far.
-            let near = 0.5 * screened.gain;
-            screened.starts =
-                found.into_iter().take(2).filter(|(gain, _)| *gain >= near).map(|(_, point)| point).collect();
-        }
-        screened.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-        screened
-    }
-
-    /// By how much a probe differs from the fit in the term's first parameter.
-    fn first_size(&self, term: Term, probe: &Point, at: &Point) -> f64 {
-        match self.own_coordinates(term).first() {
-            Some(coordinate) => (probe.get(coordinate.handle) - at.get(coordinate.handle)).abs(),
-            None => 1.0,
-        }
     }
 
     /// Where a fit of the term starts, and what it may gain there.
