@@ -134,6 +134,11 @@ pub struct Unmodelled {
 }
 
 impl Unmodelled {
+    /// Whether something is said to explain it. What has no share describes the rest beside a name.
+    pub fn is_claimed(&self) -> bool {
+        self.share != Some(0.0)
+    }
+
     /// How many of its [words](Self::words) count.
     pub const COUNTED: usize = 2;
 

@@ -85,6 +85,19 @@ fn what_of_the_clutter_is_named_besides_is_told_apart() {
 }
 
 #[test]
+fn a_rest_that_is_described_beside_a_name_claims_nothing() {
+    let friction = ("01", Place::Strut, "");
+    let report = |share: f64| {
+        format!(
+            r#"{{"verdict": "identified", "unmodelled": [{{"place": "strut", "share": {share}}}],
+            "effects": [{{"id": "01", "element": "strut", "parameters": [], "ambiguous_with": []}}]}}"#
+        )
+    };
+    assert_eq!(came_out(&[friction], &report(0.0)), Outcome::Correct);
+    assert_eq!(came_out(&[friction], &report(0.3)), Outcome::TooMany);
+}
+
+#[test]
 fn gain_and_delay_of_one_input_are_one_effect() {
     let input = ("42", Place::Sensor, "road.position");
     let twice = named(&[("42", "road.position", &[]), ("42", "road.position", &[])]);
