@@ -84,7 +84,7 @@ impl World<'_> {
         let (shares, rounds) =
             if unstated.is_empty() { (&LOOSE[..], ROUNDS[0]) } else { (&ANY[..], ROUNDS[1]) };
         for index in unstated.iter().filter(|_| about.frame.far) {
-            point = self.of_the_right_order(about, (precisions, shares), *index, point);
+            point = self.of_the_right_order(about, (precisions, shares), *index, &point);
         }
         let mut before = point.parameters.clone();
         for _ in 0..rounds {
@@ -118,7 +118,7 @@ impl World<'_> {
         about: &About<'_, '_>,
         shares: (&[f64], &[f64]),
         index: usize,
-        point: Point,
+        point: &Point,
     ) -> Point {
         let most = self.rig.plant.parameters[index].max.unwrap_or(f64::INFINITY);
         let scaled = |decade: i32| {
@@ -132,7 +132,7 @@ impl World<'_> {
             let (likelihood, _) = self.corrected(about, shares, &scaled).ok()??;
             Some((likelihood, scaled))
         });
-        likely.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(point.clone(), |(_, best)| best)
+        likely.max_by(|a, b| a.0.total_cmp(&b.0)).map_or_else(|| point.clone(), |(_, best)| best)
     }
 
     /// The likelihood of the estimation records about a point, and the corrections that make them likeliest; none if they

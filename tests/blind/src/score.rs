@@ -254,7 +254,8 @@ fn outcome(report: &Report, told: &[&Named], effects: &[Present]) -> Outcome {
     };
     // What is wrong with one measured input, its gain and its delay, say, is one effect.
     let number = told.iter().map(|named| (&named.id, &named.element)).collect::<BTreeSet<_>>().len();
-    let strangers = report.unmodelled.iter().any(Unmodelled::is_claimed) || !told.iter().all(|named| belongs(named));
+    let strangers =
+        report.unmodelled.iter().any(Unmodelled::is_claimed) || !told.iter().all(|named| belongs(named));
     match choices.iter().max() {
         None if unmodelled && told.is_empty() => Outcome::Unnamed,
         None if told.is_empty() => Outcome::Missed,
