@@ -213,8 +213,11 @@ mod tests {
     #[test]
     fn what_never_turns_back_cannot_tell_friction_from_an_offset() {
         let of = |turns: bool| {
-            let velocity =
-                |k: usize| if turns && k >= 50 { -1.0 - 0.01 * k as f64 } else { 1.0 + 0.01 * k as f64 };
+            let velocity = |k: usize| match k {
+                _ if !turns => 1.0 + 0.01 * k as f64,
+                0..50 => 0.02 + 0.04 * k as f64,
+                _ => 1.98 - 0.04 * k as f64,
+            };
             let all = DMatrix::from_fn(100, 3, |k, column| match column {
                 0 => velocity(k),
                 1 => 1.0,

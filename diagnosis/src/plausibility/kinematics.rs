@@ -1,5 +1,6 @@
 //! Columns of one motion against each other: a velocity is the rate of its position whatever the rig's parameters are.
 
+use crate::catalogue::Element;
 use crate::dataset::recorded::{Recorded, Source, derivative};
 use crate::decision::plausible::{FARTHEST, is_beyond_any_rig, mismatched_rate};
 use crate::report::findings::DataProblem;
@@ -48,21 +49,22 @@ pub(super) fn problems(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
 
 /// Lengths that no test rig goes, or not as fast. A drive may turn, and its angles are no lengths: they are told only.
 pub(super) fn beyond_any_rig(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
+    let may_turn = rig.kind.elements.iter().all(|it| it.element == Element::Guide);
     let of = |(name, si, values): Column<'_>| {
         let rates = record.sections.iter().flat_map(|it| derivative(&values[it.clone()], record.step));
         let (length, rate) = (rms(values), rms(&rates.collect::<Vec<_>>()));
         let reading = readings(si).into_iter().find(|it| !it.in_header)?;
         (si == "m" && is_beyond_any_rig(length, rate)).then(|| {
             let text = format!(
-                "its rms is {} m, and that of its rate {} m/s. No test rig goes beyond {} m or {} m/s. It fits if {}. An \
-                 axis that turns, recorded in rad, may go as far",
+                "its rms is {} m, and that of its rate {} m/s. No test rig goes beyond {} m or {} m/s. It fits if {}{}",
                 digits(length, 2),
                 digits(rate, 2),
                 FARTHEST.0,
                 FARTHEST.1,
-                mended(name, si, reading)
+                mended(name, si, reading),
+                if may_turn { ". An axis that turns, recorded in rad, may go as far" } else { "" }
             );
-            DataProblem { record: record.name.clone(), signal: name.into(), text, fatal: false }
+            DataProblem { record: record.name.clone(), signal: name.into(), text, fatal: !may_turn }
         })
     };
     columns(rig, record).into_iter().filter_map(of).collect()
