@@ -258,6 +258,7 @@ mod tests {
             not_done: Some("The time limit of 5 s was reached.".into()),
             disagreements: vec![of("strut.damping"), of("tire.damping")],
             account: vec![open()],
+            signals: vec![signal(0.1, 0.6)],
             ..findings(Verdict::OutOfTime)
         };
         let text = self::of(&found);
