@@ -23,6 +23,9 @@ use crate::estimation::lsq::Problem;
 
 /// Excitations that are compared at least: fewer records are cut in pieces.
 const EXCITATIONS: usize = 4;
+/// Share of the rise of the cost that a derivative promises over half an interval, below which the derivative tells nothing: near
+/// a limit of its own, a law's may be infinite.
+const BORNE_OUT: f64 = 0.01;
 /// Quantile of the normal distribution for 95 % within.
 const NORMAL: f64 = 1.96;
 
@@ -76,6 +79,10 @@ impl World<'_> {
     pub fn intervals(&self, fitted: &Fitted) -> Result<Vec<Interval>, String> {
         let own = fitted.linear.robust_covariance(&fitted.trace.scores);
         let opinions = self.opinions(fitted)?;
+        let dynamics = self.dynamics(&fitted.terms)?;
+        let fit = self.fit(&*dynamics, self.train, fitted.coordinates.clone());
+        let norms = fitted.linear.column_norms();
+        let amounts: Vec<Handle> = fitted.terms.iter().flat_map(|term| self.sizes(*term)).collect();
         let Assumed { pulls, twins } = self.assumed(fitted)?;
         let interval = |(index, coordinate): (usize, &Coordinate)| {
             let all: Vec<Opinion> = opinions.iter().map(|excitation| excitation[index]).collect();
@@ -92,7 +99,17 @@ impl World<'_> {
             let records = 0..self.train.len() + self.test.len();
             let wishes = records.filter_map(|record| wish(record, &said(record))).collect();
             let twins = twins[index].clone();
-            Interval { handle, value, half: variance.sqrt(), wishes, twins, bounds }
+            let mut half = variance.sqrt();
+            if amounts.contains(&handle) && half.is_finite() {
+                let step = if value + half <= bounds.1 { half } else { -half };
+                let mut moved = fitted.point.clone();
+                moved.set(handle, value + step);
+                let promised = 0.5 * (norms[index] * half).powi(2);
+                if fit.cost(&moved) - fitted.cost < BORNE_OUT * promised {
+                    half = f64::INFINITY;
+                }
+            }
+            Interval { handle, value, half, wishes, twins, bounds }
         };
         Ok(fitted.coordinates.iter().enumerate().map(interval).collect())
     }
