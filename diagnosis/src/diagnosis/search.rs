@@ -21,7 +21,7 @@ const MOST: usize = 4;
 /// look much worse than it is.
 const AS_GOOD: f64 = 0.9;
 /// How often other effects are fitted where the first ones are not confirmed.
-const ATTEMPTS: usize = 2;
+const ATTEMPTS: usize = 4;
 /// How often errors are made as large as the best explanation leaves, where no effect is confirmed.
 const REFINEMENTS: usize = 3;
 /// Unmodelled places at most.

@@ -200,7 +200,7 @@ fn is_named(effect: &Present, named: &Named) -> bool {
 }
 
 /// Whether the report says so in another way than by an effect: the tyre's damping, the gain of a servo valve, the cylinder's
-/// leakage, a pump actuator's charge pressure and its valves' characteristics are parameters of the model, and steps, flat tops,
+/// leakage, a drive's constant load, a pump actuator's charge pressure and its valves' characteristics are parameters of the model, and steps, flat tops,
 /// holes and folded lines in a signal are found before any model is fitted.
 fn is_known_otherwise(effect: &Present, report: &Report) -> bool {
     let another = |name: &str| {
@@ -210,6 +210,7 @@ fn is_known_otherwise(effect: &Present, report: &Report) -> bool {
             .any(|fitted| characteristic(&fitted.interval.name) == name && fitted.mismatch)
     };
     match number(&effect.id) {
+        _ if effect.id == "33g" => another("constant_load"),
         "21" => another("tire.damping"),
         "29" => another("actuator.spool.gain"),
         "30" => another("actuator.cylinder.leakage"),
