@@ -29,6 +29,9 @@ const FEWER_SECONDS: f64 = 5.0;
 /// Mean of the outputs' errors over their measured rms from which they are tried.
 const DOUBTFUL: f64 = 0.3;
 
+/// Standard deviation over the value of a given parameter from which the value says nothing of magnitudes.
+const VAGUE: f64 = 0.5;
+
 /// What cannot be as it is recorded.
 ///
 /// # Errors
@@ -39,7 +42,12 @@ pub fn problems(rig: &Rig, records: &Records, options: &Options) -> Result<Vec<D
     if !problems.is_empty() {
         return Ok(problems);
     }
-    let known = |index: usize| rig.stated[index] || options.known.iter().any(|(other, _, _)| *other == index);
+    // What the user hardly knows is no measure of what a record shows.
+    let given = |index: usize| {
+        let own = options.known.iter().find(|(other, _, _)| *other == index);
+        own.is_some_and(|(_, value, deviation)| *deviation < VAGUE * value.abs())
+    };
+    let known = |index: usize| rig.stated[index] || given(index);
     let nominal = rig.kind.base.iter().chain(rig.driven().map_or(&[][..], |it| it.base));
     let mut nominal = nominal.filter_map(|name| rig.plant.parameter(name));
     // A start value of zero claims no magnitude.
