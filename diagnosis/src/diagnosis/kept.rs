@@ -1,4 +1,4 @@
-//! What is kept of what was found: no amount that may be nothing, and nothing that runs away.
+//! Effects that are taken back: their amount may be zero, or their simulation runs away.
 
 use crate::dataset::recorded::Recorded;
 use crate::decision::rules::{Amount, is_determined, lowers};
@@ -11,7 +11,7 @@ use crate::signal::distortion::Fault;
 use super::{Found, phi};
 
 impl World<'_> {
-    /// The last effect whose amount may be nothing by all that is known of it.
+    /// The last effect whose interval holds zero.
     pub(super) fn doubtful(&self, found: &Found, intervals: &[Interval]) -> Option<usize> {
         let amount = |handle: Handle| {
             let it = intervals.iter().find(|it| it.handle == handle)?;
@@ -24,19 +24,14 @@ impl World<'_> {
         })
     }
 
-    /// The first effect with which the model as others simulate it, on the records as they were measured, meets a signal less
-    /// well than without it: what runs away there is of no use, however well it fits.
+    /// The first effect that lowers the fit of a signal of the records as measured, in the simulation that an importer makes.
     pub(super) fn harmful(&self, found: &Found, measured: &[Recorded]) -> Option<usize> {
         let rows = measured.first().map_or(0, |record| record.measured.len());
         let fits = |stage: &Fitted| -> Vec<f64> {
-            let residuals = self.as_measured(measured, (&stage.terms, &stage.point), stage);
-            let of = |row: usize| {
-                let left = residuals.iter().flat_map(|(_, it)| it.iter().flat_map(|record| &record[row]));
-                let left: Vec<f64> = left.copied().collect();
-                let values = measured.iter().flat_map(|record| &record.measured[row].values);
-                phi(&left, &values.copied().collect::<Vec<_>>())
+            let Some((_, residuals)) = self.as_measured(measured, (&stage.terms, &stage.point), stage) else {
+                return vec![f64::NAN; rows];
             };
-            (0..rows).map(of).collect()
+            (0..rows).map(|row| fit_of(measured, &residuals, row)).collect()
         };
         let all: Vec<Vec<f64>> = std::iter::once(&found.base).chain(&found.stages).map(fits).collect();
         all.windows(2).position(|pair| lowers(&pair[0], &pair[1]))
@@ -52,8 +47,8 @@ impl World<'_> {
         let dynamics = self.dynamics(terms).ok()?;
         let fit = self.fit(&*dynamics, measured, Vec::new());
         let mut point = Point { starts: self.starts(measured), ..point.within(&self.rig.plant) };
-        // What any importer finds with the extended model, which knows nothing of what measuring did to the signals, but for
-        // what is reported: a signal's delay and lag go together.
+        // An importer's simulation of the extended model has no timing of channels, except where the report gives it: a
+        // signal's delay and lag go together.
         let output = |term: &Term| match term {
             Term::Fault(Handle::Output(output, Fault::Delay | Fault::Lag)) | Term::Response(output) => {
                 Some(*output)
@@ -91,5 +86,52 @@ impl World<'_> {
         }
         found.extended = last;
         Ok(())
+    }
+}
+
+/// The fit of a measured output by its residuals; not a number where the simulation runs away.
+fn fit_of(measured: &[Recorded], residuals: &Residuals, row: usize) -> f64 {
+    let (mut left, mut values) = (Vec::new(), Vec::new());
+    for (record, residuals) in measured.iter().zip(residuals) {
+        for section in &record.sections {
+            let pairs =
+                record.measured[row].values[section.clone()].iter().zip(&residuals[row][section.clone()]);
+            for (value, residual) in pairs.filter(|(value, _)| value.is_finite()) {
+                values.push(*value);
+                left.push(*residual);
+            }
+        }
+    }
+    if left.iter().all(|it| it.is_finite()) { phi(&left, &values) } else { f64::NAN }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dataset::recorded::Measured;
+    use crate::plant::Between;
+
+    #[test]
+    fn what_runs_away_is_no_perfect_fit() {
+        let values: Vec<f64> = (0..100).map(|k| f64::from(k).sin()).collect();
+        let with = |values: Vec<f64>| Recorded {
+            name: String::new(),
+            step: 1e-3,
+            inputs: vec![],
+            between: Between::Lines,
+            measured: vec![Measured { output: 0, values, noise_floor: 0.0 }],
+            others: vec![],
+            sections: std::iter::once(0..100).collect(),
+        };
+        let left = vec![vec![vec![0.01; 100]]];
+        let close = fit_of(&[with(values.clone())], &left, 0);
+        assert!((0.98..1.0).contains(&close), "{close}");
+        let mut lost = left.clone();
+        lost[0][0][50..].fill(f64::NAN);
+        assert!(fit_of(&[with(values.clone())], &lost, 0).is_nan());
+        // Samples that the sensor got wrong are not compared.
+        let mut wrong = values;
+        wrong[50..].fill(f64::NAN);
+        assert!(fit_of(&[with(wrong)], &lost, 0) > 0.97);
     }
 }
