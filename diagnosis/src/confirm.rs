@@ -10,13 +10,13 @@ use std::collections::BTreeSet;
 use rayon::prelude::*;
 
 use crate::catalogue::{Onset, Part, RESPONSE, naming};
+use crate::decision::evidence::Evidence;
 use crate::decision::rules::{Amount, CERTAIN, is_determined};
 use crate::estimation::deadline::Stage;
 use crate::estimation::fit::{Handle, Point};
 use crate::estimation::hypothesis::{Fitted, Term, World};
 use crate::estimation::lsq::Stop;
 use crate::explain::selection::Proposal;
-use crate::report::findings::Evidence;
 use crate::signal::distortion::Fault;
 
 pub(crate) use choice::SAME;
@@ -72,7 +72,7 @@ impl World<'_> {
         if null.terms.is_empty() {
             starts.push(with(start, &start.parameters));
         }
-        // What the time limit leaves no time for is not begun.
+        // No fit begins after the time limit.
         let fitted = match self.deadline.is_over(Stage::Search) {
             true => Err("not fitted: the time limit was reached".into()),
             false => self.fitted(&terms, &starts, comparing(base, null)),
@@ -101,7 +101,7 @@ impl World<'_> {
             let index = fitted.coordinates.iter().position(|it| it.handle == handle)?;
             let value = fitted.point.get(handle) - base.point.get(handle);
             let (low, high) = fitted.coordinates[index].bounds;
-            // A law may go to the end of what its parameter means, as a command that is clipped for good does.
+            // The end of a parameter's meaning is a possible value: a sharp limit has a ratio of one.
             let end = match handle {
                 Handle::Parameter(parameter) => self.rig.plant.parameters[parameter].max,
                 Handle::Input(..) | Handle::Output(..) => None,

@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
+use crate::decision::evidence::Evidence;
 use crate::estimation::hypothesis::{Fitted, Term, World};
 use crate::estimation::lsq::Stop;
-use crate::report::findings::Evidence;
 
 use super::{Tried, contains, has_no_name, parts};
 

@@ -1,5 +1,5 @@
-//! The error of a clock: over a record, a signal that is a little too slow loses its phase many times over, so that no
-//! derivative shows the way to the right rate. Its own simulation tells it: every rate is tried.
+//! The error of a clock. Over a record, a signal with a wrong rate loses its phase many times over, and no derivative leads
+//! to the right rate. So every rate is compared with the signal's own simulation.
 
 use crate::diagnosis::{root_mean_square, simulated};
 use crate::estimation::fit::{Handle, Point};
@@ -8,12 +8,11 @@ use crate::signal::distortion::Fault;
 
 /// Share of a period of the fastest signal by which neighbouring rates may differ at a record's end.
 const PHASE: f64 = 0.25;
-/// Highest frequency in Hz by which a phase is told.
+/// Highest frequency in Hz whose phase counts.
 const FASTEST: f64 = 20.0;
 
 impl World<'_> {
-    /// The point of a fit with the error of an output's clock with which its own simulation meets the signal best; none of
-    /// another term.
+    /// A fit's point with the clock error that brings an output's simulation nearest to its signal; none for other terms.
     pub(super) fn by_clock(&self, null: &Fitted, term: Term) -> Option<Point> {
         let Term::Fault(handle @ Handle::Output(output, Fault::Rate)) = term else { return None };
         let row = self.train.first()?.measured.iter().position(|it| it.output == output)?;

@@ -3,10 +3,10 @@
 use crate::catalogue::naming::{name, prevalence};
 use crate::catalogue::{Element, Prevalence};
 use crate::dataset::recorded::Recorded;
+use crate::decision::evidence::Evidence;
 use crate::estimation::comparison::{Errors, Student, student};
 use crate::estimation::fit::{Handle, Residuals, strain};
 use crate::estimation::hypothesis::{Fitted, TIMING, Term, World};
-use crate::report::findings::Evidence;
 use crate::screening::bent_rms;
 use crate::signal::distortion::Fault;
 

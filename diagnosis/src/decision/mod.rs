@@ -2,6 +2,7 @@
 
 pub mod account;
 pub mod disagreement;
+pub mod evidence;
 pub mod plausible;
 pub mod rules;
 pub mod verdict;

@@ -1,7 +1,7 @@
 //! The tests that an effect has to pass, and the evidence in words.
 
 use super::words::{number, percent};
-use crate::report::findings::Evidence;
+use crate::decision::evidence::Evidence;
 
 const VALIDATION: &str = "Validation";
 const ESTIMATION: &str = "Estimation";

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+pub use crate::decision::evidence::Evidence;
 pub use crate::decision::verdict::Verdict;
 
 pub use disagreement::{Disagreement, RecordValue};
@@ -133,134 +134,6 @@ pub struct EffectParameter {
     pub low: f64,
     /// Upper end of the 95 % interval.
     pub high: f64,
-}
-
-/// Why an effect is believed: every gate that it went through.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Evidence {
-    /// Fall of the Bayesian information criterion, samples counted as far as they are independent.
-    pub delta_bic: f64,
-    /// Student's t of the gain over the blocks of the training data.
-    pub block_t: f64,
-    /// Chance that of as many causes as were compared the best one's gain is as steady, where none of them is there.
-    pub chance: f64,
-    /// Student's t of the gain over the blocks of the held-out data.
-    pub held_out_t: f64,
-    /// Share of the starting model's error power that it explains on the held-out data.
-    pub explained: f64,
-    /// Largest rise of Φ among the signals, on the training or the held-out data, whichever is less.
-    pub phi_gain: f64,
-    /// Share that it takes away of the error's power that was left without it, on the training or the held-out data,
-    /// whichever is less.
-    pub taken: f64,
-    /// Whether every rig has a little of it, so that more of it is asked for.
-    pub usual: bool,
-    /// Whether it matters however little of it the errors show, as with a signal that is very late.
-    pub grave: bool,
-}
-
-/// Share of the error's power on held-out data that does not go by chance, however few the blocks are.
-const BY_FAR: f64 = 0.25;
-
-/// Share of the error's power that no mixture of small effects takes away …
-const BULK: f64 = 0.7;
-
-/// … so that this Student's t over the training data's blocks is enough for it: its gains are as uneven as the errors
-/// were, and t is small for all their size.
-const STEADY: f64 = 2.0;
-
-impl Evidence {
-    /// What has to be exceeded, in every gate; the chance must not be. The information criterion alone is never the verdict: small unmodelled
-    /// effects pass it on every record.
-    ///
-    /// Of `phi_gain` and `taken`, one is enough: what is large, or more than half of what is missing.
-    pub const REQUIRED: Self = Self {
-        delta_bic: 20.0,
-        block_t: 3.5,
-        chance: 0.01,
-        held_out_t: 3.0,
-        explained: 0.01,
-        phi_gain: 0.015,
-        taken: 0.55,
-        usual: false,
-        grave: false,
-    };
-
-    /// The same of what every rig has a little of.
-    pub const REQUIRED_OF_USUAL: Self = Self { phi_gain: 0.03, usual: true, ..Self::REQUIRED };
-
-    /// What has to be exceeded here.
-    pub fn required(&self) -> Self {
-        if self.usual { Self::REQUIRED_OF_USUAL } else { Self::REQUIRED }
-    }
-
-    /// Whether it takes most of the error away, however small that is.
-    pub fn takes_the_bulk(&self) -> bool {
-        self.taken > BULK
-    }
-
-    /// Whether so much of the error on held-out data goes that chance is no question, however few the blocks are.
-    pub fn is_no_chance(&self) -> bool {
-        let most_of_what_was_left = self.taken > self.required().taken && self.held_out_t > STEADY;
-        most_of_what_was_left || self.explained > BY_FAR && self.held_out_t > 0.0
-    }
-
-    /// The first gate that is not passed, in words.
-    pub fn refusal(&self) -> Option<String> {
-        self.doubt().or_else(|| self.smallness())
-    }
-
-    /// Whether it passes beside another cause that has passed: whether anything is there is no question then, and its gains
-    /// may be less steady.
-    pub fn passes_beside_another(&self) -> bool {
-        let steady = self.block_t > STEADY;
-        steady && Self { block_t: f64::INFINITY, chance: 0.0, ..*self }.refusal().is_none()
-    }
-
-    /// Whether it takes so much away that a small Student's t over the training data is enough.
-    pub fn is_steady_enough(&self) -> bool {
-        self.takes_the_bulk() && self.block_t > STEADY
-    }
-
-    /// The first gate that is not passed of those that tell whether it is there at all.
-    pub fn doubt(&self) -> Option<String> {
-        let Self { delta_bic, block_t, chance, held_out_t, explained, .. } = *self;
-        let required = self.required();
-        if !explained.is_finite() {
-            Some("diverges on the validation data".to_owned())
-        } else if delta_bic.is_nan() || delta_bic <= required.delta_bic {
-            Some(format!("explains too little for its parameters (the BIC falls by {delta_bic:.0})"))
-        } else if !(block_t > required.block_t || self.is_steady_enough()) {
-            Some(format!("no consistent improvement on the estimation data (t = {block_t:.1})"))
-        } else if !(chance < required.chance || self.is_steady_enough()) {
-            Some(format!("the improvement may be chance (p-value {chance:.2})"))
-        } else if !(held_out_t > required.held_out_t || self.is_no_chance()) {
-            Some(format!("no improvement on the validation data (t = {held_out_t:.1})"))
-        } else {
-            None
-        }
-    }
-
-    /// The first gate that is not passed of those that tell whether it matters.
-    fn smallness(&self) -> Option<String> {
-        let Self { explained, phi_gain, taken, .. } = *self;
-        let required = self.required();
-        if self.grave {
-            None
-        } else if explained <= required.explained {
-            Some(format!(
-                "below the smallest improvement of interest ({:.1} % of the error)",
-                100.0 * explained
-            ))
-        } else if !(phi_gain > required.phi_gain || taken > required.taken) {
-            Some(format!(
-                "below the smallest improvement of interest (the fit rises by {phi_gain:.3}, residual reduction {:.0} %)",
-                100.0 * taken
-            ))
-        } else {
-            None
-        }
-    }
 }
 
 /// A parameter of the starting model.
