@@ -1,5 +1,7 @@
 //! The experiment that separates rivals: on it the right model wins, on another excitation of the same size it may not.
 
+mod common;
+
 use strut_diagnosis::catalogue::naming::name;
 use strut_diagnosis::data;
 use strut_diagnosis::dataset::recorded::{Measured, Recorded, Source, derivative};
@@ -13,23 +15,11 @@ use strut_diagnosis::experiment::{Excitation, Limits, Rival, Shape, TABLE, Trial
 use strut_diagnosis::plant::{Between, Drive};
 use strut_diagnosis::rig::Rig;
 
+use common::noise;
+
 const STEP: f64 = 2.5e-3;
 /// Standard deviation of the force's noise in N.
 const NOISE: f64 = 60.0;
-
-fn noise(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    move || {
-        let mut sum = 0.0;
-        for _ in 0..12 {
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            sum += (state >> 11) as f64 / (1_u64 << 53) as f64;
-        }
-        sum - 6.0
-    }
-}
 
 /// A record of a strut on a bench: its lower end moves, its force is measured with noise.
 fn record(rig: &Rig, parameters: &[f64], motion: Vec<f64>, seed: u64) -> Recorded {

@@ -1,5 +1,7 @@
 //! The search on records that the plant itself has made: what is hidden is found, what is not there is not claimed.
 
+mod common;
+
 use strut_diagnosis::catalogue::naming::name;
 use strut_diagnosis::dataset::recorded::{Measured, Recorded, Source, derivative};
 use strut_diagnosis::dataset::split::Records;
@@ -9,6 +11,8 @@ use strut_diagnosis::plant::{Between, Drive};
 use strut_diagnosis::rig::Rig;
 use strut_diagnosis::screening::rms;
 use strut_diagnosis::signal::distortion::Fault;
+
+use common::noise;
 
 const STEP: f64 = 2e-3;
 
@@ -26,20 +30,6 @@ fn multisine(n: usize, seed: u64, lines: &[(f64, f64)]) -> Vec<f64> {
                 .sum()
         })
         .collect()
-}
-
-fn noise(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    move || {
-        let mut sum = 0.0;
-        for _ in 0..12 {
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            sum += (state >> 11) as f64 / (1_u64 << 53) as f64;
-        }
-        sum - 6.0
-    }
 }
 
 fn record(rig: &Rig, seed: u64, changes: &[(&str, f64)]) -> Recorded {

@@ -77,16 +77,8 @@ pub const FORCE: Unnamed = Unnamed {
 };
 
 /// A damping rate over a deflection.
-pub const DAMPING: Unnamed = Unnamed {
-    id: "G3",
-    quantity: "damping rate",
-    unit: "N.s/m",
-    point: Scale::DAMPING,
-    bounds: (-10.0, 10.0),
-    prevalence: Prevalence::Background,
-    literature: &["Masri1979", "Worden2001"],
-    experiment: SWEEP,
-};
+pub const DAMPING: Unnamed =
+    Unnamed { id: "G3", quantity: "damping rate", unit: "N.s/m", point: Scale::DAMPING, ..FORCE };
 
 pub(super) const UNNAMED: &[&Unnamed] = &[&FORCE, &DAMPING];
 
