@@ -82,7 +82,7 @@ pub fn diagnose<'a>(
     world.look_at(&base)?;
     let mut found = Found::nothing(base);
     let intervals = loop {
-        // What is taken back makes room for what was second to it.
+        // After a retraction, the second-best effect gets its turn.
         world.identify(&mut found, progress)?;
         if let Some(harmful) = world.harmful(&found, &records.measured) {
             world.retract(&mut found, harmful)?;

@@ -42,7 +42,7 @@ pub fn problems(rig: &Rig, records: &Records, options: &Options) -> Result<Vec<D
     if !problems.is_empty() {
         return Ok(problems);
     }
-    // What the user hardly knows is no measure of what a record shows.
+    // A vague value says nothing of magnitudes.
     let given = |index: usize| {
         let own = options.known.iter().find(|(other, _, _)| *other == index);
         own.is_some_and(|(_, value, deviation)| *deviation < VAGUE * value.abs())
@@ -302,7 +302,7 @@ mod tests {
         let it = likeness(&measured, &model);
         assert!((it.ratio - 1e3).abs() < 1e-9 && (it.correlation + 1.0).abs() < 1e-12, "{it:?}");
         assert!((it.error - 1.001).abs() < 1e-9, "{it:?}");
-        // The model does nothing, or diverges: nothing can be told.
+        // The model rests or diverges: there is nothing to compare.
         for other in [&[0.0; 4][..], &[1.0, f64::INFINITY, 0.0, 0.0], &[1.0; 3]] {
             assert!(likeness(&measured, other).ratio.is_nan());
         }

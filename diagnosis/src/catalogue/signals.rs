@@ -1,4 +1,4 @@
-//! Effects in signals: what a sensor or an actuator makes of what it is given.
+//! Effects in signals: the distortions of sensors and actuators.
 
 use super::{Onset, Prevalence};
 use crate::signal::distortion::Fault;
@@ -75,7 +75,7 @@ impl Signal {
 /// What the names of inputs begin with that act through an actuator, and not through a sensor alone.
 const ACTUATORS: &[&str] = &["actuator", "brake", "command", "motor", "voltage"];
 
-/// Whether an input, by its name, is what an actuator is told.
+/// Whether an input, by its name, is an actuator's command.
 pub fn is_command(input: &str) -> bool {
     ACTUATORS.iter().any(|prefix| input.starts_with(prefix))
 }

@@ -58,8 +58,8 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
         problems.push(DataProblem {
             record: name.clone(),
             signal: unused.join(", "),
-            text: "no signal of the rig has this name: only compared with what is missing; a map (--map) can tell \
-                   what it is"
+            text: "no signal of the rig has this name: it is compared with the missing signal only. To use it, name it \
+                   in a map (--map)"
                 .into(),
             fatal: false,
         });
@@ -124,8 +124,8 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
         problems.push(DataProblem {
             record: name,
             signal: "all outputs".into(),
-            text: "no output is left to compare with the model: each is constant or has too many wrong samples. See what \
-                   else is told of this record, mend the sensors or their ranges, and record again"
+            text: "no output is left to compare with the model: each is constant or has too many wrong samples. See the \
+                   other notes on this record, mend the sensors or their ranges, and record again"
                 .into(),
             fatal: true,
         });

@@ -74,7 +74,7 @@ fn same_record(one: &Recorded, two: &Recorded) -> bool {
         && outputs.into_iter().all(|(one, two)| one.output == two.output && same(&one.values, &two.values))
 }
 
-/// What is to be told of records as witnesses: those that are too short, and those that repeat an earlier one.
+/// Notes on records that do not validate: too short ones, and repetitions of an earlier one.
 pub fn notes(train: &[Recorded], test: &[Recorded]) -> Vec<DataProblem> {
     let mut notes = Vec::new();
     let mut note = |record: &Recorded, signal: &str, text: String| {

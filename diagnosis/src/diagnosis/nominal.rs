@@ -59,7 +59,7 @@ pub(super) fn fit(world: &mut World<'_>) -> Result<(Point, Fitted, Vec<Handle>),
             reversed.push(handle);
         }
     }
-    // Weights by what is left, twice: then the fit is the likeliest for errors of such magnitudes.
+    // Weights from the residuals, twice: then the fit is the likeliest for errors of these magnitudes.
     for _ in 0..2 {
         world.sigma = left_sigma(world, &base.train);
         base = world.fitted(&[], &[base.point.clone()], Stop::NOISY)?;
@@ -114,7 +114,7 @@ fn fits(world: &World<'_>, fitted: &Fitted) -> bool {
     signals.all(|(measured, left)| phi(left, &measured.values) > 0.3)
 }
 
-/// Root mean square of what is left of each output, and not below its noise.
+/// Root mean square of each output's residuals, at least its noise.
 fn left_sigma(world: &World<'_>, residuals: &Residuals) -> Vec<f64> {
     let mut sigma = world.sigma.clone();
     for (row, floor) in world.floor.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Place, law, confirmation: until nothing is missing that matters.
+//! The search: place, law, confirmation, repeated until no error worth reporting remains.
 
 use crate::confirm::{Confirmed, Tried};
 use crate::estimation::deadline::Stage;
@@ -27,7 +27,7 @@ const REFINEMENTS: usize = 3;
 /// Unmodelled places at most.
 const PLACES: usize = 2;
 
-/// What a round of the search has found.
+/// The result of one round of the search.
 #[derive(Clone, Copy)]
 enum Next {
     /// An effect with a name.
@@ -38,7 +38,7 @@ enum Next {
     Nothing,
 }
 
-/// What a round looks at.
+/// The missing signal in one round, and its comparison with all candidates.
 struct Looked<'a> {
     missing: Missing<'a>,
     signals: Vec<Signals>,
@@ -63,7 +63,7 @@ impl World<'_> {
         Point { parameters: self.sheet.clone(), ..fitted.point.clone() }
     }
 
-    /// Place, law, confirmation: until nothing is missing that matters.
+    /// Repeats place, law and confirmation until no error worth reporting remains.
     pub(super) fn identify(&self, found: &mut Found, progress: &(dyn Fn(&str) + Sync)) -> Result<(), String> {
         let (mut errors, mut refinements, mut refused) = (None, 0, found.retracted.clone());
         let mut first = None;
@@ -80,7 +80,7 @@ impl World<'_> {
             if found.missing.is_none() {
                 found.missing = Some(MissingSignal::of(self, &missing, &location, &signals));
             }
-            // What is within the sensors' accuracy from sample to sample may add up to what leads a simulation astray.
+            // Errors within the sensors' accuracy in each sample may add up over a simulation.
             if self.is_worth_a_look(&found.extended) {
                 compared.misses = compared.misses.max(1.0);
             }
@@ -90,7 +90,7 @@ impl World<'_> {
             let mut next = self.named(found, &compared, &mut refused, progress)?;
             let over = self.deadline.is_over(Stage::Search);
             if !matches!(next, Next::Effect) && refinements < REFINEMENTS && !over {
-                // Sensors that disagree by more than their noise decide what is missing until they are believed less.
+                // Sensors that disagree by more than their noise decide the comparison until larger errors are assumed.
                 let background = &location.background;
                 let larger = missing.refined(background, &compared.best().unwrap_or_default());
                 if larger != *background {
@@ -99,7 +99,7 @@ impl World<'_> {
                     continue;
                 }
             }
-            // Of what has no name, the sensors' own accuracy decides, as long as it does not depend on that.
+            // Free features have to explain the signal with the sensors' own accuracy and with the larger errors.
             if let Some(first) = first.take().filter(|_| !matches!(next, Next::Effect)) {
                 next = match first {
                     Next::Curve(score) if compared.holds(score.candidate) => first,
@@ -112,7 +112,7 @@ impl World<'_> {
                     refused.clone_from(&found.retracted);
                     true
                 }
-                // Of what was not looked at to the end nothing is claimed.
+                // An unfinished search claims nothing.
                 _ if over => false,
                 Next::Curve(score) => self.unmodelled(found, (&missing, &compared), score)?,
                 Next::Nothing => {
@@ -128,7 +128,7 @@ impl World<'_> {
         Ok(())
     }
 
-    /// The missing signal, where it is and what may explain it, with errors of at least a size.
+    /// The missing signal, its place and all candidates, with at least these errors.
     fn looked<'b>(
         &self,
         frame: &'b Frame,
@@ -154,7 +154,7 @@ impl World<'_> {
         Ok(compared.map(|compared| Looked { missing, signals, location, compared }))
     }
 
-    /// Fits the effects that explain most of what is missing, until one is confirmed.
+    /// Fits the effects that explain most of the missing signal, until one is confirmed.
     fn named(
         &self,
         found: &mut Found,
@@ -188,7 +188,7 @@ impl World<'_> {
                     return Ok(Next::Nothing);
                 }
                 let confirmed = self.confirmed(&found.base, &tried)?;
-                // What is confirmed and is less than free features may be more beside larger errors of the sensors.
+                // A confirmed effect that explains less than free features may explain more under larger errors.
                 let refusal = |it: &&Tried| curve.is_none() || it.evidence.refusal().is_some();
                 refused.extend(tried.iter().filter(refusal).map(|it| it.term));
                 found.tried.extend(tried);
@@ -204,7 +204,7 @@ impl World<'_> {
             if let Some(score) = curve {
                 return Ok(Next::Curve(score));
             }
-            // What these laws nearly explained is no place without a name.
+            // A signal that these laws nearly explain is not unmodelled.
             names.retain(|it| !refused.iter().any(|term| compared.is_of(it, *term)));
             features = &[];
         }
@@ -254,7 +254,7 @@ impl World<'_> {
         Ok(confirmed)
     }
 
-    /// What is missing although nothing that was recorded explains it.
+    /// A missing signal that no recorded signal explains.
     fn remainder(
         &self,
         fitted: &Fitted,

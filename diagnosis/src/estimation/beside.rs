@@ -1,5 +1,5 @@
 //! What effects that are not in the model would do to a fit: by how much they would pull its coordinates, and which of them
-//! do just what a coordinate does.
+//! a coordinate cannot be told from.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use crate::screening::TriedOut;
 use crate::signal::distortion::Fault;
 
 /// Share of a column's square below which it does nothing that the coordinates could not do: it is another name for one of
-/// them, as a force cell's offset is for a preload, and nothing that is left speaks of it.
+/// them, as a force cell's offset is for a preload, and the residuals do not show it.
 const ITS_OWN: f64 = 1e-6;
 /// The same of a table's points: held beyond its ends, it comes only near to the straight line that is another name for a
 /// gain or a rate.

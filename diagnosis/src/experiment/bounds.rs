@@ -10,7 +10,7 @@ const LONGEST: f64 = 20.0;
 /// Highest frequency as a share of the sampling rate.
 const SAMPLED: f64 = 0.2;
 
-/// Limits that the user gives; what is not given follows from the records.
+/// Limits from the user; the others follow from the records.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
     /// Largest stroke in m, or rad of a pivot.

@@ -287,7 +287,7 @@ impl Compared {
         all
     }
 
-    /// Whether a candidate without a name explains what is worth it of both data.
+    /// Whether a candidate without a name explains a relevant share of both data.
     pub fn holds(&self, candidate: usize) -> bool {
         let limits = Limits::USUAL;
         let own = self.features.iter().find(|it| it.candidate == candidate);
@@ -302,7 +302,7 @@ impl Compared {
         likely
     }
 
-    /// The columns of what explains most, one list for each window.
+    /// The columns of the best candidate, one list for each window.
     pub fn best(&self) -> Option<Vec<Vec<Column>>> {
         let all = self.named.iter().chain(&self.features);
         let best = all.max_by(|a, b| a.share.total_cmp(&b.share))?;

@@ -47,7 +47,7 @@ pub(super) fn problems(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
     problems
 }
 
-/// Lengths that no test rig goes, or not as fast. A drive may turn, and its angles are no lengths: they are told only.
+/// Positions beyond any test rig, by distance or speed. A drive may turn, and angles are no lengths: there, it is a note.
 pub(super) fn beyond_any_rig(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
     let may_turn = rig.kind.elements.iter().all(|it| it.element == Element::Guide);
     let of = |(name, si, values): Column<'_>| {
