@@ -6,7 +6,8 @@ use std::path::PathBuf;
 fn matrix(more: &[PathBuf]) -> String {
     let job = strut::program_with_fmi("job");
     let usual = [strut::fmus().into(), "--cofmupy".into(), strut::cofmupy(), "--fmi-crate".into(), job];
-    strut::python("tests/masters/matrix.py", [&usual, more].concat())
+    let omsimulator = strut::omsimulator().map_or_else(Vec::new, |it| vec!["--omsimulator".into(), it]);
+    strut::python("tests/masters/matrix.py", [&usual, &omsimulator[..], more].concat())
 }
 
 #[test]

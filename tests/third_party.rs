@@ -57,7 +57,22 @@ fn ours_and_theirs_do_together_what_an_independent_solution_does() {
 #[test]
 fn the_systems_run_in_masters_that_read_start_values() {
     for name in NAMES {
-        let arguments = [systems().join(name).with_extension("ssp")];
+        let mut arguments = vec![systems().join(name).with_extension("ssp")];
+        // PythonFMU's libraries load in a Python alone.
+        arguments.extend(strut::omsimulator().filter(|_| name != "their-truck"));
         print!("{}", strut::python("tests/masters/third_party.py", arguments));
+    }
+}
+
+/// What OMSimulator asks of a system: it refuses a connection between two units of other base units, as each FMU declares
+/// its own.
+#[test]
+fn connectors_bear_the_units_that_their_fmus_declare() {
+    let files: Vec<PathBuf> = NAMES.iter().map(|name| systems().join(name).with_extension("ssp")).collect();
+    let (_, answers) = crate::subject::check(&files, &["--no-run", "--no-fmpy"]);
+    for answer in answers.as_array().unwrap() {
+        let problems = crate::subject::problems(answer);
+        let of_systems: Vec<_> = problems.iter().filter(|problem| problem.starts_with("system.")).collect();
+        assert!(of_systems.is_empty(), "{}: {of_systems:#?}", answer["file"]);
     }
 }

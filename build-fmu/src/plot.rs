@@ -17,7 +17,7 @@ const GAP: f64 = 18.0;
 const BOTTOM: f64 = 44.0;
 
 struct Panel<'a> {
-    unit: &'static str,
+    unit: &'a str,
     signals: Vec<(&'a str, &'a [f64])>,
 }
 
@@ -192,7 +192,10 @@ mod tests {
 
     #[test]
     fn signals_that_are_not_finite_or_constant_are_drawn_too() {
-        let signals = vec![("a".into(), "m", vec![f64::NAN, f64::NAN]), ("b".into(), "N", vec![3.0, 3.0])];
+        let signals = vec![
+            ("a".into(), "m".into(), vec![f64::NAN, f64::NAN]),
+            ("b".into(), "N".into(), vec![3.0, 3.0]),
+        ];
         let svg = svg(&Trajectory { time: vec![0.0, 1.0], signals }).into_string();
         assert!(svg.contains("</svg>") && !svg.contains("NaN") && !svg.contains("inf"), "{svg}");
     }

@@ -203,6 +203,12 @@ pub struct Setting {
     pub unit: Option<String>,
 }
 
+/// Whether OMSimulator accepts a name: until March 2026 it refused the whole system otherwise.
+fn is_identifier(name: &str) -> bool {
+    name.starts_with(|c: char| c.is_ascii_alphabetic())
+        && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+}
+
 impl System {
     /// Reads the TOML form; `file` is named in messages.
     ///
@@ -212,14 +218,13 @@ impl System {
         let system: Self = toml::from_str(text).map_err(|error| {
             Failure::new(format!("the system `{file}` is broken: {}", error.to_string().trim_end()))
         })?;
-        let plain = |name: &str| {
-            !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_'))
-        };
+        let own = system.identifier();
         if let Some(name) =
-            [&system.name].into_iter().chain(system.components.keys()).find(|name| !plain(name))
+            [&own].into_iter().chain(system.components.keys()).find(|name| !is_identifier(name))
         {
             return Err(Failure::new(format!("the system `{file}` has the name `{name}` in it"))
-                .help("names of systems and components are letters, digits, `-` and `_`"));
+                .help("a component's name is a letter, then letters, digits and `_`: OMSimulator takes no other")
+                .help("a system's name may have `-` as well, which is `_` in its SSD"));
         }
         let Experiment { stop, step } = system.experiment;
         if !(step > 0.0 && stop >= step && stop.is_finite()) {
@@ -228,6 +233,11 @@ impl System {
             )));
         }
         Ok(system)
+    }
+
+    /// Its name in the SSD: the file's, with `_` for `-`.
+    pub fn identifier(&self) -> String {
+        self.name.replace('-', "_")
     }
 
     /// Checks names, roles, units and values against the components, which are in their order. Returns what has to

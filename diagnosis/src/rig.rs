@@ -162,6 +162,7 @@ impl Rig {
                 source: String::new(),
                 files: Vec::new(),
                 values: Default::default(),
+                units: Default::default(),
             });
         }
         let names = Self::names();

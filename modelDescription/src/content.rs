@@ -1,6 +1,9 @@
 //! From declarations to elements.
 
-use strut_model::{Enumeration, Initial, Interface, LOG_CATEGORIES, Variable, VariableKind, unit};
+use strut_model::{
+    Enumeration, Initial, Interface, LOG_CATEGORIES, Variable, VariableKind,
+    unit::{Base, OwnedUnit},
+};
 
 use crate::{
     Header,
@@ -70,21 +73,32 @@ fn number(value: f64) -> String {
 /// would be one whose unit nobody knows, and a unit that is used but not declared is refused by some
 /// importers.
 fn units(variables: &[Variable]) -> List<Unit> {
-    let mut used: Vec<unit::Unit> = variables
+    let mut used: Vec<&OwnedUnit> = variables
         .iter()
-        .filter_map(|variable| match variable.kind {
+        .filter_map(|variable| match &variable.kind {
             VariableKind::Real { unit, .. } if !unit.symbol.is_empty() => Some(unit),
             _ => None,
         })
         .collect();
-    used.sort_by_key(|unit| unit.symbol);
-    used.dedup_by_key(|unit| unit.symbol);
+    used.sort_by(|a, b| a.symbol.cmp(&b.symbol));
+    used.dedup_by(|a, b| a.symbol == b.symbol);
     used.into_iter()
-        .map(|unit::Unit { symbol, base, factor, offset }| {
-            let unit::Base { kg, m, s, a, k, rad } = base;
+        .map(|OwnedUnit { symbol, base, factor, offset }| {
             let other = |value: f64, default: f64| (value != default).then(|| number(value));
-            let (factor, offset) = (other(factor, 1.0), other(offset, 0.0));
-            Unit { name: symbol, base: BaseUnit { kg, m, s, a, k, rad, factor, offset } }
+            let (factor, offset) = (other(*factor, 1.0), other(*offset, 0.0));
+            let base = base.map(|Base { kg, m, s, a, k, mol, cd, rad }| BaseUnit {
+                kg,
+                m,
+                s,
+                a,
+                k,
+                mol,
+                cd,
+                rad,
+                factor,
+                offset,
+            });
+            Unit { name: symbol.to_string(), base }
         })
         .collect()
 }
@@ -126,7 +140,7 @@ fn variable(variable: &Variable) -> ScalarVariable {
 fn kind(kind: &VariableKind) -> Kind {
     match kind {
         VariableKind::Real { unit, start, min, max, nominal, derivative_of } => Kind::Real(Real {
-            unit: unit.symbol,
+            unit: unit.symbol.to_string(),
             min: min.map(number),
             max: max.map(number),
             nominal: nominal.map(number),

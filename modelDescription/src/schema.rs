@@ -115,9 +115,9 @@ pub struct Capabilities {
 #[derive(Serialize)]
 pub struct Unit {
     #[serde(rename = "@name")]
-    pub name: &'static str,
-    #[serde(rename = "BaseUnit")]
-    pub base: BaseUnit,
+    pub name: String,
+    #[serde(rename = "BaseUnit", skip_serializing_if = "Option::is_none")]
+    pub base: Option<BaseUnit>,
 }
 
 /// `<BaseUnit>`; exponents that are zero are left out.
@@ -133,6 +133,10 @@ pub struct BaseUnit {
     pub a: i8,
     #[serde(rename = "@K", skip_serializing_if = "is_zero")]
     pub k: i8,
+    #[serde(rename = "@mol", skip_serializing_if = "is_zero")]
+    pub mol: i8,
+    #[serde(rename = "@cd", skip_serializing_if = "is_zero")]
+    pub cd: i8,
     #[serde(rename = "@rad", skip_serializing_if = "is_zero")]
     pub rad: i8,
     #[serde(rename = "@factor", skip_serializing_if = "Option::is_none")]
@@ -223,8 +227,8 @@ pub enum Kind {
 /// `<Real>`.
 #[derive(Default, Serialize)]
 pub struct Real {
-    #[serde(rename = "@unit", skip_serializing_if = "str::is_empty")]
-    pub unit: &'static str,
+    #[serde(rename = "@unit", skip_serializing_if = "String::is_empty")]
+    pub unit: String,
     #[serde(rename = "@min", skip_serializing_if = "Option::is_none")]
     pub min: Option<String>,
     #[serde(rename = "@max", skip_serializing_if = "Option::is_none")]

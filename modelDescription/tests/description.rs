@@ -54,7 +54,7 @@ fn every_declaration_survives_the_round_trip() {
         let kind = node.first_element_child().unwrap();
         match &variable.kind {
             VariableKind::Real { unit, start, min, max, nominal, derivative_of } => {
-                assert_eq!(kind.attribute("unit").unwrap_or(""), unit.symbol);
+                assert_eq!(kind.attribute("unit").unwrap_or(""), &*unit.symbol);
                 for (name, value) in [("start", start), ("min", min), ("max", max), ("nominal", nominal)] {
                     assert_eq!(number(&kind, name), *value, "{name} of {}", variable.name);
                 }

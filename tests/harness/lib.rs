@@ -133,6 +133,11 @@ fn interpreter_of(environment: &Path) -> PathBuf {
     environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" })
 }
 
+/// OMSimulator's command line, where `STRUT_OMSIMULATOR` names it: it is in no registry.
+pub fn omsimulator() -> Option<PathBuf> {
+    std::env::var_os("STRUT_OMSIMULATOR").map(PathBuf::from)
+}
+
 /// Cargo, at the root, for packages that the `fmi` crate is in.
 pub fn cargo_with_libclang() -> Command {
     let (native, headers) = libclang();

@@ -14,4 +14,5 @@ def excitation(name, unit, time):
     """An input at a time: two sines of its own frequencies."""
     seed = zlib.crc32(name.encode())
     low, high = 0.7 + seed % 7 * 0.3, 4.1 + seed % 11 * 0.7
-    return AMPLITUDE[unit] * (math.sin(math.tau * low * time + seed % 5) + 0.4 * math.sin(math.tau * high * time))
+    # A signal adapter's signals may be anything.
+    return AMPLITUDE[unit or "1"] * (math.sin(math.tau * low * time + seed % 5) + 0.4 * math.sin(math.tau * high * time))

@@ -91,6 +91,23 @@ class ZeroAtFirst(System):
         self.exchanging = True
 
 
+class InDependencyOrder(System):
+    """Before a step, what passes through a component is passed on at once, so that all inputs belong to one instant; one
+    tolerance for all components (OMSimulator)."""
+
+    TOLERANCE = 1e-10
+
+    def initialize(self):
+        for component in self.components.values():
+            if "solver.tolerance" in component.variables:
+                component.set("solver.tolerance", self.TOLERANCE)
+        super().initialize()
+
+    def exchange(self):
+        for _ in self.components:
+            super().exchange()
+
+
 class InTurn(ZeroAtFirst):
     """Components that wait for each other take their steps side by side; what they lead to follows with their new
     values (cofmupy)."""

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 from connected import MASTERS, ExchangedAfterwards
-from matrix_jobs import InTurn, System, ZeroAtFirst
+from matrix_jobs import InDependencyOrder, InTurn, System, ZeroAtFirst
 
 # What a master of single FMUs, or of systems, does not run.
 ONE = "one"
@@ -196,6 +196,34 @@ class FmiSim(Master):
         return np.array([found[signal.split(".", 1)[1]][1 : job.count + 1] for signal in job.signals]).T, System
 
 
+class OMSimulator(Master):
+    """Runs systems, by its command line."""
+
+    def __init__(self, program):
+        told = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout
+        super().__init__("OMSimulator", re.search(r"v(\S+)", told)[1])
+        self.program = str(Path(program).resolve())
+
+    def cannot(self, kind, job):
+        return ONE if kind == "fmu" else None
+
+    def run(self, kind, path, job):
+        with tempfile.TemporaryDirectory() as folder:
+            rows = Path(folder) / "rows.csv"
+            done = subprocess.run(
+                [self.program, f"--stopTime={job.count * job.step!r}", f"--tolerance={InDependencyOrder.TOLERANCE!r}",
+                 f"--intervals={job.count}", "--emitEvents=false", "--stripRoot=true", f"--resultFile={rows}", path.resolve()],
+                cwd=folder, capture_output=True, text=True,
+            )  # fmt: skip
+            # It goes on after an error, and then tells so.
+            errors = [line for line in (done.stdout + done.stderr).splitlines() if line.startswith(("error", "warning"))]
+            assert done.returncode == 0 and not errors, errors or done.returncode
+            names = rows.read_text().partition("\n")[0].replace('"', "").split(",")
+            found = np.loadtxt(rows, delimiter=",", skiprows=1)
+        places = [names.index(signal) for signal in job.signals]
+        return found[1 : job.count + 1, places], InDependencyOrder
+
+
 class FmiCrate(Master):
     """The crate `fmi`, as examples/rust-master uses it."""
 
@@ -231,4 +259,5 @@ ALL = [
     lambda arguments: arguments.cofmupy and Cofmupy(arguments.cofmupy),
     lambda arguments: arguments.fmi_sim and FmiSim(arguments.fmi_sim),
     lambda arguments: arguments.fmi_crate and FmiCrate(arguments.fmi_crate),
+    lambda arguments: arguments.omsimulator and OMSimulator(arguments.omsimulator),
 ]

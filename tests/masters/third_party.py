@@ -1,6 +1,6 @@
-"""A system with FMUs of others in libcosimpy and Ecos, against our own master.
+"""A system with FMUs of others in libcosimpy, Ecos and, if its program is named, OMSimulator, against our own master.
 
-    python third_party.py SYSTEM.ssp
+    python third_party.py SYSTEM.ssp [OMSIMULATOR]
 
 FMPy passes over the start values in a system's file, without which these are other systems.
 """
@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 
 from matrix_jobs import off, system
-from matrix_masters import Ecos, Libcosimpy
+from matrix_masters import Ecos, Libcosimpy, OMSimulator
 
 sys.path.insert(0, str(Path(__file__).parent.parent.parent / "examples" / "third-party"))
 from leave import leave  # noqa: E402
@@ -24,7 +24,8 @@ def main():
     with tempfile.TemporaryDirectory() as unpacked:
         job = system(path, unpacked)
         job.count = 5000
-        for master in Libcosimpy("libcosimpy", ""), Ecos("ecos", ""):
+        masters = [Libcosimpy("libcosimpy", ""), Ecos("ecos", ""), *map(OMSimulator, sys.argv[2:])]
+        for master in masters:
             rows, scheme = master.run("ssp", path, job)
             apart = off(rows, job.run(scheme))
             print(f"{master.name}: {path.stem}, {len(job.signals)} signals, {apart:.1e}")

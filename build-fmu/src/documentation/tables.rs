@@ -127,8 +127,8 @@ fn items(variable: &Variable) -> Markup {
 
 /// The unit as one reads it; empty for settings.
 pub fn unit(variable: &Variable) -> String {
-    match variable.kind {
-        VariableKind::Real { unit, .. } => printed(unit.symbol),
+    match &variable.kind {
+        VariableKind::Real { unit, .. } => printed(&unit.symbol),
         _ => String::new(),
     }
 }

@@ -1,6 +1,7 @@
 //! What stands between components of different conventions.
 
 use serde::Deserialize;
+use strut_check::unit::Unit;
 
 use super::{Adapted, System};
 
@@ -84,8 +85,8 @@ pub struct Adapter {
     pub name: String,
     /// Its parameter set: every master knows start values, and not every one reads a system's.
     pub set: String,
-    /// Units of what comes and of what goes.
-    pub units: [String; 2],
+    /// Units of what comes and of what goes; none if nobody knows.
+    pub units: [Option<Unit>; 2],
 }
 
 impl Adapter {
@@ -96,21 +97,26 @@ impl Adapter {
     pub fn new(
         name: String,
         title: &str,
-        units: [String; 2],
+        units: [Option<Unit>; 2],
         adaptation: Adaptation,
         system: &System,
     ) -> Self {
         let Adaptation { operation, offset, filter, initial, .. } = adaptation;
         let factor = adaptation.factor();
         let (source, period) = (&system.name, system.experiment.step);
+        let [from, to] = units.each_ref().map(Option::as_ref);
+        // What is added, before and after, is in the unit of what goes.
+        let ends = [("input", from), ("added", to), ("offset", to), ("output", to)];
+        let given: String = ends.iter().filter_map(|(name, unit)| Some(given(name, (*unit)?))).collect();
         let set = format!(
             "fmu = \"{name}\"\nmodel = \"{}\"\ntitle = {}\nsource = \"{source}\"\n[values]\n\
              operation = {{ value = \"{operation:?}\", source = \"the system's file\" }}\n\
-             factor = {{ value = {factor:?}, unit = \"1\", source = \"the system's file\" }}\n\
-             offset = {{ value = {offset:?}, unit = \"1\", source = \"the system's file\" }}\n\
-             initial = {{ value = {initial:?}, unit = \"1\", source = \"the system's file\" }}\n\
+             factor = {{ value = {factor:?}, source = \"the system's file\" }}\n\
+             offset = {{ value = {offset:?}, source = \"the system's file\" }}\n\
+             initial = {{ value = {initial:?}, source = \"the system's file\" }}\n\
              filter = {{ value = {filter:?}, unit = \"s\", source = \"the system's file\" }}\n\
-             period = {{ value = {period:?}, unit = \"s\", source = \"the communication step\" }}\n",
+             period = {{ value = {period:?}, unit = \"s\", source = \"the communication step\" }}\n\
+             [units]\n{given}",
             Self::MODEL,
             toml::Value::String(title.into())
         );
@@ -127,4 +133,16 @@ impl Adapter {
             .find(|name| !taken(name))
             .expect("there is always another number")
     }
+}
+
+/// The unit of a variable, as a parameter set gives it.
+fn given(name: &str, unit: &Unit) -> String {
+    let Unit { symbol, base, factor, offset } = unit;
+    let symbol = toml::Value::String(symbol.clone());
+    let base = base.iter().map(|exponents| {
+        let list: Vec<String> = exponents.iter().map(|(name, power)| format!("{name} = {power}")).collect();
+        format!(", base = {{ {} }}", list.join(", "))
+    });
+    let base: String = base.collect();
+    format!("{name} = {{ symbol = {symbol}{base}, factor = {factor:?}, offset = {offset:?} }}\n")
 }

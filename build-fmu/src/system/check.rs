@@ -289,7 +289,7 @@ impl<'a> Finder<'a, '_> {
         };
         let (from_name, to_name) = (self.name(from), self.name(to));
         let name = Adapter::name(&to_name, taken);
-        let units = [from, to].map(|end| end.variable.symbol().to_owned());
+        let units = [from, to].map(|end| end.variable.unit().cloned());
         let title =
             format!("What stands between the components of {}: {from_name} -> {to_name}", self.system.name);
         Adapter::new(name, &title, units, adaptation, self.system)

@@ -1,6 +1,7 @@
 //! What a system has to know of a component, be it one of ours or an FMU of others.
 
-use strut_check::unit::{BASES, Fit, Unit};
+use strut_check::unit::{Fit, Unit};
+use strut_model::unit::OwnedUnit;
 use strut_model::{Causality, Initial, Interface, VariableKind};
 
 /// The variables of a component.
@@ -54,7 +55,7 @@ impl Face {
             settable: variable.causality == Causality::Input || variable.initial == Some(Initial::Exact),
             kind: match &variable.kind {
                 VariableKind::Real { unit, min, max, .. } => {
-                    Kind::Real { unit: ours(*unit), min: *min, max: *max }
+                    Kind::Real { unit: ours(unit), min: *min, max: *max }
                 }
                 VariableKind::Integer { .. } => Kind::Integer,
                 VariableKind::Boolean { .. } => Kind::Boolean,
@@ -110,10 +111,9 @@ impl Kind {
 }
 
 /// The unit of one of our variables.
-pub fn ours(unit: strut_model::unit::Unit) -> Option<Unit> {
-    let strut_model::unit::Unit { symbol, base, factor, offset } = unit;
-    let exponents: Vec<(&str, i8)> = base.exponents().collect();
-    let exponent = |name| exponents.iter().find(|(other, _)| *other == name).map(|(_, e)| i32::from(*e));
-    let base = BASES.iter().filter_map(|name| Some((*name, exponent(*name)?))).collect();
-    (!symbol.is_empty()).then(|| Unit { symbol: symbol.into(), base: Some(base), factor, offset })
+pub fn ours(unit: &OwnedUnit) -> Option<Unit> {
+    let OwnedUnit { symbol, base, factor, offset } = unit;
+    let base =
+        base.map(|base| base.exponents().map(|(name, exponent)| (name, i32::from(exponent))).collect());
+    (!symbol.is_empty()).then(|| Unit { symbol: symbol.to_string(), base, factor: *factor, offset: *offset })
 }

@@ -121,11 +121,11 @@ fn structure(system: &System, checked: &Checked, components: &[Packed]) -> Vec<u
         .with("xmlns:oms", "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd")
         .with("xmlns:osp", "http://opensimulationplatform.com/SSP/OSPAnnotations")
         .with("version", "1.0")
-        .with("name", &system.name)
+        .with("name", system.identifier())
         .with("description", format!("{} ({})", system.title, system.source))
         .with("generationTool", concat!("Strut ", env!("CARGO_PKG_VERSION")))
         .of([Element::new("ssd:System")
-            .with("name", &system.name)
+            .with("name", system.identifier())
             .with("description", &system.title)
             .list("ssd:Elements", elements)
             .list("ssd:Connections", connections)
@@ -171,14 +171,15 @@ fn connectors(checked: &Checked, component: usize) -> Vec<Element> {
     connectors
 }
 
-/// The connectors of an adapter bear the units of what they are joined to.
+/// The connectors of an adapter bear the units that its parameter set gives it: those of what they are joined to.
 fn adapter_connectors(checked: &Checked, index: usize) -> Vec<Element> {
     let Adapter { units: [from, to], .. } = &checked.adapters[index];
     let added = checked.wires.iter().any(|wire| matches!(wire.to, Sink::Added(adapter) if adapter == index));
     let mut list = vec![("input", "input", from), ("output", "output", to)];
     list.extend(added.then_some(("added", "input", to)));
-    let connector = |(name, kind, unit): (&str, &str, &String)| {
-        Element::new("ssd:Connector").with("name", name).with("kind", kind).of([real("ssc:Real", unit)])
+    let connector = |(name, kind, unit): (&str, &str, &Option<Unit>)| {
+        let symbol = unit.as_ref().map_or("", |unit| &unit.symbol);
+        Element::new("ssd:Connector").with("name", name).with("kind", kind).of([real("ssc:Real", symbol)])
     };
     list.into_iter().map(connector).collect()
 }

@@ -8,7 +8,7 @@ use super::*;
 use crate::fmu::Fmu;
 
 const GOOD: &str = r#"
-name = "corner"
+name = "front-corner"
 title = "A rig & its road"
 source = "Quanser 3.1"
 components = { road = "QuanserRoad", rig = "QuanserQuarterCar" }
@@ -61,8 +61,15 @@ fn mistakes_are_named() {
         check(&GOOD.replace(from, to)).unwrap_err().to_string()
     };
     for (from, to, expected) in [
-        ("name = \"corner\"", "", "missing field `name`"),
-        ("name = \"corner\"", "name = \"a/b\"", "has the name `a/b` in it"),
+        ("name = \"front-corner\"", "", "missing field `name`"),
+        ("name = \"front-corner\"", "name = \"a/b\"", "has the name `a/b` in it"),
+        ("name = \"front-corner\"", "name = \"3-corner\"", "has the name `3_corner` in it"),
+        (
+            "{ road =",
+            "{ the-road =",
+            "has the name `the-road` in it\nhelp: a component's name is a letter, then",
+        ),
+        ("{ road =", "{ _road =", "has the name `_road` in it"),
         ("source =", "sauce =", "unknown field `sauce`"),
         ("step = 1e-3", "step = 0.0", "cannot stop at 10 s in steps of 0 s"),
         ("road.velocity -> rig", "road.velocity > rig", "has no arrow"),
@@ -70,7 +77,7 @@ fn mistakes_are_named() {
         (
             "road.velocity ->",
             "raod.velocity ->",
-            "no component `raod` in the system corner\nhelp: did you mean `road`?",
+            "no component `raod` in the system front-corner\nhelp: did you mean `road`?",
         ),
         ("road.velocity ->", "road.velcity ->", "component `road` (QuanserRoad) has no variable `velcity`"),
         ("road.velocity ->", "rig.actuator.force ->", "`rig.actuator.force` is no output"),
@@ -79,7 +86,7 @@ fn mistakes_are_named() {
         (
             "road.velocity -> rig.road.velocity",
             "road.position -> rig.road.position",
-            "`rig.road.position` is connected twice in the system corner\nhelp: if it is to be the sum, write",
+            "`rig.road.position` is connected twice in the system front-corner\nhelp: if it is to be the sum, write",
         ),
         (", \"road.velocity -> rig.road.velocity\"", "", "nothing drives the input `rig.road.velocity`"),
         ("\"rig.actuator.force\"", "\"rig.road.position\"", "is connected and has a value as well"),
@@ -135,6 +142,9 @@ fn components_keep_the_order_of_the_file() {
         nodes.map(|node| node.attribute(attribute).unwrap_or("-").to_owned()).collect()
     };
     assert_eq!(attributes("Component", "name"), ["road", "rig"]);
+    for tag in ["SystemStructureDescription", "System"] {
+        assert_eq!(attributes(tag, "name"), ["front_corner"]);
+    }
     assert_eq!(attributes("Connection", "endConnector"), ["road.position", "road.velocity"]);
     // Each connector once, also if it is connected and looked at.
     assert_eq!(

@@ -62,7 +62,7 @@ pub struct Trajectory {
     /// Times in seconds.
     pub time: Vec<f64>,
     /// Name, unit and values of each signal.
-    pub signals: Vec<(String, &'static str, Vec<f64>)>,
+    pub signals: Vec<(String, String, Vec<f64>)>,
 }
 
 impl Entry {
@@ -131,8 +131,8 @@ fn demonstrate(
     let (inputs, outputs): (Vec<_>, Vec<_>) = interface
         .variables
         .iter()
-        .filter_map(|variable| match variable.kind {
-            VariableKind::Real { unit, .. } => Some((variable, unit.symbol)),
+        .filter_map(|variable| match &variable.kind {
+            VariableKind::Real { unit, .. } => Some((variable, unit.symbol.to_string())),
             _ => None,
         })
         .filter(|(variable, _)| {

@@ -73,7 +73,7 @@ pub enum Error {
         /// The unit that was given.
         given: String,
         /// The declared unit.
-        declared: &'static str,
+        declared: String,
     },
     /// The parameters do not fit together, or a resource is missing.
     #[error("{0}")]

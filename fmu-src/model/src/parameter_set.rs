@@ -7,6 +7,7 @@ use toml::{Table, Value as Toml};
 use crate::{
     Declaration, Error, Model, SettingKind, Value,
     layout::{Layout, Section, display, expected},
+    unit::{self, OwnedUnit},
 };
 
 /// Start values for a model, from a TOML file.
@@ -22,6 +23,9 @@ use crate::{
 /// sprung_mass = { value = 94.38, unit = "kg", source = "Table 10" }
 /// tire.lift_off = { value = true, source = "4.3.2", assumed = true }
 /// damping = { value = [0.3, 0.5], unit = "N.m.s/rad", source = "Fig. 9" }  # damping[1], damping[2]
+///
+/// [units]                         # optional: of variables that the model declares for any unit
+/// input = { symbol = "kN", base = { kg = 1, m = 1, s = -2 }, factor = 1e3 }
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterSet {
@@ -37,6 +41,8 @@ pub struct ParameterSet {
     pub files: Vec<String>,
     /// Value of each variable that differs from its declaration.
     pub values: BTreeMap<String, Given>,
+    /// Unit of each variable that the model declares for any unit.
+    pub units: BTreeMap<String, OwnedUnit>,
 }
 
 /// A value of a parameter set.
@@ -69,6 +75,17 @@ impl ParameterSet {
             None => {}
             Some(_) => return Err("`values` is not a table".into()),
         }
+        let units = match table.get("units") {
+            Some(Toml::Table(list)) => list
+                .iter()
+                .map(|(name, unit)| match OwnedUnit::read(unit) {
+                    Ok(unit) => Ok((name.clone(), unit)),
+                    Err(error) => Err(format!("the unit of `{name}`: {error}")),
+                })
+                .collect::<Result<_, _>>()?,
+            None => BTreeMap::new(),
+            Some(_) => return Err("`units` is not a table".into()),
+        };
         let files = match table.get("files") {
             None => Some(Vec::new()),
             Some(Toml::Array(list)) => list.iter().map(|file| file.as_str().map(str::to_owned)).collect(),
@@ -81,6 +98,7 @@ impl ParameterSet {
             source: text_of("source")?,
             files: files.ok_or("`files` is not a list of file names")?,
             values,
+            units,
         })
     }
 }
@@ -166,12 +184,24 @@ impl Starts {
         }
         let mut reals: BTreeMap<u32, f64> =
             declared.iter().map(|(reference, declaration)| (*reference, declaration.start)).collect();
+        let outputs = Layout::<M>::declarations(Section::Output);
+        for name in set.iter().flat_map(|set| set.units.keys()) {
+            let mut all = declared.iter().map(|(_, declaration)| declaration).chain(&outputs);
+            let found = all.find(|declaration| declaration.name == *name);
+            if found.is_none_or(|declaration| declaration.unit != unit::ANY) {
+                return Err(Error::Refused(format!(
+                    "{} has no variable `{name}` whose unit a parameter set gives",
+                    M::ABOUT.name
+                )));
+            }
+        }
         let setting_declarations = Layout::<M>::settings();
         for (name, given) in set.iter().flat_map(|set| &set.values) {
             if let Some((reference, declaration)) =
                 declared.iter().find(|(_, declaration)| declaration.name == *name)
             {
-                reals.insert(*reference, real(declaration, given)?);
+                let unit = set.and_then(|set| set.units.get(name)).map(|unit| &*unit.symbol);
+                reals.insert(*reference, real(declaration, unit, given)?);
             } else if let Some(index) = setting_declarations.iter().position(|setting| setting.name == name) {
                 settings[index] = setting(&setting_declarations[index], given)?;
             } else {
@@ -185,7 +215,9 @@ impl Starts {
     }
 }
 
-fn real(declaration: &Declaration, given: &Given) -> Result<f64, Error> {
+/// `unit` is what the set gives for a variable of any unit.
+fn real(declaration: &Declaration, unit: Option<&str>, given: &Given) -> Result<f64, Error> {
+    let declared = unit.unwrap_or(declaration.unit.symbol);
     let name = || declaration.name.clone();
     let value = match given.value {
         Value::Real(number) => number,
@@ -193,13 +225,9 @@ fn real(declaration: &Declaration, given: &Given) -> Result<f64, Error> {
         _ => return Err(Error::NotFinite { name: name(), value: f64::NAN }),
     };
     if let Some(unit) = &given.unit
-        && unit != declaration.unit.symbol
+        && unit != declared
     {
-        return Err(Error::WrongUnit {
-            name: name(),
-            given: unit.clone(),
-            declared: declaration.unit.symbol,
-        });
+        return Err(Error::WrongUnit { name: name(), given: unit.clone(), declared: declared.into() });
     }
     crate::layout::check_bounds(declaration, value)?;
     Ok(value)
@@ -275,6 +303,9 @@ mod tests {
             (&format!("{HEAD}[values]\na = {{ value = 3, units = 'm' }}"), "`units` is unknown"),
             (&format!("{HEAD}values = 1"), "not a table"),
             (&format!("{HEAD}["), "TOML parse error"),
+            (&format!("{HEAD}[units]\na = 'm'"), "the unit of `a`: a unit is { symbol"),
+            (&format!("{HEAD}[units]\na = {{ base = {{}} }}"), "the unit of `a`: a symbol is missing"),
+            (&format!("{HEAD}[units]\na = {{ symbol = 'x', base = {{ g = 1 }} }}"), "`g` is no base unit"),
         ] {
             let error = ParameterSet::parse(text).unwrap_err();
             assert!(error.contains(part), "{error}");

@@ -1,5 +1,9 @@
 //! Units of measurement and what they are in the base units of the SI.
 
+mod owned;
+
+pub use owned::OwnedUnit;
+
 /// A unit with its decomposition: `value in base units = factor · value + offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
@@ -13,7 +17,7 @@ pub struct Unit {
     pub offset: f64,
 }
 
-/// Exponents of kilogram, metre, second, ampere, kelvin and radian.
+/// Exponents of the base units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Base {
     /// Exponent of the kilogram.
@@ -26,19 +30,31 @@ pub struct Base {
     pub a: i8,
     /// Exponent of the kelvin.
     pub k: i8,
+    /// Exponent of the mole.
+    pub mol: i8,
+    /// Exponent of the candela.
+    pub cd: i8,
     /// Exponent of the radian.
     pub rad: i8,
 }
 
 impl Base {
+    /// The base units, as FMI names them.
+    pub const NAMES: [&str; 8] = ["kg", "m", "s", "A", "K", "mol", "cd", "rad"];
+
     /// No unit at all.
-    pub const NONE: Self = Self { kg: 0, m: 0, s: 0, a: 0, k: 0, rad: 0 };
+    pub const NONE: Self = Self { kg: 0, m: 0, s: 0, a: 0, k: 0, mol: 0, cd: 0, rad: 0 };
 
     /// Exponents with the names that FMI gives the base units, zeros left out.
     pub fn exponents(self) -> impl Iterator<Item = (&'static str, i8)> {
-        [("kg", self.kg), ("m", self.m), ("s", self.s), ("A", self.a), ("K", self.k), ("rad", self.rad)]
-            .into_iter()
-            .filter(|(_, exponent)| *exponent != 0)
+        let Self { kg, m, s, a, k, mol, cd, rad } = self;
+        let all = [kg, m, s, a, k, mol, cd, rad];
+        Self::NAMES.into_iter().zip(all).filter(|(_, exponent)| *exponent != 0)
+    }
+
+    /// From exponents in the order of [`NAMES`](Self::NAMES).
+    pub const fn of([kg, m, s, a, k, mol, cd, rad]: [i8; 8]) -> Self {
+        Self { kg, m, s, a, k, mol, cd, rad }
     }
 }
 
@@ -48,6 +64,9 @@ impl Unit {
         Self { symbol, base, factor: 1.0, offset: 0.0 }
     }
 }
+
+/// Whatever unit the signal has: only a parameter set can say which, and without one nobody knows.
+pub const ANY: Unit = Unit::coherent("", Base::NONE);
 
 macro_rules! units {
     ($($(#[$doc:meta])* $name:ident = $symbol:literal { $($base:ident: $exponent:expr),* };)*) => {
@@ -226,7 +245,7 @@ mod tests {
             }
         }
         let [kg, m, s, a, k, rad] = total;
-        Base { kg, m, s, a, k, rad }
+        Base { kg, m, s, a, k, rad, ..Base::NONE }
     }
 
     #[test]
@@ -234,6 +253,28 @@ mod tests {
         for unit in ALL {
             assert_eq!(unit.base, parsed(unit.symbol), "{}", unit.symbol);
         }
+    }
+
+    #[test]
+    fn rates_of_change_have_a_second_less() {
+        for unit in ALL {
+            let rate = unit.per_second();
+            let base = Base { s: unit.base.s - 1, ..unit.base };
+            assert_eq!((rate.base, parsed(&rate.symbol)), (Some(base), base), "{}", rate.symbol);
+        }
+        for (unit, expected) in [
+            (ONE, "1/s"),
+            (PA, "Pa/s"),
+            (M_PER_S, "m/s2"),
+            (N_S_PER_M, "N/m"),
+            (A2_S, "A2"),
+            (M5_PER_N_S, "m5/(N.s2)"),
+            (S_PER_RAD, "1/rad"),
+            (M_PER_N, "m/(N.s)"),
+        ] {
+            assert_eq!(unit.per_second().symbol, expected);
+        }
+        assert_eq!(ANY.per_second().symbol, "");
     }
 
     #[test]

@@ -108,6 +108,32 @@ fn variables_have_names_of_their_own() {
     }
 }
 
+/// What the unit of each real number is, is declared or follows: only a signal adapter's signals may be anything.
+#[test]
+fn every_real_number_has_a_unit() {
+    let mut rates = 0;
+    for name in
+        CATALOGUE.iter().map(|entry| entry.about.name.to_owned()).chain(sets().into_iter().map(|set| set.fmu))
+    {
+        let interface = fmu(&name);
+        for variable in &interface.variables {
+            let VariableKind::Real { unit, derivative_of, .. } = &variable.kind else { continue };
+            let any = ["input", "added", "output", "factor", "offset", "initial"];
+            let open = name == "SignalAdapter" && any.contains(&variable.name.as_str());
+            assert_eq!(unit.symbol.is_empty(), open, "{name}: {}", variable.name);
+            let Some(state) = derivative_of else { continue };
+            let VariableKind::Real { unit: of, .. } = &interface.variables[*state].kind else {
+                panic!("{name}")
+            };
+            let (base, mut expected) = (unit.base.unwrap(), of.base.unwrap());
+            expected.s -= 1;
+            assert_eq!(base, expected, "{name}: {} in {}", variable.name, unit.symbol);
+            rates += 1;
+        }
+    }
+    assert!(rates > 300, "{rates}");
+}
+
 #[test]
 fn names_are_unique_and_files_exist() {
     let mut names: BTreeSet<String> = CATALOGUE.iter().map(|entry| entry.about.name.to_owned()).collect();
@@ -136,9 +162,9 @@ fn variable<'a>(components: &'a [(String, Interface)], path: &str) -> &'a Variab
     interface.variable(name).unwrap_or_else(|| panic!("no variable {path}"))
 }
 
-fn unit(variable: &Variable) -> &'static str {
-    match variable.kind {
-        VariableKind::Real { unit, .. } => unit.symbol,
+fn unit(variable: &Variable) -> &str {
+    match &variable.kind {
+        VariableKind::Real { unit, .. } => &unit.symbol,
         _ => panic!("{} is no real number", variable.name),
     }
 }
@@ -171,11 +197,11 @@ fn systems_connect_outputs_with_inputs_of_equal_unit() {
             assert_eq!(variable(&components, path).causality, Causality::Output, "{file}: {path}");
         }
         for (path, given) in system["parameters"].as_table().unwrap() {
-            let VariableKind::Real { unit, start, .. } = variable(&components, path).kind else {
+            let VariableKind::Real { unit, start, .. } = &variable(&components, path).kind else {
                 panic!("{path}")
             };
-            assert_eq!(given["unit"].as_str(), Some(unit.symbol), "{file}: {path}");
-            assert_eq!(given["value"].as_float(), start, "{file}: {path} must restate what is built in");
+            assert_eq!(given["unit"].as_str(), Some(&*unit.symbol), "{file}: {path}");
+            assert_eq!(given["value"].as_float(), *start, "{file}: {path} must restate what is built in");
         }
     }
 }

@@ -14,7 +14,7 @@ use crate::{
     layout::{Layout, Section, SolverMethod, rate_name},
     parameter_set::Starts,
     setting::Setting,
-    unit::Unit,
+    unit::OwnedUnit,
 };
 
 /// The variables of a model with a parameter set: all that a model description says.
@@ -127,7 +127,7 @@ pub enum VariableKind {
     /// A real number.
     Real {
         /// Unit.
-        unit: Unit,
+        unit: OwnedUnit,
         /// Start value, if it has one.
         start: Option<f64>,
         /// Smallest legal value.
@@ -182,14 +182,9 @@ impl Interface {
             let first = Layout::<M>::first(section);
             variables.extend(list.into_iter().enumerate().map(|(index, declaration)| {
                 let reference = (first + index) as u32;
-                real(
-                    section,
-                    reference,
-                    declaration,
-                    starts.reals.get(&reference).copied(),
-                    &dependency,
-                    index,
-                )
+                let start = starts.reals.get(&reference).copied();
+                let given = set.and_then(|set| set.units.get(&declaration.name)).cloned();
+                real(section, reference, declaration, start, given, (&dependency, index))
             }));
         }
         for index in 0..Layout::<M>::STATES {
@@ -243,8 +238,8 @@ fn real(
     reference: u32,
     declaration: Declaration,
     start: Option<f64>,
-    dependency: &Dependency,
-    index: usize,
+    given: Option<OwnedUnit>,
+    (dependency, index): (&Dependency, usize),
 ) -> Variable {
     let Declaration { name, doc, unit, min, max, nominal, fixed, output, .. } = declaration;
     let parameter = if fixed { Variability::Fixed } else { Variability::Tunable };
@@ -262,7 +257,7 @@ fn real(
     if section == Section::Rate {
         let doc = format!("{doc}: rate of change");
         let kind = VariableKind::Real {
-            unit: per_second(unit),
+            unit: unit.per_second(),
             start: None,
             min: None,
             max: None,
@@ -271,20 +266,15 @@ fn real(
         };
         return Variable { name: rate_name(&name), reference, doc, causality, variability, initial, kind };
     }
-    let kind = VariableKind::Real { unit, start, min, max, nominal, derivative_of: None };
+    let kind = VariableKind::Real {
+        unit: given.unwrap_or_else(|| unit.into()),
+        start,
+        min,
+        max,
+        nominal,
+        derivative_of: None,
+    };
     Variable { name, reference, doc, causality, variability, initial, kind }
-}
-
-/// The declared unit of a rate of change, if there is one; the unit of the SI's base units otherwise
-/// has no symbol that every tool would read, so that the rate then goes without.
-fn per_second(unit: Unit) -> Unit {
-    let mut base = unit.base;
-    base.s -= 1;
-    crate::unit::ALL
-        .iter()
-        .copied()
-        .find(|candidate| candidate.base == base && candidate.symbol != "Hz")
-        .unwrap_or(Unit { symbol: "", base, ..unit })
 }
 
 fn setting(reference: u32, declaration: &SettingDeclaration, value: Value) -> Variable {

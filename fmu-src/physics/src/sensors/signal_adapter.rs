@@ -36,13 +36,13 @@ pub struct Options {
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<R> {
     /// Factor: negative for the other sign, 1e-3 from millimetres to metres
-    #[var(unit = ONE, start = 1.0)]
+    #[var(unit = ANY, start = 1.0)]
     pub factor: R,
     /// What is added after the factor, in the output's unit
-    #[var(unit = ONE, start = 0.0)]
+    #[var(unit = ANY, start = 0.0)]
     pub offset: R,
     /// Integral at the start, before factor and offset
-    #[var(unit = ONE, start = 0.0, fixed)]
+    #[var(unit = ANY, start = 0.0, fixed)]
     pub initial: R,
     /// Time constant of the filter of the rate of change
     #[var(unit = S, start = 0.0, min = 0.0)]
@@ -56,10 +56,10 @@ pub struct Parameters<R> {
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Input<R> {
     /// Signal, in whatever unit it has
-    #[var(unit = ONE)]
+    #[var(unit = ANY)]
     pub input: R,
     /// What is added to it, in the output's unit: another part of the same force
-    #[var(unit = ONE)]
+    #[var(unit = ANY)]
     pub added: R,
 }
 
@@ -67,13 +67,13 @@ pub struct Input<R> {
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Memory<R> {
     /// Signal at the last sample
-    #[var(unit = ONE)]
+    #[var(unit = ANY)]
     pub signal: R,
     /// Its rate of change
-    #[var(unit = PER_S)]
+    #[var(unit = ANY)]
     pub rate: R,
     /// Its integral
-    #[var(unit = S)]
+    #[var(unit = ANY)]
     pub integral: R,
 }
 
@@ -81,7 +81,7 @@ pub struct Memory<R> {
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Output<R> {
     /// Signal as the other model wants it
-    #[var(unit = ONE)]
+    #[var(unit = ANY)]
     pub output: R,
 }
 
@@ -106,6 +106,8 @@ impl Model for SignalAdapter {
             },
         ],
         notes: &[
+            "It has no unit of its own. One that `build-fmu --system` puts between two components declares the units of \
+             both; its parameter set gives them.",
             "Some masters pass over the LinearTransformation of a connection in an SSP without a word. A component is \
              something that every master runs.",
             "The value passes through without a delay of its own. A master that takes the same step with every \
