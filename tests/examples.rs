@@ -43,6 +43,15 @@ fn the_systems_from_python_and_from_rust_are_the_same() {
     assert_contains(&python, &rust);
 }
 
+#[test]
+fn the_best_force_on_a_bump_is_found_with_exact_jacobians() {
+    let text = strut::python("examples/optimal_control.py", [strut::fmus().join("TumQuarterVehicle.fmu")]);
+    let [planned, apart, found, without] = numbers(&text)[..] else { panic!("not four numbers: {text}") };
+    assert!(apart < 1e-8, "{text}");
+    // A trapezoidal rule of 5 ms is within a twentieth of the FMU's own integration.
+    assert!((planned / found - 1.0).abs() < 0.05 && found < 0.75 * without, "{text}");
+}
+
 /// Ajala Fig. 8 on the FMUs; the bounds stand in `strut-physics`' own tests.
 #[test]
 fn the_car_rides_as_in_figure_8() {

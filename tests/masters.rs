@@ -16,6 +16,23 @@ fn some_of_each_kind_do_the_same_in_every_master() {
 }
 
 #[test]
+fn casadis_jacobians_are_those_of_differences() {
+    print!("{}", strut::python("tests/masters/casadi_jacobians.py", [strut::fmus()]));
+}
+
+#[test]
+fn some_of_each_kind_do_in_model_exchange_what_they_do_in_co_simulation() {
+    print!("{}", strut::python("tests/masters/model_exchange.py", [strut::fmus(), "--short".as_ref()]));
+}
+
+#[test]
+#[ignore = "takes minutes; writes tests/masters/model-exchange.md"]
+fn every_fmu_in_model_exchange_does_what_it_does_in_co_simulation() {
+    let page = strut::root().join("tests/masters/model-exchange.md");
+    print!("{}", strut::python("tests/masters/model_exchange.py", [strut::fmus(), "--page".as_ref(), &page]));
+}
+
+#[test]
 fn ecco_is_no_worse_than_a_fixed_step() {
     print!("{}", strut::python("tests/masters/connected_ecco.py", [strut::fmus()]));
 }

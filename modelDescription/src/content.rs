@@ -33,7 +33,7 @@ pub fn document(interface: &Interface, header: &Header<'_>) -> Document {
         generation_tool: header.generation_tool.into(),
         generated: header.generated.map(str::to_owned),
         naming: "structured",
-        event_indicators: 0,
+        event_indicators: interface.event_indicators,
         model_exchange: ModelExchange {
             identifier: header.name.into(),
             completed_step_not_needed: true,

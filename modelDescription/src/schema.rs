@@ -32,7 +32,7 @@ pub struct Document {
     #[serde(rename = "@variableNamingConvention")]
     pub naming: &'static str,
     #[serde(rename = "@numberOfEventIndicators")]
-    pub event_indicators: u32,
+    pub event_indicators: usize,
     #[serde(rename = "ModelExchange")]
     pub model_exchange: ModelExchange,
     #[serde(rename = "CoSimulation")]

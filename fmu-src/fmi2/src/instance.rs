@@ -115,7 +115,7 @@ impl<M: Model> Instance<M> {
     pub fn access(&self) -> Access {
         match self.state.phase() {
             Phase::Instantiated | Phase::Initialization => Access::All,
-            Phase::Continuous => Access::Inputs,
+            Phase::Continuous => Access::Continuous,
             _ => Access::Tunable,
         }
     }

@@ -141,17 +141,18 @@ pub unsafe fn get_derivatives<M: Model>(component: Component, rates: *mut Real, 
     unsafe { call(component, &table::GET_DERIVATIVES, body) }
 }
 
-/// `fmi2GetEventIndicators`, of which there are none.
+/// `fmi2GetEventIndicators`.
 ///
 /// # Safety
-/// As for [`enter_event_mode`].
-pub unsafe fn get_event_indicators<M: Model>(
-    component: Component,
-    _indicators: *mut Real,
-    n: Size,
-) -> Status {
+/// As for [`set_continuous_states`].
+pub unsafe fn get_event_indicators<M: Model>(component: Component, indicators: *mut Real, n: Size) -> Status {
+    let body = |instance: &mut Instance<M>| {
+        count(n, instance.origin.event_indicators, "ni")?;
+        // SAFETY: by the caller.
+        Ok(instance.simulation.event_indicators(unsafe { slice_mut(indicators, n, "eventIndicators") }?)?)
+    };
     // SAFETY: by the caller.
-    unsafe { call::<M>(component, &table::GET_EVENT_INDICATORS, |_| count(n, 0, "ni")) }
+    unsafe { call(component, &table::GET_EVENT_INDICATORS, body) }
 }
 
 /// `fmi2GetContinuousStates`.

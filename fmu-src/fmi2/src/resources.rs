@@ -22,6 +22,8 @@ pub struct Origin {
     pub set: Option<ParameterSet>,
     /// The identifier of model and parameter set.
     pub guid: String,
+    /// Number of event indicators.
+    pub event_indicators: usize,
 }
 
 impl Origin {
@@ -48,15 +50,15 @@ impl Origin {
             Some(uri::to_path(location).map_err(Failure::error)?)
         };
         let set = resources.as_deref().map(read).transpose().map_err(Failure::error)?.flatten();
-        let expected = Interface::of::<M>(set.as_ref(), resources.as_deref())
-            .map_err(|error| match &resources {
+        let interface =
+            Interface::of::<M>(set.as_ref(), resources.as_deref()).map_err(|error| match &resources {
                 Some(folder) => {
                     Failure::error(format!("{} does not fit {}: {error}", folder.display(), M::ABOUT.name))
                 }
                 None => error.into(),
-            })?
-            .guid();
-        let origin = Self { resources, set, guid: expected };
+            })?;
+        let (expected, event_indicators) = (interface.guid(), interface.event_indicators);
+        let origin = Self { resources, set, guid: expected, event_indicators };
         if guid == origin.guid { Ok(origin) } else { Err(origin.stranger(guid, M::ABOUT.name)) }
     }
 

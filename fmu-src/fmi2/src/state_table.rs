@@ -2,6 +2,9 @@
 //!
 //! The standard's states `stepInProgress` and `stepCanceled` are never reached, because a step has ended
 //! when `fmi2DoStep` returns; nor is `error`, because a call that is refused changes nothing.
+//!
+//! More than the tables allow is one thing: start values may be read in the state Instantiated. Importers do that, and
+//! their users expect the values of the description there.
 
 use std::fmt;
 
@@ -221,10 +224,10 @@ table! {
     EXIT_INITIALIZATION_MODE           fmi2ExitInitializationMode:    - x - - - | - x - - -;
     TERMINATE                          fmi2Terminate:                 - - x x - | - - x x -;
     RESET                              fmi2Reset:                     x x x x x | x x x x x;
-    GET_REAL                           fmi2GetReal:                   - x x x x | - x x x x;
-    GET_INTEGER                        fmi2GetInteger:                - x x x x | - x x x x;
-    GET_BOOLEAN                        fmi2GetBoolean:                - x x x x | - x x x x;
-    GET_STRING                         fmi2GetString:                 - x x x x | - x x x x;
+    GET_REAL                           fmi2GetReal:                   x x x x x | x x x x x;
+    GET_INTEGER                        fmi2GetInteger:                x x x x x | x x x x x;
+    GET_BOOLEAN                        fmi2GetBoolean:                x x x x x | x x x x x;
+    GET_STRING                         fmi2GetString:                 x x x x x | x x x x x;
     SET_REAL                           fmi2SetReal:                   x x x x - | x x x - -;
     SET_INTEGER                        fmi2SetInteger:                x x x - - | x x x - -;
     SET_BOOLEAN                        fmi2SetBoolean:                x x x - - | x x x - -;

@@ -8,11 +8,11 @@ use crate::{
     instance::{Instance, call},
     log::Failure,
     pointer::{slice, slice_mut, text, utf8},
-    state_table::{self as table, Function},
+    state_table::{self as table, Function, Phase},
     types::{Boolean, Component, Integer, Real, Size, Status, Text, ValueReference},
 };
 
-/// `fmi2GetReal`.
+/// `fmi2GetReal`. In the state Instantiated it reads start values: nothing is calculated yet.
 ///
 /// # Safety
 /// The component is null or an instance of this model that nobody else uses; arrays are null or of
@@ -27,6 +27,9 @@ pub unsafe fn get_real<M: Model>(
     let body = |instance: &mut Instance<M>| {
         // SAFETY: by the caller.
         let (references, values) = unsafe { (slice(references, n, "vr")?, slice_mut(values, n, "value")?) };
+        if instance.state.phase() == Phase::Instantiated {
+            return Ok(instance.simulation.real_before_initialization(references, values)?);
+        }
         Ok(instance.simulation.real(references, values)?)
     };
     // SAFETY: by the caller.

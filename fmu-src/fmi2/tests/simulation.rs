@@ -6,7 +6,7 @@ use std::ptr;
 
 use common::{models::*, *};
 use strut_fmi2::types::*;
-use strut_model::Model;
+use strut_model::{Interface, Model};
 
 fn close(a: f64, b: f64, tolerance: f64) {
     assert!((a - b).abs() <= tolerance * (1.0 + b.abs()), "{a} is not {b}");
@@ -262,10 +262,46 @@ fn outside_integrators_are_told_what_they_need_and_what_they_got_wrong() {
     assert_eq!(host.set_continuous_states(&f64::NAN, 1), Status::Error);
     assert_eq!(host.set_continuous_states(&1.0, 2), Status::Error);
     assert_eq!(host.get_derivatives(ptr::null_mut(), 1), Status::Error);
-    assert_eq!(host.get_event_indicators(&mut value, 1), Status::Error);
+    assert_eq!(host.get_event_indicators([0.0; 2].as_mut_ptr(), 2), Status::Error);
+    assert_eq!(host.get_event_indicators(ptr::null_mut(), 1), Status::Error);
+    // A model without kinks has one that never changes.
+    assert_eq!(host.get_event_indicators(&mut value, 1), Status::Ok);
+    assert_eq!(value, 1.0);
     assert_eq!(host.set_time(f64::INFINITY), Status::Error);
     host.messages();
     assert_eq!(host.set_continuous_states(&1e200, 1), Status::Ok);
     assert_eq!(host.get_derivatives(&mut value, 1), Status::Discard);
     assert!(host.message().format.contains("shorter step"));
+}
+
+#[test]
+fn event_indicators_change_their_signs_at_the_kinks() {
+    let host = Host::<Stopped>::initialized(ME);
+    let count = Interface::of::<Stopped>(None, None).unwrap().event_indicators;
+    assert_eq!(count, 3);
+    assert_eq!(host.enter_continuous_time_mode(), Status::Ok);
+    let signs = |position: f64, force: f64| {
+        let mut values = [f64::NAN; 3];
+        assert_eq!(host.set_continuous_states(&position, 1), Status::Ok);
+        assert_eq!(host.set("force", force), Status::Ok);
+        assert_eq!(host.get_event_indicators(values.as_mut_ptr(), 3), Status::Ok);
+        values.map(|value| value > 0.0)
+    };
+    // The force is held within 2 N, from below and from above; the stop begins at 0.5 m, and beyond.
+    for (position, force, expected) in [
+        (0.4, 1.0, [true, true, false]),
+        (0.4, 2.0, [true, false, false]),
+        (0.4, -2.5, [false, true, false]),
+        (0.5, 0.0, [true, true, false]),
+        (0.5 + 1e-12, 0.0, [true, true, true]),
+    ] {
+        assert_eq!(signs(position, force), expected, "{position} m, {force} N");
+    }
+    // Without a stop its condition is constant, and so does not stop an integrator.
+    assert_eq!(host.enter_event_mode(), Status::Ok);
+    assert_eq!(host.set("stiffness", 0.0), Status::Ok);
+    assert_eq!(host.enter_continuous_time_mode(), Status::Ok);
+    for position in [0.4, 0.6] {
+        assert!(signs(position, 0.0)[2]);
+    }
 }

@@ -130,3 +130,47 @@ fn steps_allocate_nothing() {
     check::<Controller>();
     check::<Hybrid>();
 }
+
+#[test]
+fn start_values_are_read_before_initialisation() {
+    for kind in [ME, CS] {
+        let host = Host::<Decay>::new(kind);
+        for (name, start) in [("force", 0.0), ("position", 1.0), ("rate", 2.0), ("gain", 1.0)] {
+            assert_eq!(host.real(name), start, "{name}");
+        }
+        assert_eq!(host.set("position", 3.0), Status::Ok);
+        assert_eq!(host.real("position"), 3.0);
+        for name in ["signal", "der(position)"] {
+            assert_eq!(host.get_real(&reference::<Decay>(name), 1, &mut 0.0), Status::Error);
+            let message = host.message().format;
+            assert!(message.contains(name) && message.contains("Initialization Mode"), "{message}");
+        }
+        let host = Host::<Configured>::new(kind);
+        let (mut numbers, mut flag, mut text) = ([0; 2], 7, ptr::null());
+        assert_eq!(host.get_integer([0_u32, 1].as_ptr(), 2, numbers.as_mut_ptr()), Status::Ok);
+        assert_eq!(host.get_boolean(&2, 1, &mut flag), Status::Ok);
+        assert_eq!(host.get_string(&3, 1, &mut text), Status::Ok);
+        // SAFETY: the string lives until the next question for strings.
+        let text = unsafe { CStr::from_ptr(text) };
+        assert_eq!((numbers, flag, text), ([1, 3], TRUE, c"räder"));
+    }
+}
+
+#[test]
+fn states_are_set_one_by_one_while_an_importer_integrates() {
+    let host = Host::<Decay>::initialized(ME);
+    assert_eq!(host.set("position", 3.0), Status::Error);
+    assert_eq!(host.enter_continuous_time_mode(), Status::Ok);
+    assert_eq!(host.set("position", 3.0), Status::Ok);
+    assert_eq!((host.real("position"), host.real("signal"), host.real("der(position)")), (3.0, 9.0, -6.0));
+    let mut state = 0.0;
+    assert_eq!(host.get_continuous_states(&mut state, 1), Status::Ok);
+    assert_eq!(state, 3.0);
+    assert_eq!(host.set("position", f64::NAN), Status::Error);
+    assert_eq!(host.set("rate", 1.0), Status::Error);
+    assert_eq!(host.set("signal", 1.0), Status::Error);
+    assert_eq!(host.real("position"), 3.0);
+    let host = Host::<Decay>::initialized(CS);
+    assert_eq!(host.set("position", 3.0), Status::Error);
+    assert!(host.message().format.contains("Continuous-Time Mode only"));
+}

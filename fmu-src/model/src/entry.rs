@@ -157,7 +157,7 @@ fn demonstrate(
     for index in 0..=steps {
         let time = index as f64 * experiment.step;
         for (reference, start, stimulus) in &stimuli {
-            simulation.set_real(&[*reference], &[start + stimulus.at(time)], Access::Inputs)?;
+            simulation.set_real(&[*reference], &[start + stimulus.at(time)], Access::Continuous)?;
         }
         simulation.real(&references, &mut values)?;
         trajectory.time.push(time);

@@ -55,6 +55,12 @@ pub enum Error {
         /// What would be right.
         expected: String,
     },
+    /// A variable that is read before it is calculated.
+    #[error("`{name}` is calculated and has no value yet: read it in Initialization Mode or later")]
+    NotCalculated {
+        /// Name of the variable.
+        name: String,
+    },
     /// A start value for a variable that does not exist.
     #[error("there is no parameter `{name}` in {model}{}", .similar.as_ref().map(|name| format!("; did you mean `{name}`?")).unwrap_or_default())]
     UnknownName {

@@ -23,6 +23,7 @@ mod parameter_set;
 mod real;
 mod setting;
 mod simulation;
+mod switching;
 mod tanh;
 pub mod unit;
 

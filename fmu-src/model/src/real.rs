@@ -63,6 +63,16 @@ pub trait Real:
     fn powf(self, exponent: Self) -> Self {
         (self.ln() * exponent).exp()
     }
+    /// The largest whole number that is not larger; its slope is zero.
+    fn floor(self) -> Self {
+        let [floor] = self.lookup(|number| ([number.floor()], [0.0]));
+        floor
+    }
+    /// The nearest whole number; its slope is zero.
+    fn round(self) -> Self {
+        let [nearest] = self.lookup(|number| ([number.round()], [0.0]));
+        nearest
+    }
     /// Absolute value; its derivative at zero is taken from the left.
     fn abs(self) -> Self {
         self.select(self, -self)

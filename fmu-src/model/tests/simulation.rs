@@ -30,7 +30,7 @@ fn input_derivatives_make_a_polynomial_input_exact() {
     let force = reference::<Oscillator>("force");
     let (c, b) = (1.5 / 4.0, 0.5);
     let a = (1.0 - 2.0 * c) / 4.0;
-    set(&mut simulation, "force", 1.0, Access::Inputs).unwrap();
+    set(&mut simulation, "force", 1.0, Access::Continuous).unwrap();
     simulation.set_input_derivatives(&[force, force], &[1, 2], &[2.0, 3.0]).unwrap();
     simulation.step(0.0, 1.5).unwrap();
     let (t, amplitude) = (1.5_f64, 1.0 - a);
@@ -79,7 +79,7 @@ fn directional_derivatives_reach_parameters_and_what_follows_from_them() {
 fn ticks_do_not_depend_on_the_communication_step() {
     let sum_after = |steps: &[f64]| {
         let mut simulation = started::<Counter>();
-        set(&mut simulation, "force", 1.0, Access::Inputs).unwrap();
+        set(&mut simulation, "force", 1.0, Access::Continuous).unwrap();
         let mut time = 0.0;
         for size in steps {
             simulation.step(time, *size).unwrap();
@@ -102,7 +102,7 @@ fn the_first_tick_is_tried_out_until_it_is_made() {
         assert_eq!(read(&mut simulation, "sum"), force);
     }
     simulation.initialize().unwrap();
-    set(&mut simulation, "force", 7.0, Access::Inputs).unwrap();
+    set(&mut simulation, "force", 7.0, Access::Continuous).unwrap();
     for _ in 0..2 {
         assert_eq!(read(&mut simulation, "sum"), 7.0);
     }
@@ -198,7 +198,7 @@ fn what_may_not_be_set_is_refused_by_name() {
         ("der(velocity)", 1.0, "`der(velocity)` cannot be set: it is the derivative of a state"),
         ("angular_frequency", 1.0, "calculated"),
         ("spring.damping", 1.0, "fixed parameter"),
-        ("position", 1.0, "until initialisation ends only"),
+        ("position", 1.0, "until initialisation ends and, for model exchange"),
         ("mass", -1.0, "`mass` = -1 kg is out of bounds: it must be at least 0.000001"),
         ("force", f64::NAN, "`force` cannot be NaN"),
         ("mass", f64::INFINITY, "`mass` cannot be inf"),

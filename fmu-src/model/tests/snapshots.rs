@@ -23,7 +23,7 @@ proptest! {
             (simulation.states().iter().map(|x| x.to_bits()).collect::<Vec<_>>(), simulation.time().to_bits())
         };
         let mut simulation = started::<Oscillator>();
-        simulation.set_real(&[0], &[force], Access::Inputs).unwrap();
+        simulation.set_real(&[0], &[force], Access::Continuous).unwrap();
         run(&mut simulation, &before);
         let snapshot = simulation.save();
         let expected = run(&mut simulation, &after);

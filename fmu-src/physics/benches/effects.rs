@@ -82,7 +82,7 @@ fn time<M: Model>(set: &str) -> (f64, f64) {
         let time = f64::from(step) * 1e-3;
         let phase = f64::from(step % 500) / 250.0 - 1.0;
         let inputs = [0.01 * phase, 0.01, 100.0 * phase];
-        simulation.set_real(&[0, 1, 2], &inputs, Access::Inputs).expect("they are inputs");
+        simulation.set_real(&[0, 1, 2], &inputs, Access::Continuous).expect("they are inputs");
         simulation.step(time, 1e-3).expect("it is integrable");
         simulation.real(&[3], &mut output).expect("it is an output");
     }

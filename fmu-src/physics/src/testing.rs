@@ -62,7 +62,7 @@ impl<M: Model> Bench<M> {
 
     /// Changes an input.
     pub fn set(&mut self, name: &str, value: f64) {
-        self.simulation.set_real(&[self.reference(name)], &[value], Access::Inputs).unwrap();
+        self.simulation.set_real(&[self.reference(name)], &[value], Access::Continuous).unwrap();
     }
 
     /// Lets an input change steadily over the next step.

@@ -55,13 +55,12 @@ pub fn edge<R: Real>(tau: R, origin: R, target: R, duration: R) -> [R; 2] {
 /// Edges at k/(2f): from zero up at k = 0, then down and up in turn.
 pub fn square<R: Real>(tau: R, amplitude: R, frequency: R, edge_time: R) -> [R; 2] {
     let half_period = R::from(0.5) / frequency;
-    // Number of the edge, whether it leads up, and whether there is one before it. An edge is a kink in
-    // time only, so that none of these has a slope.
-    let [count, up, later] = (tau / half_period).lookup(|halves| {
-        let count = (halves + ROUNDING).floor();
-        ([count, if count.rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 }, f64::from(count > 0.0)], [0.0; 3])
-    });
-    let target = amplitude * up;
+    // Number of the edge, whether it leads down (1) or up (0), and whether there is one before it. An edge is a
+    // kink in time only, so that none of these has a slope.
+    let count = (tau / half_period + ROUNDING).floor();
+    let down = count - (count * 0.5).floor() * 2.0;
+    let later = count.select(R::from(1.0), R::from(0.0));
+    let target = amplitude * (R::from(1.0) - down * 2.0);
     let since = (tau - count * half_period).max(R::from(0.0));
     edge(since, -(target * later), target, edge_time)
 }

@@ -173,7 +173,8 @@ pub enum Action {
         null: Null,
     },
     GetEventIndicators {
-        count: usize,
+        excess: isize,
+        null: Null,
     },
     SetRealInputDerivatives {
         values: Vec<(u32, i32, f64)>,

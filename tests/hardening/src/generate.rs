@@ -120,7 +120,7 @@ impl Source<'_> {
             93..=95 => A::GetDerivatives { excess: self.excess(), null },
             96 => A::GetContinuousStates { excess: self.excess(), null },
             97 => A::GetNominals { excess: self.excess(), null },
-            98 => A::GetEventIndicators { count: self.rng.usize(..3) / 2 },
+            98 => A::GetEventIndicators { excess: self.excess(), null },
             99..=102 => {
                 let references = self.references(Kind::Real);
                 let values = references

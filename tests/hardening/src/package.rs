@@ -41,6 +41,8 @@ pub struct Variable {
     pub max: f64,
     /// Whether the values of the type are listed.
     pub is_choice: bool,
+    /// Whether another variable is its derivative.
+    pub is_state: bool,
 }
 
 impl Variable {
@@ -69,6 +71,8 @@ pub struct Package {
     pub variables: Vec<Variable>,
     /// Number of continuous states.
     pub states: usize,
+    /// `numberOfEventIndicators`
+    pub event_indicators: usize,
 }
 
 impl Package {
@@ -88,14 +92,26 @@ impl Package {
         let document = Document::parse(&xml).map_err(|error| wrong(&error))?;
         let root = document.root_element();
         let identifier = document.descendants().find_map(|node| node.attribute("modelIdentifier"));
+        let derivatives = document.descendants().filter_map(|node| node.attribute("derivative"));
+        let states: Vec<usize> =
+            derivatives.map(|text| text.parse().map_err(|error| wrong(&error))).collect::<Result<_, _>>()?;
         let scalars = document.descendants().filter(|node| node.has_tag_name("ScalarVariable"));
         Ok(Self {
             name: identifier.ok_or_else(|| wrong(&"no modelIdentifier"))?.to_owned(),
             guid: CString::new(root.attribute("guid").unwrap_or_default()).map_err(|error| wrong(&error))?,
-            variables: scalars
-                .map(|node| variable(node).ok_or_else(|| wrong(&format!("{node:?} is no variable"))))
-                .collect::<Result<_, _>>()?,
-            states: document.descendants().filter(|node| node.has_attribute("derivative")).count(),
+            variables: (1..)
+                .zip(scalars)
+                .map(|(index, node)| {
+                    let variable =
+                        variable(node).ok_or_else(|| wrong(&format!("{node:?} is no variable")))?;
+                    Ok(Variable { is_state: states.contains(&index), ..variable })
+                })
+                .collect::<Result<_, String>>()?,
+            states: states.len(),
+            event_indicators: root
+                .attribute("numberOfEventIndicators")
+                .and_then(|text| text.parse().ok())
+                .ok_or_else(|| wrong(&"no numberOfEventIndicators"))?,
             folder,
         })
     }
@@ -143,5 +159,6 @@ fn variable(node: Node<'_, '_>) -> Option<Variable> {
         min: number("min", f64::NEG_INFINITY)?,
         max: number("max", f64::INFINITY)?,
         is_choice: typed.has_tag_name("Enumeration"),
+        is_state: false,
     })
 }

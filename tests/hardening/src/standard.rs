@@ -49,6 +49,8 @@ const ALWAYS: &[&str] = &[
 ];
 const GET: &[&str] =
     &["fmi2GetReal", "fmi2GetInteger", "fmi2GetBoolean", "fmi2GetString", "fmi2GetDirectionalDerivative"];
+/// More than the tables have: start values may be read before initialisation.
+const GET_STARTS: &[&str] = &["fmi2GetReal", "fmi2GetInteger", "fmi2GetBoolean", "fmi2GetString"];
 const SET: &[&str] = &["fmi2SetReal", "fmi2SetInteger", "fmi2SetBoolean", "fmi2SetString"];
 const GET_CONTINUOUS: &[&str] = &["fmi2GetContinuousStates", "fmi2GetDerivatives", "fmi2GetEventIndicators"];
 const NOMINALS: &[&str] = &["fmi2GetNominalsOfContinuousStates"];
@@ -80,11 +82,15 @@ fn allowed(purpose: Purpose, state: State) -> &'static [&'static [&'static str]]
     use {Purpose as P, State as S};
     match (purpose, state) {
         (P::ModelExchange, S::Instantiated) => {
-            &[ALWAYS, SET, NOMINALS, &["fmi2SetupExperiment", "fmi2EnterInitializationMode"]]
+            &[ALWAYS, GET_STARTS, SET, NOMINALS, &["fmi2SetupExperiment", "fmi2EnterInitializationMode"]]
         }
-        (P::CoSimulation, S::Instantiated) => {
-            &[ALWAYS, SET, INPUT_DERIVATIVES, &["fmi2SetupExperiment", "fmi2EnterInitializationMode"]]
-        }
+        (P::CoSimulation, S::Instantiated) => &[
+            ALWAYS,
+            GET_STARTS,
+            SET,
+            INPUT_DERIVATIVES,
+            &["fmi2SetupExperiment", "fmi2EnterInitializationMode"],
+        ],
         (P::ModelExchange, S::InitializationMode) => {
             &[ALWAYS, GET, SET, GET_CONTINUOUS, &["fmi2ExitInitializationMode"]]
         }

@@ -187,3 +187,34 @@ impl Model for Configured {
         (Nothing, Output { signal: R::from(self.0) })
     }
 }
+
+/// A stop.
+#[derive(Variables, Clone, Copy)]
+pub struct Stop<R> {
+    /// Stiffness
+    #[var(unit = unit::N_PER_M, start = 100.0, min = 0.0)]
+    pub stiffness: R,
+}
+
+/// x' = clamp(u) - stop(x): three kinks.
+pub struct Stopped;
+
+impl Model for Stopped {
+    const ABOUT: About = About { name: "Stopped", ..About::DEFAULT };
+    strut_model::bundles! { parameters: Stop, input: Input, state: State, output: Output }
+
+    fn prepare(_: &NoSettings, _: Option<&Path>) -> Result<Self, String> {
+        Ok(Self)
+    }
+
+    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+        let pushed = now.input.force.clamp(R::from(-2.0), R::from(2.0));
+        let stiffness = now.parameters.stiffness;
+        let stop = if stiffness.vanishes() {
+            R::from(0.0)
+        } else {
+            stiffness * (now.state.position - 0.5).max(R::from(0.0))
+        };
+        (State { position: pushed - stop }, Output { signal: stop })
+    }
+}

@@ -28,6 +28,8 @@ pub struct Interface {
     pub structure: Structure,
     /// Number of continuous states.
     pub states: usize,
+    /// Number of event indicators.
+    pub event_indicators: usize,
 }
 
 /// A scalar variable.
@@ -206,14 +208,16 @@ impl Interface {
             }
         }
         let structure = Structure::new::<M>(&dependency, &variables);
-        Ok(Self { about: M::ABOUT, variables, structure, states: Layout::<M>::STATES })
+        let event_indicators = dependency.event_indicators;
+        Ok(Self { about: M::ABOUT, variables, structure, states: Layout::<M>::STATES, event_indicators })
     }
 
     /// An identifier of all that is declared, start values included: the library computes it from the
     /// parameter set that it finds in its resources, the packager from the one that it writes, so that
     /// a binary and a description that do not belong together are told apart.
     pub fn guid(&self) -> String {
-        let text = format!("{:?} {:?} {:?}", self.about.name, self.variables, self.structure);
+        let Self { about, variables, structure, event_indicators, .. } = self;
+        let text = format!("{:?} {variables:?} {structure:?} {event_indicators}", about.name);
         Uuid::new_v5(&Uuid::NAMESPACE_OID, text.as_bytes()).braced().to_string()
     }
 

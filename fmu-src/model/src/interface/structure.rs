@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::{
     Bundle, Dependencies, Error, Model, Now, SettingDeclaration, SettingKind, Settings, Value,
     layout::{Layout, Section},
+    simulation::indicators::count,
 };
 
 use super::{Causality, Variable};
@@ -20,6 +21,8 @@ pub struct Dependency {
     initial_outputs: Vec<Dependencies>,
     /// Of each derived parameter.
     derived: Vec<Dependencies>,
+    /// Number of event indicators, whatever the settings are.
+    pub(super) event_indicators: usize,
     /// Positions of the known quantities.
     knowns: Knowns,
 }
@@ -60,10 +63,15 @@ impl Dependency {
             rates: vec![Dependencies::default(); Layout::<M>::STATES],
             initial_outputs: vec![Dependencies::default(); Layout::<M>::OUTPUTS],
             derived: vec![Dependencies::default(); Layout::<M>::DERIVED],
+            event_indicators: 0,
             knowns,
         };
-        dependency.unite(&M::prepare(settings, resources).map_err(Error::Refused)?);
+        let model = M::prepare(settings, resources).map_err(Error::Refused)?;
+        dependency.unite(&model);
+        let kinks = count(&model);
+        dependency.event_indicators = kinks;
         for (index, declaration) in M::Settings::declare().iter().enumerate() {
+            let mut most = kinks;
             for value in choices(declaration) {
                 let mut other = settings.clone();
                 // A choice that the model refuses (a file that is not there) has no dependencies.
@@ -71,9 +79,14 @@ impl Dependency {
                     && let Ok(model) = M::prepare(&other, resources)
                 {
                     dependency.unite(&model);
+                    most = most.max(count(&model));
                 }
             }
+            // Several settings may be changed together.
+            dependency.event_indicators += most - kinks;
         }
+        // At least one: some importers set inputs only where they ask for event indicators.
+        dependency.event_indicators = dependency.event_indicators.max(1);
         Ok(dependency)
     }
 

@@ -1,6 +1,7 @@
 //! One running model.
 
 mod flow;
+pub(crate) mod indicators;
 mod input;
 mod sensitivity;
 mod snapshot;

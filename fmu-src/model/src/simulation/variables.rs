@@ -13,8 +13,8 @@ use super::{Simulation, input::MAX_ORDER};
 /// What may be changed at the moment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Access {
-    /// Inputs: while an outside integrator works.
-    Inputs,
+    /// Inputs and continuous states: while an outside integrator works.
+    Continuous,
     /// Inputs and tunable parameters: between steps and at events.
     Tunable,
     /// Inputs, parameters and start values: until initialisation ends.
@@ -46,6 +46,26 @@ impl<M: Model> Simulation<M> {
         Ok(())
     }
 
+    /// Reads what has a start value that may be read before anything is calculated.
+    ///
+    /// # Errors
+    /// For an unknown reference or a variable that is calculated.
+    pub fn real_before_initialization(&self, references: &[u32], values: &mut [f64]) -> Result<(), Error> {
+        for (reference, value) in references.iter().zip(values) {
+            let (section, index) = Layout::<M>::locate(*reference)?;
+            *value = match section {
+                Section::Input => self.input.at(self.time).as_slice()[index],
+                Section::State => self.state.as_slice()[index],
+                Section::Parameter => to_array(&self.parameters).as_slice()[index],
+                Section::Solver => to_array(&self.solver).as_slice()[index],
+                Section::Output | Section::Rate | Section::Derived => {
+                    return Err(Error::NotCalculated { name: Layout::<M>::name(*reference) });
+                }
+            };
+        }
+        Ok(())
+    }
+
     /// Sets real variables; all of them or, on an error, those before the one in question.
     ///
     /// # Errors
@@ -59,6 +79,11 @@ impl<M: Model> Simulation<M> {
                     if self.input.set(index, *value) {
                         self.changed();
                     }
+                }
+                // As `set_states`: what a solver tries may be out of bounds.
+                (Section::State, index) if access == Access::Continuous && value.is_finite() => {
+                    self.state.as_mut_slice()[index] = *value;
+                    self.changed();
                 }
                 (section, index) => self.set_rarely(*reference, section, index, *value, access)?,
             }
@@ -83,10 +108,15 @@ impl<M: Model> Simulation<M> {
             Section::Output => return refused("it is an output"),
             Section::Rate => return refused("it is the derivative of a state"),
             Section::Derived => return refused("it is calculated from parameters"),
-            Section::State if access < Access::All => {
-                return refused("a state's start value may be set until initialisation ends only");
+            Section::State if access == Access::Continuous => {
+                return Err(Error::NotFinite { name: declaration.name.clone(), value });
             }
-            Section::Parameter if access == Access::Inputs => {
+            Section::State if access < Access::All => {
+                return refused(
+                    "a state may be set until initialisation ends and, for model exchange, in Continuous-Time Mode only",
+                );
+            }
+            Section::Parameter if access == Access::Continuous => {
                 return refused(
                     "parameters may be set before initialisation, at events and between steps only",
                 );
@@ -94,7 +124,7 @@ impl<M: Model> Simulation<M> {
             Section::Parameter if declaration.fixed && access < Access::All => {
                 return refused("it is a fixed parameter: set it before initialisation ends");
             }
-            Section::Solver if access == Access::Inputs => {
+            Section::Solver if access == Access::Continuous => {
                 return refused(
                     "parameters may be set before initialisation, at events and between steps only",
                 );
@@ -182,7 +212,7 @@ impl<M: Model> Simulation<M> {
         self.setting(reference, kind_of(&value))?;
         let index = reference as usize;
         let declaration = Layout::<M>::settings()[index];
-        if access == Access::Inputs || (access < Access::All && !declaration.tunable) {
+        if access == Access::Continuous || (access < Access::All && !declaration.tunable) {
             let reason = "it is a parameter that is fixed: set it before initialisation ends";
             return Err(Error::NotSettable { name: declaration.name.into(), reason });
         }

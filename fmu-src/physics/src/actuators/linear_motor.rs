@@ -283,7 +283,7 @@ mod tests {
             Interface::of::<LinearMotor>(None, None).unwrap().variable("voltage").unwrap().reference;
         simulation.set_up(0.0, None).unwrap();
         simulation.initialize().unwrap();
-        simulation.set_real(&[reference], &[voltage], Access::Inputs).unwrap();
+        simulation.set_real(&[reference], &[voltage], Access::Continuous).unwrap();
         simulation
     }
 

@@ -185,7 +185,7 @@ mod tests {
         let mut brake = Simulation::<MrRotaryBrake>::new(None, None).unwrap();
         brake.set_up(0.0, None).unwrap();
         brake.initialize().unwrap();
-        brake.set_real(&[reference("duty")], &[0.6], Access::Inputs).unwrap();
+        brake.set_real(&[reference("duty")], &[0.6], Access::Continuous).unwrap();
         brake.step(0.0, 0.01).unwrap();
         assert!((brake.states()[0] - 0.54).abs() < 1e-6, "{:?}", brake.states());
     }

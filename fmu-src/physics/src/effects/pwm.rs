@@ -41,10 +41,7 @@ impl Pwm {
         let held = duty.clamp(R::from(least), R::from(1.0));
         match self.steps {
             None => held,
-            Some(steps) => {
-                let [rounded] = held.lookup(|duty| ([(duty * steps).round() / steps], [0.0]));
-                rounded
-            }
+            Some(steps) => (held * steps).round() / steps,
         }
     }
 }

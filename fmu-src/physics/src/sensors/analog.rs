@@ -215,17 +215,10 @@ impl<R: Real> Converter<R> {
     pub fn convert(&self, voltage: R) -> R {
         let voltage = voltage * (self.gain_error + 1.0) + self.offset;
         let step = self.resolution.select(self.resolution, R::from(1.0));
-        let rounded = floor(voltage / step + 0.5) * step;
+        let rounded = (voltage / step + 0.5).floor() * step;
         // Two's complement: one step less on the upper side.
         self.resolution.select(rounded, voltage).clamp(-self.range, self.range - self.resolution)
     }
-}
-
-/// The largest whole number that is not larger; a staircase has no slope.
-#[inline]
-pub(super) fn floor<R: Real>(number: R) -> R {
-    let [floor] = number.lookup(|number| ([number.floor()], [0.0]));
-    floor
 }
 
 /// Where in the sequence of random numbers a sample stands.

@@ -4,8 +4,6 @@ use std::f64::consts::TAU;
 
 use strut_model::{Choice, Real, Variables};
 
-use super::analog::floor;
-
 /// What a counter makes of a position between two counts.
 #[derive(Choice, Clone, Copy, Debug, PartialEq)]
 pub enum Rounding {
@@ -75,7 +73,7 @@ impl<R: Real> Encoder<R> {
             Rounding::Floor => 0.0,
             Rounding::Nearest => 0.5,
         };
-        self.density.select(floor(scaled * density + shift) / density, scaled) + self.zero
+        self.density.select((scaled * density + shift).floor() / density, scaled) + self.zero
     }
 }
 

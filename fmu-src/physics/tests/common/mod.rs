@@ -141,7 +141,7 @@ impl Named {
     }
 
     pub fn set(&mut self, name: &str, value: f64) {
-        self.instance.set_real(&[self.reference(name)], &[value], Access::Inputs).unwrap();
+        self.instance.set_real(&[self.reference(name)], &[value], Access::Continuous).unwrap();
     }
 
     pub fn get(&mut self, name: &str) -> f64 {

@@ -108,7 +108,7 @@ impl System {
         for (index, value) in values.into_iter().enumerate() {
             let to = self.connections[index].1.clone();
             let (component, name) = split(&to);
-            self.component(component).set(name, value, Access::Inputs);
+            self.component(component).set(name, value, Access::Continuous);
         }
     }
 

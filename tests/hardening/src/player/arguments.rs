@@ -116,8 +116,12 @@ impl Player<'_> {
             | A::EnterContinuousTimeMode => Expected::Ok,
             A::CancelStep => Expected::Error,
             A::Get { kind, references, null } => {
-                let right =
-                    references.iter().all(|reference| self.package.variable(*kind, *reference).is_some());
+                // Before initialisation, what has a start value may be read.
+                let early = known.state == Some(State::Instantiated);
+                let right = references.iter().all(|reference| {
+                    let variable = self.package.variable(*kind, *reference);
+                    variable.is_some_and(|variable| !early || variable.is_settable())
+                });
                 if references.is_empty() {
                     Expected::Ok
                 } else if *null != Null::None || !right {
@@ -131,7 +135,9 @@ impl Player<'_> {
             A::SetReal { values, null } => {
                 let right = values.iter().all(|(reference, value)| {
                     self.settable(known.state, Kind::Real, *reference).is_some_and(|variable| {
-                        value.is_finite() && (variable.min..=variable.max).contains(value)
+                        // A solver may try a state that is out of bounds.
+                        let tried = variable.is_state && known.state == Some(State::ContinuousTimeMode);
+                        value.is_finite() && (tried || (variable.min..=variable.max).contains(value))
                     })
                 });
                 ok_if(values.is_empty() || *null == Null::None && right)
@@ -219,7 +225,10 @@ impl Player<'_> {
             A::GetContinuousStates { excess, null } | A::GetNominals { excess, null } => {
                 ok_if(right_count(*excess, *null))
             }
-            A::GetEventIndicators { count } => ok_if(*count == 0),
+            A::GetEventIndicators { excess, null } => {
+                let right = *excess == 0 && *null == Null::None;
+                if right { ok_if_tame(instance) } else { Expected::Error }
+            }
             A::SetRealInputDerivatives { values, null } => {
                 let right = values.iter().all(|(reference, order, value)| {
                     self.package.variable(Kind::Real, *reference).is_some_and(Variable::is_input)
@@ -265,7 +274,7 @@ impl Player<'_> {
         let settable = match state? {
             State::Instantiated | State::InitializationMode => variable.is_settable(),
             State::EventMode | State::StepComplete => variable.is_input() || tunable,
-            State::ContinuousTimeMode => variable.is_input(),
+            State::ContinuousTimeMode => variable.is_input() || variable.is_state,
             State::StepFailed | State::Terminated => false,
         };
         settable.then_some(variable)

@@ -181,9 +181,9 @@ impl Player<'_> {
                     let mut x = vec![f64::NAN; self.package.states.saturating_add_signed(*excess)];
                     (api.get_nominals)(c, last_mut(both_last(*null), &mut x), x.len())
                 }
-                A::GetEventIndicators { count } => {
-                    let mut x = vec![f64::NAN; *count];
-                    (api.get_event_indicators)(c, x.as_mut_ptr(), *count)
+                A::GetEventIndicators { excess, null } => {
+                    let mut x = vec![f64::NAN; self.package.event_indicators.saturating_add_signed(*excess)];
+                    (api.get_event_indicators)(c, last_mut(both_last(*null), &mut x), x.len())
                 }
                 A::SetRealInputDerivatives { values, null } => {
                     let vr: Vec<u32> = values.iter().map(|(reference, _, _)| *reference).collect();

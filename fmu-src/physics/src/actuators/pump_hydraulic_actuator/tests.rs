@@ -243,7 +243,7 @@ fn work_put_in(locked: bool, torque: impl Fn(f64) -> f64, seconds: f64) -> Vec<(
         let t = k as f64 * step;
         let velocity =
             0.4 * (std::f64::consts::TAU * 1.3 * t).sin() + 0.5 * (std::f64::consts::TAU * 11.0 * t).sin();
-        simulation.set_real(&inputs, &[torque(t), velocity], Access::Inputs).unwrap();
+        simulation.set_real(&inputs, &[torque(t), velocity], Access::Continuous).unwrap();
         simulation.real(&outputs, &mut values).unwrap();
         let before = values;
         simulation.step(t, step).unwrap();
@@ -276,9 +276,9 @@ fn with_an_idle_motor_it_takes_energy_too() {
 fn a_slow_stroke_of_the_locked_actuator_is_polytropic() {
     let (mut simulation, interface) = simulation(true);
     let reference = |name: &str| interface.variable(name).unwrap().reference;
-    simulation.set_real(&[reference("suspension.velocity")], &[-0.05], Access::Inputs).unwrap();
+    simulation.set_real(&[reference("suspension.velocity")], &[-0.05], Access::Continuous).unwrap();
     simulation.step(0.0, 1.0).unwrap();
-    simulation.set_real(&[reference("suspension.velocity")], &[0.0], Access::Inputs).unwrap();
+    simulation.set_real(&[reference("suspension.velocity")], &[0.0], Access::Continuous).unwrap();
     let mut force = [0.0];
     simulation.real(&[reference("total_force")], &mut force).unwrap();
     let (ak, ar) = (10.2e-4, 8.6e-4);

@@ -168,7 +168,7 @@ fn the_force_is_held_for_a_period() {
     let mut forces = Vec::new();
     for step in 0..8 {
         let time = f64::from(step) * 0.25e-3;
-        simulation.set_real(&[reference("body.velocity")], &[f64::from(step)], Access::Inputs).unwrap();
+        simulation.set_real(&[reference("body.velocity")], &[f64::from(step)], Access::Continuous).unwrap();
         simulation.step(time, 0.25e-3).unwrap();
         let mut value = [0.0];
         simulation.real(&[reference("force")], &mut value).unwrap();
