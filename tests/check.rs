@@ -1,5 +1,6 @@
 //! `build-fmu check`: nothing on our own FMUs and on one without fault, and each rule on one that breaks it.
 
+use std::io::BufRead;
 use std::path::PathBuf;
 
 use crate::subject::{Parts, check, described, parts, problems};
@@ -58,6 +59,12 @@ fn each_rule_finds_what_breaks_it() {
                 described("name=\"rate\"", "name=\"u\""),
                 "variables.name",
                 "two variables of the name `u`",
+            ),
+            (
+                "case",
+                described("name=\"rate\"", "name=\"U\""),
+                "variables.name",
+                "`U` and `u` differ only in upper and lower case",
             ),
             ("flat", described("name=\"rate\"", "name=\"a rate\""), "variables.name", "no structured name"),
             (
@@ -195,6 +202,7 @@ fn each_fault_of_behaviour_is_found() {
             case("RESET", "run.reset", "after fmi2Reset"),
             case("STATE", "run.state", "after fmi2SetFMUstate"),
             case("BYTES", "run.state", "through bytes"),
+            case("DRIFT", "run.state", "of their largest value, more than the tolerance of 1e-4"),
             case("SHARED", "run.instances", "beside a second instance"),
             case("CLOCK", "run.clock", "communication points are added up"),
             case("TUNABLE", "run.tunable", "fmi2SetReal returns fmi2Error"),
@@ -228,6 +236,84 @@ fn there_is_nothing_to_find_where_there_is_no_fault() {
         }
     }
     assert_eq!(code, 0);
+}
+
+/// A solver that begins anew comes to slightly other values: legal, and told with its size.
+#[test]
+fn a_restarted_solver_is_noted() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("restart.fmu");
+    std::fs::write(&path, parts("RESTART").bytes()).unwrap();
+    let (code, answers) = check(std::slice::from_ref(&path), &["--no-fmpy"]);
+    assert_eq!((code, problems(&answers[0])), (0, Vec::<String>::new()));
+    let findings = answers[0]["report"]["findings"].as_array().unwrap();
+    let notes: Vec<&str> = findings
+        .iter()
+        .filter(|it| it["rule"] == "run.state")
+        .map(|it| it["message"].as_str().unwrap())
+        .collect();
+    assert!(notes.len() >= 2, "{findings:#?}");
+    assert!(notes.iter().all(|note| note.contains("within the tolerance of 1e-4")), "{notes:#?}");
+}
+
+/// A state of two names, one of which has the derivative.
+#[test]
+fn one_derivative_of_a_state_is_enough() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("alias.fmu");
+    let more = "<ScalarVariable name=\"slope\" valueReference=\"1\" description=\"Alias\"><Real unit=\"m/s\" \
+                derivative=\"1\"/></ScalarVariable></ModelVariables>";
+    std::fs::write(&path, described("</ModelVariables>", more).bytes()).unwrap();
+    let (_, answers) = check(std::slice::from_ref(&path), &["--no-fmpy", "--no-run"]);
+    let of_derivatives: Vec<_> =
+        problems(&answers[0]).into_iter().filter(|it| it.starts_with("structure.derivatives")).collect();
+    assert_eq!(of_derivatives, Vec::<String>::new());
+}
+
+/// A hundred thousand variables take seconds, and the square of that would take an hour.
+#[test]
+fn the_time_of_a_check_grows_with_the_variables_and_no_faster() {
+    let folder = tempfile::tempdir().unwrap();
+    let many: String = (0..100_000)
+        .map(|index| {
+            format!(
+                "<ScalarVariable name=\"extra.v{index}\" valueReference=\"{}\" description=\"More\">\
+                 <Real unit=\"m\"/></ScalarVariable>\n",
+                100 + index
+            )
+        })
+        .collect();
+    let path = folder.path().join("large.fmu");
+    let large = described("</ModelVariables>", &format!("{many}</ModelVariables>"));
+    std::fs::write(&path, large.bytes()).unwrap();
+    let begin = std::time::Instant::now();
+    let (code, answers) = check(std::slice::from_ref(&path), &["--no-fmpy"]);
+    assert_eq!((code, problems(&answers[0])), (0, Vec::<String>::new()));
+    assert!(answers[0]["report"]["done"].to_string().contains("100006 variables"), "{answers}");
+    // A third of a second alone; other tests run beside it.
+    assert!(begin.elapsed().as_secs_f64() < 20.0, "{:?}", begin.elapsed());
+}
+
+/// Each finding is a line that is out when it is made: a check that is cut off has told what it knows.
+#[test]
+fn what_was_found_before_a_check_is_cut_off_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("hang.fmu");
+    let mut parts = parts("HANG");
+    parts.xml = parts.xml.replace("stopTime=\"1\"", "stopTime=\"-1\"");
+    std::fs::write(&path, parts.bytes()).unwrap();
+    let mut child = strut::build_fmu()
+        .args(["check", "--json", "--no-fmpy", "--timeout", "600"])
+        .arg(&path)
+        .stdout(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut lines = std::io::BufReader::new(child.stdout.take().unwrap()).lines();
+    let first: serde_json::Value = serde_json::from_str(&lines.next().unwrap().unwrap()).unwrap();
+    assert_eq!(first["finding"]["rule"], "description.experiment", "{first}");
+    assert!(child.try_wait().unwrap().is_none(), "it is still in the library");
+    child.kill().unwrap();
+    child.wait().unwrap();
 }
 
 #[test]

@@ -1,11 +1,13 @@
 //! `build-fmu check`: findings on a terminal or for programs.
 
+use std::cell::RefCell;
+use std::collections::HashSet;
 use std::fmt::Write;
 use std::io::Write as _;
 use std::process::ExitCode;
 
 use serde_json::{Value, json};
-use strut_check::{Finding, Fmpy, Level, Options, Report};
+use strut_check::{Finding, Fmpy, Level, Listener, Options, Report};
 
 use crate::cli::CheckArguments;
 use crate::failure::Failure;
@@ -26,24 +28,31 @@ pub fn check(arguments: &CheckArguments) -> ExitCode {
         run: !arguments.no_run,
         timeout: arguments.timeout,
         program,
+        listener: None,
     };
-    let (mut code, mut list) = (0, Vec::new());
+    let mut code = 0;
     for file in &arguments.files {
         let name = file.display().to_string();
+        let options = Options { listener: arguments.json.then(|| listener(&name)), ..options.clone() };
         match strut_check::check(file, &options) {
             Ok(report) => {
                 let worst = if arguments.strict { Level::Note } else { Level::Warning };
                 let problems = report.findings.iter().filter(|finding| finding.level <= worst).count();
                 code = code.max(u8::from(problems > 0));
                 if arguments.json {
-                    list.push(json!({"file": name, "problems": problems, "report": report}));
+                    let Report { about, done, skipped, .. } = report;
+                    line(&json!({
+                        "file": name, "problems": problems, "about": about, "done": done, "skipped": skipped,
+                    }));
                 } else {
                     let _ = anstream::stdout().write_all(page(&name, &report).as_bytes());
                 }
             }
             Err(error) => {
                 code = 2;
-                list.push(json!({"file": name, "unreadable": error}));
+                if arguments.json {
+                    line(&json!({"file": name, "unreadable": error}));
+                }
                 let mut failure = Failure::new(format!("`{name}` cannot be checked: {error}"));
                 if !file.exists() {
                     failure = failure
@@ -53,10 +62,23 @@ pub fn check(arguments: &CheckArguments) -> ExitCode {
             }
         }
     }
-    if arguments.json {
-        let _ = anstream::stdout().write_all(format!("{:#}\n", Value::from(list)).as_bytes());
-    }
     ExitCode::from(code)
+}
+
+/// Writes each finding as a line of its own, as soon as it is made, and once.
+fn listener(file: &str) -> Listener {
+    let (file, said) = (file.to_owned(), RefCell::new(HashSet::new()));
+    Listener::new(move |finding| {
+        if said.borrow_mut().insert(finding.clone()) {
+            line(&json!({"file": file, "finding": finding}));
+        }
+    })
+}
+
+/// A line of JSON, which is out when this returns.
+fn line(value: &Value) {
+    let mut stdout = anstream::stdout();
+    let _ = stdout.write_all(format!("{value}\n").as_bytes()).and_then(|()| stdout.flush());
 }
 
 fn page(name: &str, report: &Report) -> String {

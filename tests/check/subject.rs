@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::sync::OnceLock;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 use zip::{CompressionMethod, ZipWriter, write::SimpleFileOptions};
 
 const XML: &str = include_str!("modelDescription.xml");
@@ -78,9 +78,30 @@ pub fn check(files: &[PathBuf], options: &[&str]) -> (i32, Value) {
     let mut command = strut::build_fmu();
     let output = command.arg("check").args(files).arg("--json").args(options).output().unwrap();
     let text = String::from_utf8_lossy(&output.stdout);
-    let answer = serde_json::from_str(&text)
-        .unwrap_or_else(|error| panic!("{error}: {text}{}", String::from_utf8_lossy(&output.stderr)));
-    (output.status.code().unwrap(), answer)
+    let wrong = |error| panic!("{error}: {text}{}", String::from_utf8_lossy(&output.stderr));
+    let lines = text.lines().map(|line| serde_json::from_str(line).unwrap_or_else(wrong));
+    (output.status.code().unwrap(), collected(lines))
+}
+
+/// The lines of each file together: `file` and either `unreadable`, or `problems` and `report` with all that was found.
+fn collected(lines: impl Iterator<Item = Value>) -> Value {
+    let (mut answers, mut findings) = (Vec::new(), Vec::new());
+    for mut line in lines {
+        if let Some(finding) = line.get_mut("finding") {
+            findings.push(finding.take());
+            continue;
+        }
+        let findings = std::mem::take(&mut findings);
+        if line.get("problems").is_some() {
+            let report = json!({
+                "findings": findings, "about": line["about"], "done": line["done"], "skipped": line["skipped"],
+            });
+            line = json!({"file": line["file"], "problems": line["problems"], "report": report});
+        }
+        answers.push(line);
+    }
+    assert!(findings.is_empty(), "findings of a file that does not end: {findings:#?}");
+    answers.into()
 }
 
 /// Findings above notes, as `rule: message`.

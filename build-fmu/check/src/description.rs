@@ -1,9 +1,10 @@
 //! The model description, read as it is: what is wrong with it is for the rules to find.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 use roxmltree::{Document, Node};
 
+use crate::lines::Lines;
 use crate::unit::Unit;
 
 /// What stands in `modelDescription.xml`.
@@ -27,6 +28,8 @@ pub struct Description {
     pub experiment: Experiment,
     /// Variables in their order; the first has the index 1.
     pub variables: Vec<Variable>,
+    /// Index of the first variable of each name.
+    names: HashMap<String, usize>,
     /// `ModelStructure/Outputs`.
     pub outputs: Vec<Unknown>,
     /// `ModelStructure/Derivatives`.
@@ -155,7 +158,8 @@ impl Description {
             let found = root.tag_name().name();
             return Err(format!("modelDescription.xml is a `{found}` and no `fmiModelDescription`"));
         }
-        let line = |node: Node| document.text_pos_at(node.range().start).row;
+        let lines = Lines::of(text);
+        let line = |node: Node| lines.line(node);
         let child = |name: &str| root.children().find(|node| node.has_tag_name(name));
         let text = |node: Node, name: &str| node.attribute(name).map(str::to_owned);
         let mut description = Self {
@@ -196,6 +200,9 @@ impl Description {
         for node in child("ModelVariables").into_iter().flat_map(|node| elements(node, "ScalarVariable")) {
             description.variables.push(variable(node, line(node), &description.types));
         }
+        for (index, variable) in (1..).zip(&description.variables) {
+            description.names.entry(variable.name.clone()).or_insert(index);
+        }
         let structure = child("ModelStructure");
         let list = |name: &str| -> Vec<Unknown> {
             let list = structure.and_then(|node| node.children().find(|node| node.has_tag_name(name)));
@@ -211,6 +218,11 @@ impl Description {
     /// The variable of an index, which counts from 1.
     pub fn variable(&self, index: usize) -> Option<&Variable> {
         self.variables.get(index.checked_sub(1)?)
+    }
+
+    /// The variable of a name.
+    pub fn named(&self, name: &str) -> Option<&Variable> {
+        self.variable(*self.names.get(name)?)
     }
 
     /// The interface of a kind.

@@ -1,11 +1,13 @@
 //! What is found, and how much of it.
 
+use std::collections::HashSet;
 use std::fmt::{self, Display, Formatter};
+use std::rc::Rc;
 
 use serde::Serialize;
 
 /// How bad a finding is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Level {
     /// Against the standard, or it does not work.
@@ -27,7 +29,7 @@ impl Display for Level {
 }
 
 /// One thing that is found.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize)]
 pub struct Finding {
     /// How bad it is.
     pub level: Level,
@@ -78,6 +80,23 @@ impl Finding {
     }
 }
 
+/// Hears of each finding at once.
+#[derive(Clone)]
+pub struct Listener(Rc<dyn Fn(&Finding)>);
+
+impl Listener {
+    /// Whatever is to be done with a finding; one may be told more than once.
+    pub fn new(hear: impl Fn(&Finding) + 'static) -> Self {
+        Self(Rc::new(hear))
+    }
+}
+
+impl fmt::Debug for Listener {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str("Listener")
+    }
+}
+
 /// All that is known of an FMU after the check.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Report {
@@ -89,9 +108,28 @@ pub struct Report {
     pub done: Vec<String>,
     /// What was not done, and why.
     pub skipped: Vec<String>,
+    /// Who hears of findings at once.
+    #[serde(skip)]
+    pub(crate) listener: Option<Listener>,
+    /// How many findings it has been told of.
+    #[serde(skip)]
+    pub(crate) told: usize,
 }
 
 impl Report {
+    /// An empty one.
+    pub(crate) fn new(listener: Option<&Listener>) -> Self {
+        Self { listener: listener.cloned(), ..Self::default() }
+    }
+
+    /// Tells the listener what is new: a check that is cut off has said what it has found.
+    pub(crate) fn tell(&mut self) {
+        if let Some(Listener(hear)) = &self.listener {
+            self.findings[self.told..].iter().for_each(|finding| hear(finding));
+            self.told = self.findings.len();
+        }
+    }
+
     /// The number of findings of a level.
     pub fn count(&self, level: Level) -> usize {
         self.findings.iter().filter(|finding| finding.level == level).count()
@@ -110,6 +148,12 @@ pub fn names<S: AsRef<str>>(all: &[S]) -> String {
         (Some((last, rest)), 0) => format!("{} and {last}", rest.join(", ")),
         (_, more) => format!("{} and {more} more", quoted.join(", ")),
     }
+}
+
+/// Whether each name has come before.
+pub fn repeated<'a>(names: impl Iterator<Item = &'a str>) -> impl Iterator<Item = bool> {
+    let mut seen = HashSet::new();
+    names.map(move |name| !seen.insert(name))
 }
 
 /// `1 output`, `2 outputs`.

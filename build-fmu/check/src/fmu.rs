@@ -16,7 +16,8 @@ pub const FILE: &str = "modelDescription.xml";
 /// If it cannot be read, or there is nothing to check it by.
 pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Report, String> {
     let description = description(package)?;
-    let mut report = Report { findings: package.findings(), ..Report::default() };
+    let mut report = Report::new(options.listener.as_ref());
+    report.findings = package.findings();
     report.about = about(&description);
     if description.version != "2.0" {
         let version = &description.version;
@@ -31,12 +32,14 @@ pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Re
     }
     report.findings.extend(variables::findings(&description));
     report.findings.extend(structure::findings(&description));
+    report.tell();
     report.done.push(format!(
         "description: {}, model structure, units, start values",
         count(description.variables.len(), "variable")
     ));
     let (found, platforms) = libraries::findings(package, &description)?;
     report.findings.extend(found);
+    report.tell();
     if !platforms.is_empty() {
         report.about.push(platforms.join(", "));
         report.done.push(format!("libraries: {}", platforms.join(", ")));

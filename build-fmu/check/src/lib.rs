@@ -11,6 +11,7 @@ mod fmpy;
 mod fmu;
 pub mod functions;
 mod libraries;
+mod lines;
 mod names;
 mod package;
 mod probe;
@@ -19,10 +20,11 @@ mod system;
 pub mod unit;
 mod variables;
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-pub use finding::{Finding, Level, Report};
+pub use finding::{Finding, Level, Listener, Report};
 pub use fmpy::Fmpy;
 pub use probe::probe;
 
@@ -39,6 +41,8 @@ pub struct Options {
     pub timeout: Duration,
     /// The program that calls [`probe`], with its arguments before the folder.
     pub program: Vec<PathBuf>,
+    /// Who hears of findings as they are made.
+    pub listener: Option<Listener>,
 }
 
 /// Checks an FMU, or a system with the FMUs in it.
@@ -56,16 +60,11 @@ pub fn check(file: &Path, options: &Options) -> Result<Report, String> {
             return Err(format!("there is neither {fmu} nor {system} at the root of the archive"));
         }
     };
+    report.tell();
     // The worst first; within a level in the order of the archive.
     report.findings.sort_by_key(|finding| finding.level);
     // What both interfaces do wrong is said once.
-    let mut said: Vec<Finding> = Vec::new();
-    report.findings.retain(|finding| {
-        let new = !said.contains(finding);
-        if new {
-            said.push(finding.clone());
-        }
-        new
-    });
+    let mut said: HashSet<Finding> = HashSet::new();
+    report.findings.retain(|finding| said.insert(finding.clone()));
     Ok(report)
 }

@@ -111,9 +111,14 @@ fn derivatives(description: &Description) -> Vec<Finding> {
             );
         }
     }
+    // A state may go by several names (aliases), and its derivative too: one of each is enough.
+    let state = |variable: &Variable| description.variable(variable.derivative?)?.reference;
+    let listed_states: BTreeSet<u32> =
+        listed.iter().filter_map(|index| state(description.variable(*index)?)).collect();
     let missing: Vec<&str> = (1..)
         .zip(&description.variables)
         .filter(|(index, variable)| variable.derivative.is_some() && !listed.contains(index))
+        .filter(|(_, variable)| !state(variable).is_some_and(|state| listed_states.contains(&state)))
         .map(|(_, variable)| variable.name.as_str())
         .collect();
     if !missing.is_empty() && description.interface(Kind::ModelExchange).is_some() {

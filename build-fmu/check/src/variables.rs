@@ -1,6 +1,6 @@
 //! Rules for the head of the description and for each variable.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use crate::description::{Description, Variable};
 use crate::finding::{Finding, names};
@@ -23,10 +23,11 @@ const LEGAL: &[(&str, &[&str], &[&str])] = &[
 pub fn findings(description: &Description) -> Vec<Finding> {
     let mut findings = head(description);
     findings.extend(unique_names(description));
+    let units: HashSet<&str> = description.units.iter().map(|unit| unit.symbol.as_str()).collect();
     for variable in &description.variables {
         findings.extend(roles(variable));
         findings.extend(start(variable));
-        findings.extend(type_and_unit(variable, description));
+        findings.extend(type_and_unit(variable, description, &units));
         if let Some(index) = variable.derivative {
             findings.extend(derivative(variable, description.variable(index), index));
         }
@@ -79,13 +80,18 @@ fn head(description: &Description) -> Vec<Finding> {
 
 fn unique_names(description: &Description) -> Vec<Finding> {
     let mut findings = Vec::new();
-    let mut seen: BTreeMap<&str, u32> = BTreeMap::new();
+    let mut seen: HashMap<&str, u32> = HashMap::new();
+    let mut lower: HashMap<String, &str> = HashMap::new();
     for variable in &description.variables {
         let name = variable.name.as_str();
         if let Some(first) = seen.insert(name, variable.line) {
             let message =
                 format!("there are two variables of the name `{name}`; the other is in line {first}");
             findings.push(Finding::error("variables.name", message).line(variable.line));
+        } else if let Some(other) = lower.insert(name.to_lowercase(), name) {
+            let message = format!("`{name}` and `{other}` differ only in upper and lower case");
+            let help = "legal, but tools that map names to files, tables or code without case mix them up";
+            findings.push(Finding::warning("variables.name", message).line(variable.line).help(help));
         }
         if name.is_empty() {
             findings.push(Finding::error("variables.name", "a variable has no name").line(variable.line));
@@ -212,7 +218,7 @@ pub fn is_value(kind: &str, text: &str) -> bool {
     }
 }
 
-fn type_and_unit(variable: &Variable, description: &Description) -> Vec<Finding> {
+fn type_and_unit(variable: &Variable, description: &Description, units: &HashSet<&str>) -> Vec<Finding> {
     let Variable { name, line, .. } = variable;
     let mut findings = Vec::new();
     if variable.kind.is_empty() {
@@ -250,7 +256,7 @@ fn type_and_unit(variable: &Variable, description: &Description) -> Vec<Finding>
         findings.push(Finding::error("variables.type", message).line(*line));
     }
     if let Some(unit) = &variable.unit
-        && !description.units.iter().any(|declared| declared.symbol == *unit)
+        && !units.contains(unit.as_str())
     {
         let message = format!("the unit `{unit}` of `{name}` is not declared in <UnitDefinitions>");
         findings.push(

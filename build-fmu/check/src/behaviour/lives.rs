@@ -1,9 +1,14 @@
 //! Rules for whole runs: each has to come to the same as a plain one.
 
+use std::collections::BTreeMap;
+
 use super::Bench;
 use super::subject::{HALF, STEPS, plain, read};
 use crate::finding::{Finding, Report};
-use crate::probe::{Act, Run};
+use crate::probe::{Act, Outcome, Run};
+
+/// Relative tolerance of who names none.
+const TOLERANCE: f64 = 1e-4;
 
 impl Bench<'_> {
     /// In a folder whose name has spaces and umlauts.
@@ -63,11 +68,13 @@ impl Bench<'_> {
         acts.push((Act::Save(0), true));
         acts.extend(subject.steps(HALF..STEPS, -3.0));
         acts.push((Act::Restore(0), true));
+        acts.extend(subject.reads());
         acts.extend(subject.steps(HALF..STEPS, 1.0));
         if serializes {
             acts.push((Act::Serialize(0, 1), true));
             acts.push((Act::FreeState(0), true));
             acts.push((Act::Restore(1), true));
+            acts.extend(subject.reads());
             acts.extend(subject.steps(HALF..STEPS, 1.0));
             acts.push((Act::FreeState(1), true));
         }
@@ -78,18 +85,49 @@ impl Bench<'_> {
         let width = subject.width();
         // The reference has read its initial values too.
         let rows = read(reference);
-        let wanted = &rows[width * (HALF + 1)..];
+        let wanted = &rows[width * HALF..];
         let found = read(&run);
         let half = wanted.len();
         let after = &found[width * STEPS..];
-        let help =
-            ["a restored state must be complete: states, inputs, time, memory of events and of the solver"];
-        self.same("run.state", "after fmi2SetFMUstate", &after[..half], wanted, report, &help);
+        self.restored("after fmi2SetFMUstate", &after[..half], wanted, report);
         if serializes {
-            let what = "after a state went through bytes";
-            self.same("run.state", what, &after[half..2 * half], wanted, report, &help);
+            self.restored("after a state went through bytes", &after[half..2 * half], wanted, report);
         }
         Ok(())
+    }
+
+    /// What is read at the restored point must be what was read there. A solver that begins anew comes to slightly
+    /// other values later on, within its tolerance.
+    fn restored(&self, when: &str, found: &[&Outcome], wanted: &[&Outcome], report: &mut Report) {
+        let help =
+            "a restored state must be complete: states, inputs, time, memory of events and of the solver";
+        let width = self.subject.width();
+        let tolerance = self.subject.description.experiment.tolerance.unwrap_or(TOLERANCE);
+        let wrong =
+            |message: String| Finding::error("run.state", message).at(&self.subject.library).help(help);
+        report.findings.push(match apart(found, wanted, width) {
+            Some(0.0) => {
+                report.done.push(format!("{}: the same results {when}, bit for bit", self.what()));
+                return;
+            }
+            _ if found[..width] != wanted[..width] => {
+                wrong(format!("{when}, the outputs at the restored point are others than those that were saved"))
+            }
+            Some(apart) if apart <= tolerance => Finding::note(
+                "run.state",
+                format!(
+                    "{when}, later outputs differ from those of a plain run by up to {apart:.1e} of their largest value, which is \
+                     within the tolerance of {tolerance:.0e}"
+                ),
+            )
+            .at(&self.subject.library)
+            .help("the solver begins anew; save what it remembers, and runs are repeated bit for bit"),
+            Some(apart) => wrong(format!(
+                "{when}, later outputs differ from those of a plain run by up to {apart:.1e} of their largest value, more than the \
+                 tolerance of {tolerance:.0e}"
+            )),
+            None => wrong(format!("{when}, later outputs are others than in a plain run")),
+        });
     }
 
     pub(super) fn instances(&self, reference: &Run, report: &mut Report) -> Result<(), String> {
@@ -143,5 +181,62 @@ impl Bench<'_> {
         let run = self.obey(acts)?;
         self.ran("run.clock", "a run whose communication points are added up", &run, report);
         Ok(())
+    }
+}
+
+/// How far the reals of two runs are apart, in shares of each one's largest value; none if anything else differs, or a number is
+/// none in one of them.
+fn apart(found: &[&Outcome], wanted: &[&Outcome], width: usize) -> Option<f64> {
+    if found.len() != wanted.len() {
+        return None;
+    }
+    // Largest difference and largest value of each signal: by its place in what is read once.
+    let mut signals: BTreeMap<(usize, usize), [f64; 2]> = BTreeMap::new();
+    for (index, (found, wanted)) in found.iter().zip(wanted).enumerate() {
+        let others = |it: &Outcome| (it.status, it.integers.clone(), it.texts.clone(), it.reals.len());
+        if others(found) != others(wanted) {
+            return None;
+        }
+        for (place, (found, wanted)) in found.values().zip(wanted.values()).enumerate() {
+            let difference = if found.to_bits() == wanted.to_bits() { 0.0 } else { (found - wanted).abs() };
+            if difference.is_nan() {
+                return None;
+            }
+            let [largest, size] = signals.entry((index % width, place)).or_insert([0.0, 0.0]);
+            (*largest, *size) = (largest.max(difference), size.max(wanted.abs()));
+        }
+    }
+    let share = |[difference, size]: &[f64; 2]| {
+        if *difference == 0.0 { 0.0 } else { difference / size.max(f64::MIN_POSITIVE) }
+    };
+    Some(signals.values().map(share).fold(0.0, f64::max))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rows(values: &[f64]) -> Vec<Outcome> {
+        let row = |value: &f64| Outcome {
+            status: 0,
+            reals: vec![value.to_bits()],
+            integers: Vec::new(),
+            texts: Vec::new(),
+        };
+        values.iter().map(row).collect()
+    }
+
+    #[test]
+    fn differences_are_shares_of_a_signals_largest_value() {
+        let share = |found: &[f64], wanted: &[f64]| {
+            let (found, wanted) = (rows(found), rows(wanted));
+            apart(&found.iter().collect::<Vec<_>>(), &wanted.iter().collect::<Vec<_>>(), 1)
+        };
+        assert_eq!(share(&[1.0, 2.0, 5.0], &[1.0, 2.0, 5.0]), Some(0.0));
+        assert_eq!(share(&[1.0, 2.5, 5.0], &[1.0, 2.0, 5.0]), Some(0.1));
+        assert_eq!(share(&[1.0, f64::NAN], &[1.0, f64::NAN]), Some(0.0));
+        assert_eq!(share(&[1.0, f64::NAN], &[1.0, 2.0]), None);
+        assert_eq!(share(&[1.0], &[1.0, 2.0]), None);
+        assert!(share(&[0.0, 0.1], &[0.0, 0.0]).unwrap() > 1e10);
     }
 }

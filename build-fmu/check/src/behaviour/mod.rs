@@ -79,10 +79,13 @@ impl Bench<'_> {
             return Ok(());
         }
         report.findings.extend(self.numbers(&reference));
+        report.tell();
         report.done.push(format!("{what}: {STEPS} steps of {} s", subject.step));
         if everything {
             self.guid(report)?;
+            report.tell();
             self.unknown_reference(report)?;
+            report.tell();
         }
         let again = self.obey(self.whole(self.unpacked.plain, false))?;
         if read(&again) != read(&reference) {
@@ -95,13 +98,20 @@ impl Bench<'_> {
             return Ok(());
         }
         self.resources(&reference, report)?;
+        report.tell();
         self.reset(&reference, report)?;
+        report.tell();
         self.states(&reference, report)?;
+        report.tell();
         self.instances(&reference, report)?;
+        report.tell();
         self.derivatives(report)?;
+        report.tell();
         if subject.interface.kind == Kind::CoSimulation {
             self.clock(report)?;
+            report.tell();
             self.parameters(report)?;
+            report.tell();
         }
         Ok(())
     }

@@ -4,6 +4,8 @@ mod library;
 mod process;
 
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{Seek, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -131,10 +133,30 @@ pub fn probe(folder: &Path) -> ExitCode {
     }
 }
 
+/// Which function is being called, in a file: who ends this process tells nothing more.
+struct Calling(Option<File>);
+
+impl Calling {
+    /// As long as the longest text.
+    const LENGTH: usize = 64;
+
+    fn new(folder: &Path) -> Self {
+        Self(File::create(folder.join(CALLING)).ok())
+    }
+
+    /// Written over what was there: a file that is made anew each time has the disk wait for each.
+    fn tell(&mut self, what: &str) {
+        if let Some(file) = &mut self.0 {
+            let text = format!("{what:<width$}", width = Self::LENGTH);
+            // Without the file, a crash is told without its place.
+            let _ = file.rewind().and_then(|()| file.write_all(text.as_bytes()));
+        }
+    }
+}
+
 fn obey(orders: &Orders, folder: &Path) -> Answers {
-    // Who ends this process tells nothing more: what is being called stands in a file.
-    let calling = |what: &str| std::fs::write(folder.join(CALLING), what).is_ok();
-    calling("its initialisation");
+    let mut calling = Calling::new(folder);
+    calling.tell("its initialisation");
     let library = match Library::load(&orders.library) {
         Ok(library) => library,
         Err(error) => return Answers { unloadable: Some(error), ..Answers::default() },
@@ -149,7 +171,7 @@ fn obey(orders: &Orders, folder: &Path) -> Answers {
     for (act, must) in &orders.acts {
         let name = act.function();
         if name != last {
-            calling(name);
+            calling.tell(name);
             last = name.into();
         }
         let outcome = stage.perform(act);
@@ -160,7 +182,7 @@ fn obey(orders: &Orders, folder: &Path) -> Answers {
         }
     }
     answers.log = library::logged();
-    calling("the end of the process");
+    calling.tell("the end of the process");
     answers
 }
 

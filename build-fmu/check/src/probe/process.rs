@@ -72,6 +72,7 @@ impl Probe {
             .map_err(failed)?;
         let status = wait(&mut child, self.timeout).map_err(failed)?;
         let function = fs::read_to_string(folder.path().join(CALLING)).unwrap_or_default();
+        let function = function.trim_end().to_owned();
         let answers = fs::read(folder.path().join(ANSWERS)).ok();
         let answers = answers.and_then(|text| serde_json::from_slice::<Answers>(&text).ok());
         let ending = match status {

@@ -7,7 +7,7 @@ use super::documents::Wanted;
 use super::signals::{Declared, Dictionary, Signal};
 use super::structure::{Connector, Content, Element, FILE};
 use super::{System, at, found};
-use crate::finding::{Finding, Report};
+use crate::finding::{Finding, Report, repeated};
 use crate::package::Package;
 use crate::unit::{Fit, Unit};
 
@@ -109,8 +109,9 @@ impl System {
                 }
             }
         };
-        for (index, signal) in dictionary.signals.iter().enumerate() {
-            if dictionary.signals[..index].iter().any(|other| other.name == signal.name) {
+        let names = dictionary.signals.iter().map(|signal| signal.name.as_str());
+        for (signal, again) in dictionary.signals.iter().zip(repeated(names)) {
+            if again {
                 let message =
                     format!("the dictionary `{name}` has two signals of the name `{}`", signal.name);
                 wrong(Finding::error("system.name", message).at(format!("{file}:{}", signal.line)));

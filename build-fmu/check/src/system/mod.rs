@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::description::{Description, Kind, Variable};
-use crate::finding::{Finding, Report, count};
+use crate::finding::{Finding, Report, count, repeated};
 use crate::package::Package;
 use crate::unit::Unit;
 use crate::{Options, fmpy, fmu};
@@ -40,7 +40,8 @@ struct System {
 pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Report, String> {
     let text = package.text(FILE)?.ok_or_else(|| format!("there is no {FILE}"))?;
     let structure = Structure::parse(&text)?;
-    let mut report = Report { findings: package.findings(), ..Report::default() };
+    let mut report = Report::new(options.listener.as_ref());
+    report.findings = package.findings();
     let (files, fmus, mut dictionaries) = (BTreeMap::new(), BTreeMap::new(), Dictionaries::default());
     let mut system = System { structure, files, fmus, dictionaries: Dictionaries::default() };
     system.components(package, options, &mut report)?;
@@ -50,6 +51,7 @@ pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Re
     report.findings.extend(system.names());
     report.findings.extend(system.connectors());
     report.findings.extend(system.connections());
+    report.tell();
     let values = system.parameters(package, &mut report);
     report.done.push(format!(
         "system: {}, {}, {}, {}",
@@ -143,6 +145,7 @@ impl System {
                 let path = folder.path().join(format!("{}.fmu", self.fmus.len()));
                 std::fs::write(&path, package.read(&file)?.unwrap_or_default()).map_err(failed)?;
                 self.fmus.insert(file.clone(), component(&file, &path, options, report));
+                report.tell();
             }
             if let Some(description) = &self.fmus[&file] {
                 report.findings.extend(implemented(element, implementation, description));
@@ -162,16 +165,18 @@ impl System {
             if element.name.is_empty() {
                 wrong("an element has no name".into(), element.line);
             }
-            for (index, connector) in element.connectors.iter().enumerate() {
-                if element.connectors[..index].iter().any(|other| other.name == connector.name) {
+            let names = element.connectors.iter().map(|connector| connector.name.as_str());
+            for (connector, again) in element.connectors.iter().zip(repeated(names)) {
+                if again {
                     let message =
                         format!("{} has two connectors of the name `{}`", element.shown(), connector.name);
                     wrong(message, connector.line);
                 }
             }
             let Content::System { elements, .. } = &element.content else { continue };
-            for (index, inner) in elements.iter().enumerate() {
-                if elements[..index].iter().any(|other| other.name == inner.name) {
+            let names = elements.iter().map(|inner| inner.name.as_str());
+            for (inner, again) in elements.iter().zip(repeated(names)) {
+                if again {
                     wrong(format!("there are two elements of the name `{}`", inner.path), inner.line);
                 }
             }
@@ -189,7 +194,7 @@ impl System {
 
     /// The variable that a component's connector or parameter is for.
     fn variable(&self, element: &Element, name: &str) -> Option<&Variable> {
-        self.description(element)?.variables.iter().find(|variable| variable.name == name)
+        self.description(element)?.named(name)
     }
 
     /// The unit of a component's variable.
@@ -207,6 +212,8 @@ fn found(declared: &[Unit], symbol: &str) -> Unit {
 /// Checks an FMU of the archive; what is found is told with its name. Returns its description if it is FMI 2.0.
 fn component(file: &str, path: &Path, options: &Options, report: &mut Report) -> Option<Description> {
     let within = |line: &String| format!("{file}: {line}");
+    // What it finds is told with its name, here.
+    let options = &Options { listener: None, ..options.clone() };
     let opened = Package::open(path).and_then(|mut inner| Ok((fmu::description(&mut inner)?, inner)));
     let told = opened.and_then(|(description, mut inner)| match fmu::check(path, &mut inner, options) {
         // Without FMPy there is nothing to check other versions by, which is no fault of theirs.

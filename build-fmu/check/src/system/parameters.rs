@@ -1,12 +1,14 @@
 //! Rules for values: each is for a variable that takes it, in its type, its unit and its bounds.
 
+use std::collections::HashSet;
+
 use super::connectors::is_of;
 use super::documents::Wanted;
 use super::structure::{Binding, Connector, Content, Element, FILE};
 use super::values::{Mapping, Parameter, Values};
 use super::{System, at, found};
 use crate::description::Variable;
-use crate::finding::{Finding, Report, names};
+use crate::finding::{Finding, Report, names, repeated};
 use crate::package::Package;
 use crate::unit::{Fit, Unit};
 use crate::variables::is_value;
@@ -92,9 +94,10 @@ impl System {
         };
         let mut findings = Vec::new();
         let mut missing: Vec<String> = Vec::new();
-        for (index, parameter) in values.parameters.iter().enumerate() {
+        let given = values.parameters.iter().map(|parameter| parameter.name.as_str());
+        for (parameter, again) in values.parameters.iter().zip(repeated(given)) {
             let place = format!("{file}:{}", parameter.line);
-            if values.parameters[..index].iter().any(|other| other.name == parameter.name) {
+            if again {
                 let message = format!("there are two values for `{}` in one set", parameter.name);
                 findings.push(Finding::error("system.parameter", message).at(&place));
             }
@@ -245,16 +248,16 @@ fn entries(
     values: &Values,
 ) -> Vec<Finding> {
     let mut findings = Vec::new();
-    for (index, entry) in mapping.entries.iter().enumerate() {
-        if mapping.entries[..index].iter().any(|other| other.target == entry.target) {
+    let targets = mapping.entries.iter().map(|entry| entry.target.as_str());
+    for (entry, again) in mapping.entries.iter().zip(repeated(targets)) {
+        if again {
             let message = format!("two entries of a mapping give to `{}`", element.of(&entry.target));
             findings.push(Finding::error("system.parameter", message).at(format!("{file}:{}", entry.line)));
         }
     }
-    let given = |name: &str| {
-        let rest = name.strip_prefix(binding.prefix.as_str());
-        rest.is_some_and(|rest| values.parameters.iter().any(|parameter| parameter.name == rest))
-    };
+    let known: HashSet<&str> = values.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+    let given =
+        |name: &str| name.strip_prefix(binding.prefix.as_str()).is_some_and(|rest| known.contains(rest));
     let sources = mapping.entries.iter().map(|entry| entry.source.as_str());
     let missing: Vec<&str> = sources.filter(|source| !given(source)).collect();
     if !missing.is_empty() {

@@ -2,8 +2,9 @@
 
 use roxmltree::Node;
 
-use super::structure::{child, children, line_of, source_of, text_of, type_and_unit, units};
+use super::structure::{child, children, source_of, text_of, type_and_unit, units};
 use super::values::document;
+use crate::lines::Lines;
 use crate::unit::Unit;
 
 /// `<SignalDictionary>` of a system: the name of a dictionary, and where its signals stand.
@@ -45,13 +46,13 @@ pub struct Signal {
 
 impl Declared {
     /// Reads an element.
-    pub fn of(node: Node) -> Self {
+    pub fn of(node: Node, lines: &Lines) -> Self {
         Self {
             name: text_of(node, "name"),
             media: node.attribute("type").unwrap_or(Dictionary::MEDIA).into(),
             source: source_of(node),
-            inline: child(node, "SignalDictionary").map(Dictionary::of),
-            line: line_of(node),
+            inline: child(node, "SignalDictionary").map(|node| Dictionary::of(node, lines)),
+            line: lines.line(node),
         }
     }
 }
@@ -68,12 +69,15 @@ impl Dictionary {
         document(bytes, "SignalDictionary", Self::of)
     }
 
-    fn of(node: Node) -> Self {
-        Self { signals: children(node, "DictionaryEntry").map(signal).collect(), units: units(node) }
+    fn of(node: Node, lines: &Lines) -> Self {
+        Self {
+            signals: children(node, "DictionaryEntry").map(|node| signal(node, lines)).collect(),
+            units: units(node),
+        }
     }
 }
 
-fn signal(node: Node) -> Signal {
+fn signal(node: Node, lines: &Lines) -> Signal {
     let (of_type, unit) = type_and_unit(node);
-    Signal { name: text_of(node, "name"), of_type, unit, line: line_of(node) }
+    Signal { name: text_of(node, "name"), of_type, unit, line: lines.line(node) }
 }

@@ -4,6 +4,7 @@ use roxmltree::{Document, Node};
 
 use super::signals::Declared;
 use super::values::{Mapping, Values};
+use crate::lines::Lines;
 use crate::unit::Unit;
 
 /// The file that an SSP must have.
@@ -132,7 +133,11 @@ impl Structure {
             return Err(format!("{FILE} is a `{found}` and no `SystemStructureDescription`"));
         }
         let system = child(root, "System").ok_or_else(|| format!("{FILE} has no <System>"))?;
-        Ok(Self { version: text_of(root, "version"), root: element(system, ""), units: units(root) })
+        Ok(Self {
+            version: text_of(root, "version"),
+            root: element(system, "", &Lines::of(text)),
+            units: units(root),
+        })
     }
 }
 
@@ -184,11 +189,6 @@ pub fn units(root: Node) -> Vec<Unit> {
     units.map(|node| Unit::parse(node).unwrap_or_else(|_| Unit::named(&text_of(node, "name")))).collect()
 }
 
-/// The line where an element begins.
-pub fn line_of(node: Node) -> u32 {
-    node.document().text_pos_at(node.range().start).row
-}
-
 /// The file that something is in; none if it is given in place.
 pub fn source_of(node: Node) -> Option<String> {
     node.attribute("source").filter(|source| !source.is_empty()).map(str::to_owned)
@@ -203,7 +203,7 @@ fn is_true(node: Node, name: &str) -> bool {
     matches!(node.attribute(name), Some("true" | "1"))
 }
 
-fn element(node: Node, around: &str) -> Element {
+fn element(node: Node, around: &str, lines: &Lines) -> Element {
     let name = text_of(node, "name");
     let path = match (around, node.parent_element().is_some_and(|it| it.tag_name().name() == "Elements")) {
         (_, false) => String::new(),
@@ -220,26 +220,34 @@ fn element(node: Node, around: &str) -> Element {
         "System" => {
             let inner = child(node, "Elements").into_iter().flat_map(|list| list.children());
             Content::System {
-                elements: inner.filter(Node::is_element).map(|inner| element(inner, &path)).collect(),
-                connections: list("Connections", "Connection").map(connection).collect(),
-                dictionaries: list("SignalDictionaries", "SignalDictionary").map(Declared::of).collect(),
+                elements: inner.filter(Node::is_element).map(|inner| element(inner, &path, lines)).collect(),
+                connections: list("Connections", "Connection").map(|node| connection(node, lines)).collect(),
+                dictionaries: list("SignalDictionaries", "SignalDictionary")
+                    .map(|node| Declared::of(node, lines))
+                    .collect(),
             }
         }
         _ => Content::Dictionary(text_of(node, "dictionary")),
     };
     Element {
-        connectors: list("Connectors", "Connector").map(connector).collect(),
-        bindings: list("ParameterBindings", "ParameterBinding").map(binding).collect(),
-        line: line_of(node),
+        connectors: list("Connectors", "Connector").map(|node| connector(node, lines)).collect(),
+        bindings: list("ParameterBindings", "ParameterBinding").map(|node| binding(node, lines)).collect(),
+        line: lines.line(node),
         name,
         path,
         content,
     }
 }
 
-fn connector(node: Node) -> Connector {
+fn connector(node: Node, lines: &Lines) -> Connector {
     let (of_type, unit) = type_and_unit(node);
-    Connector { name: text_of(node, "name"), kind: text_of(node, "kind"), of_type, unit, line: line_of(node) }
+    Connector {
+        name: text_of(node, "name"),
+        kind: text_of(node, "kind"),
+        of_type,
+        unit,
+        line: lines.line(node),
+    }
 }
 
 /// Of a connector or a signal, if they are given.
@@ -250,7 +258,7 @@ pub fn type_and_unit(node: Node) -> (Option<String>, Option<String>) {
     (of_type.map(|node| node.tag_name().name().into()), unit)
 }
 
-fn connection(node: Node) -> Connection {
+fn connection(node: Node, lines: &Lines) -> Connection {
     let end = |element: &str, connector: &str| End {
         element: node.attribute(element).map(str::to_owned),
         connector: text_of(node, connector),
@@ -259,19 +267,19 @@ fn connection(node: Node) -> Connection {
         ends: [end("startElement", "startConnector"), end("endElement", "endConnector")],
         unconverted: is_true(node, "suppressUnitConversion"),
         transformed: node.children().any(|child| child.tag_name().name().ends_with("Transformation")),
-        line: line_of(node),
+        line: lines.line(node),
     }
 }
 
-fn binding(node: Node) -> Binding {
+fn binding(node: Node, lines: &Lines) -> Binding {
     let inline = child(node, "ParameterValues").and_then(|values| child(values, "ParameterSet"));
     Binding {
         media: node.attribute("type").unwrap_or("application/x-ssp-parameter-set").into(),
         source: source_of(node),
         within: is_within(node),
         prefix: text_of(node, "prefix"),
-        inline: inline.map(Values::of),
-        mapping: child(node, "ParameterMapping").map(Mapping::of),
-        line: line_of(node),
+        inline: inline.map(|node| Values::of(node, lines)),
+        mapping: child(node, "ParameterMapping").map(|node| Mapping::of(node, lines)),
+        line: lines.line(node),
     }
 }

@@ -2,7 +2,8 @@
 
 use roxmltree::{Document, Node};
 
-use super::structure::{child, children, is_within, line_of, source_of, text_of, units};
+use super::structure::{child, children, is_within, source_of, text_of, units};
+use crate::lines::Lines;
 use crate::unit::Unit;
 
 /// `<ParameterSet>`.
@@ -63,9 +64,9 @@ impl Values {
     }
 
     /// Reads an element.
-    pub fn of(node: Node) -> Self {
+    pub fn of(node: Node, lines: &Lines) -> Self {
         let list = child(node, "Parameters").into_iter().flat_map(|list| children(list, "Parameter"));
-        Self { parameters: list.map(parameter).collect(), units: units(node) }
+        Self { parameters: list.map(|node| parameter(node, lines)).collect(), units: units(node) }
     }
 }
 
@@ -79,13 +80,13 @@ impl Mapping {
     }
 
     /// Reads an element: a mapping, or what holds one or names its file.
-    pub fn of(node: Node) -> Self {
+    pub fn of(node: Node, lines: &Lines) -> Self {
         let inner = child(node, "ParameterMapping").unwrap_or(node);
         let entry = |node: Node| Entry {
             source: text_of(node, "source"),
             target: text_of(node, "target"),
             transformed: node.children().any(|child| child.tag_name().name().ends_with("Transformation")),
-            line: line_of(node),
+            line: lines.line(node),
         };
         Self {
             source: source_of(node),
@@ -99,19 +100,19 @@ impl Mapping {
 ///
 /// # Errors
 /// If it is no well-formed XML, or the root is another.
-pub fn document<T>(bytes: &[u8], wanted: &str, read: impl Fn(Node) -> T) -> Result<T, String> {
+pub fn document<T>(bytes: &[u8], wanted: &str, read: impl Fn(Node, &Lines) -> T) -> Result<T, String> {
     let text = std::str::from_utf8(bytes).map_err(|_| "is not encoded in UTF-8".to_owned())?;
     // A mark of the byte order is no part of the text.
-    let document = Document::parse(text.trim_start_matches('\u{feff}'))
-        .map_err(|error| format!("is no well-formed XML: {error}"))?;
+    let text = text.trim_start_matches('\u{feff}');
+    let document = Document::parse(text).map_err(|error| format!("is no well-formed XML: {error}"))?;
     let root = document.root_element();
     match root.tag_name().name() {
-        found if found == wanted => Ok(read(root)),
+        found if found == wanted => Ok(read(root, &Lines::of(text))),
         found => Err(format!("is a `{found}` and no `{wanted}`")),
     }
 }
 
-fn parameter(node: Node) -> Parameter {
+fn parameter(node: Node, lines: &Lines) -> Parameter {
     let value = node.children().find(Node::is_element);
     let text = |name: &str| value.and_then(|value| value.attribute(name)).map(str::to_owned);
     Parameter {
@@ -119,6 +120,6 @@ fn parameter(node: Node) -> Parameter {
         kind: value.map_or_else(String::new, |value| value.tag_name().name().into()),
         value: text("value").unwrap_or_default(),
         unit: text("unit"),
-        line: line_of(node),
+        line: lines.line(node),
     }
 }
