@@ -9,6 +9,8 @@ use crate::style;
 pub struct Failure {
     message: String,
     help: Vec<String>,
+    /// What else goes wrong.
+    others: Vec<Failure>,
 }
 
 /// A result that fails with hints.
@@ -17,7 +19,15 @@ pub type Result<T> = std::result::Result<T, Failure>;
 impl Failure {
     /// A failure in one sentence, without a full stop.
     pub fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), help: Vec::new() }
+        Self { message: message.into(), help: Vec::new(), others: Vec::new() }
+    }
+
+    /// Several as one; none if there are none.
+    pub fn together(failures: impl IntoIterator<Item = Self>) -> Option<Self> {
+        let mut failures = failures.into_iter();
+        let mut first = failures.next()?;
+        first.others.extend(failures);
+        Some(first)
     }
 
     /// Adds what the user can do.
@@ -32,7 +42,10 @@ impl Display for Failure {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let (error, help) = if f.alternate() { (style::ERROR, style::HELP) } else { Default::default() };
         write!(f, "{error}error:{error:#} {}", self.message)?;
-        self.help.iter().try_for_each(|line| write!(f, "\n{help}help:{help:#} {line}"))
+        self.help.iter().try_for_each(|line| write!(f, "\n{help}help:{help:#} {line}"))?;
+        let several =
+            |other: &Self| if f.alternate() { write!(f, "\n{other:#}") } else { write!(f, "\n{other}") };
+        self.others.iter().try_for_each(several)
     }
 }
 
@@ -71,6 +84,14 @@ mod tests {
             Some("there are `QuarterCar`, `QuanserQuarterCar`, `Road`")
         );
         assert_eq!(similar("xyz", []), None);
+    }
+
+    #[test]
+    fn several_failures_follow_each_other() {
+        let all = ["one", "two"].map(|text| Failure::new(text).help("mend it"));
+        let told = Failure::together(all).unwrap().to_string();
+        assert_eq!(told, "error: one\nhelp: mend it\nerror: two\nhelp: mend it");
+        assert_eq!(Failure::together([]), None);
     }
 
     #[test]

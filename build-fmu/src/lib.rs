@@ -123,7 +123,8 @@ pub fn pack(project: &Project, parameters: &Path, out: &Path) -> Result<(), Stri
         systems: Vec::new(),
         manifest_path: Some(workspace),
     };
-    run::build(project, &arguments).map(|_| ()).map_err(|failure| failure.to_string())
+    let told = run::build(project, &arguments);
+    told.and_then(|told| told.failed.map_or(Ok(()), Err)).map_err(|failure| failure.to_string())
 }
 
 /// Builds what the command line asks for; failures are told on stderr.

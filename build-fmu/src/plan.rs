@@ -19,6 +19,8 @@ pub struct Plan {
     pub wanted: Vec<usize>,
     /// The systems that are, with the folder that their FMUs of others are found from.
     pub systems: Vec<(System, PathBuf)>,
+    /// Systems of the command line whose files cannot be read.
+    pub broken: Vec<Failure>,
 }
 
 /// What a component of a system is made of.
@@ -61,10 +63,13 @@ impl Plan {
         for (name, text) in project.systems {
             systems.push((System::parse(name, text)?, PathBuf::new()));
         }
-        let given_systems = systems.len();
+        let (given_systems, mut broken) = (systems.len(), Vec::new());
         for path in &arguments.systems {
             let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-            systems.push((System::parse(&path.display().to_string(), &read(path)?)?, folder));
+            match read(path).and_then(|text| System::parse(&path.display().to_string(), &text)) {
+                Ok(system) => systems.push((system, folder)),
+                Err(failure) => broken.push(failure),
+            }
         }
         check_names(&fmus, &systems)?;
         // A file on the command line is a wish, like a name.
@@ -86,7 +91,7 @@ impl Plan {
             index += 1;
             named(&system.name) || index > given_systems
         });
-        Ok(Self { fmus, wanted, systems })
+        Ok(Self { fmus, wanted, systems, broken })
     }
 
     /// What to say of a name that there is nothing of.

@@ -47,6 +47,10 @@ pub fn run(project: &Project, line: &CommandLine) -> Result<ExitCode> {
         None => {
             let told = build(project, &line.build)?;
             told.notes.iter().for_each(|note| eprintln!("note: {note}"));
+            if let Some(failure) = told.failed {
+                print(&told.table);
+                return Err(failure);
+            }
             told.table
         }
         Some(Command::List(arguments)) => {
@@ -92,6 +96,8 @@ pub struct Told {
     pub table: String,
     /// What the libraries of each platform need of a machine.
     pub notes: Vec<String>,
+    /// What is wrong with the systems that were not built.
+    pub failed: Option<Failure>,
 }
 
 /// Builds what the arguments ask for from the project's own models.
@@ -103,8 +109,14 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
     let platforms = platforms(arguments)?;
     // Mistakes in systems come to light before minutes of compiling.
     let mut needed = plan.wanted.clone();
-    let assemblies = assemble(project, &mut plan)?;
-    assemblies.iter().try_for_each(|assembly| assembly.runs_on(&platforms))?;
+    let (assemblies, failures) = assemble(project, &mut plan, &platforms);
+    let mut failed = Failure::together(failures);
+    if assemblies.is_empty()
+        && needed.is_empty()
+        && let Some(failure) = failed.take()
+    {
+        return Err(failure);
+    }
     needed.extend(assemblies.iter().flat_map(Assembly::ours));
     needed.sort_unstable();
     needed.dedup();
@@ -164,7 +176,7 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
     }
     progress.finish_and_clear();
     let table = table::aligned(&["NAME", "KIND", "IN → OUT", "PARAMETERS", "SIZE", "PATH"], &[4], &rows);
-    Ok(Told { table, notes })
+    Ok(Told { table, notes, failed })
 }
 
 /// The platforms to build for, and what builds: a target that is not installed is found out before the
@@ -198,11 +210,26 @@ struct Assembly {
     faces: Vec<Face>,
 }
 
-/// Finds what the systems are made of and checks that it fits.
-fn assemble(project: &Project, plan: &mut Plan) -> Result<Vec<Assembly>> {
-    let mut assemblies = Vec::new();
+/// Finds what the systems are made of and checks that it fits and runs somewhere; and what is wrong with the others.
+fn assemble(
+    project: &Project,
+    plan: &mut Plan,
+    platforms: &[(Platform, Toolchain)],
+) -> (Vec<Assembly>, Vec<Failure>) {
+    let (mut assemblies, mut failures) = (Vec::new(), std::mem::take(&mut plan.broken));
     for (system, folder) in plan.systems.clone() {
-        let mut components = plan.components(&system, &folder)?;
+        let assembly = Assembly::new(project, plan, system, &folder);
+        match assembly.and_then(|assembly| assembly.runs_on(platforms).map(|()| assembly)) {
+            Ok(assembly) => assemblies.push(assembly),
+            Err(failure) => failures.push(failure),
+        }
+    }
+    (assemblies, failures)
+}
+
+impl Assembly {
+    fn new(project: &Project, plan: &mut Plan, system: System, folder: &Path) -> Result<Self> {
+        let mut components = plan.components(&system, folder)?;
         let face = |component: &Component| match component {
             Component::Ours(index) => Ok(Face::of(&plan.fmus[*index].interface()?)),
             Component::Theirs(theirs) => Ok(theirs.face.clone()),
@@ -211,12 +238,9 @@ fn assemble(project: &Project, plan: &mut Plan) -> Result<Vec<Assembly>> {
         let adapters = system.check(&faces)?;
         components.extend(plan.add(project, &system, &adapters)?.into_iter().map(Component::Ours));
         plan.check_files(&system, &components)?;
-        assemblies.push(Assembly { system, components, faces });
+        Ok(Self { system, components, faces })
     }
-    Ok(assemblies)
-}
 
-impl Assembly {
     fn ours(&self) -> impl Iterator<Item = usize> {
         self.components.iter().filter_map(|component| match component {
             Component::Ours(index) => Some(*index),

@@ -84,7 +84,8 @@ pub struct Experiment {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(
     untagged,
-    expecting = "a component is the name of an FMU, or { fmu = \"path.fmu\" } for one of others"
+    expecting = "a component is the name of an FMU, or { fmu = \"path.fmu\" } for one of others, with units = \"SI\" if \
+                 what declares no unit is in SI units"
 )]
 pub enum Part {
     /// An FMU of the catalogue, by its name.
@@ -108,6 +109,17 @@ impl Display for Part {
 pub struct Foreign {
     /// Its file, from the folder of the system's.
     pub fmu: PathBuf,
+    /// In which units its variables are that declare none; not given if nobody knows.
+    #[serde(default)]
+    pub units: Option<Units>,
+}
+
+/// A system of units.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum Units {
+    /// The coherent units of the SI.
+    #[serde(rename = "SI")]
+    Si,
 }
 
 /// A connection as it is written.
@@ -244,7 +256,7 @@ impl System {
     /// stand between them.
     ///
     /// # Errors
-    /// The first mistake, by name.
+    /// All mistakes, by name.
     pub fn check(&self, faces: &[Face]) -> Result<Vec<Adapter>> {
         check::Checked::new(self, faces).map(|checked| checked.adapters)
     }
@@ -260,16 +272,13 @@ impl System {
         self.connections.iter().map(Line::ends)
     }
 
-    /// The parameters, with nested tables flattened to dotted names.
-    ///
-    /// # Errors
-    /// The first that is not understood.
-    pub fn settings(&self) -> Result<Vec<Setting>> {
-        let mut settings = Vec::new();
+    /// The parameters, with nested tables flattened to dotted names; and those that are not understood.
+    pub fn settings(&self) -> (Vec<Setting>, Vec<Failure>) {
+        let (mut settings, mut broken) = (Vec::new(), Vec::new());
         for (name, value) in &self.parameters {
-            self.collect(name, value, &mut settings)?;
+            broken.extend(self.collect(name, value, &mut settings).err());
         }
-        Ok(settings)
+        (settings, broken)
     }
 
     fn collect(&self, name: &str, value: &Toml, into: &mut Vec<Setting>) -> Result<()> {

@@ -195,6 +195,45 @@ fn a_toolchain_that_is_none_or_lacks_the_target_is_told_at_once() {
     }
 }
 
+/// A system of FMUs of others, which nothing has to be compiled for.
+fn system_of_others(folder: &tempfile::TempDir, name: &str, connection: &str) -> String {
+    let xml = "<fmiModelDescription fmiVersion=\"2.0\" modelName=\"M\" guid=\"1\"><CoSimulation modelIdentifier=\"M\"/>\
+        <ModelVariables><ScalarVariable name=\"y\" valueReference=\"0\" causality=\"output\"><Real/></ScalarVariable>\
+        <ScalarVariable name=\"u\" valueReference=\"1\" causality=\"input\"><Real start=\"0\"/></ScalarVariable>\
+        </ModelVariables></fmiModelDescription>";
+    let mut zip = zip::ZipWriter::new(std::fs::File::create(folder.path().join("M.fmu")).unwrap());
+    for (name, contents) in [("modelDescription.xml", xml), ("binaries/linux64/M.so", "")] {
+        zip.start_file(name, zip::write::SimpleFileOptions::default()).unwrap();
+        std::io::Write::write_all(&mut zip, contents.as_bytes()).unwrap();
+    }
+    zip.finish().unwrap();
+    let text = format!(
+        "name = \"{name}\"\ntitle = \"t\"\nsource = \"s\"\ncomponents = {{ m = {{ fmu = \"M.fmu\" }} }}\n\
+         connections = [\"{connection}\"]\n[experiment]\nstop = 1.0\nstep = 0.1\n"
+    );
+    file(folder, &format!("{name}.toml"), &text)
+}
+
+#[test]
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+fn a_bad_system_does_not_stop_the_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let good = system_of_others(&folder, "good", "m.y -> m.u");
+    let bad = system_of_others(&folder, "bad", "m.x -> m.u");
+    let broken = file(&folder, "broken.toml", "name = [");
+    let out = folder.path().join("out");
+    let systems = ["--system", &bad, "--system", &broken, "--system", &good, "--out", out.to_str().unwrap()];
+    let (code, stdout, stderr) = answer(&systems);
+    assert_eq!(code, 1, "{stderr}");
+    assert!(stdout.contains("good.ssp") && out.join("good.ssp").is_file(), "{stdout}");
+    assert!(!out.join("bad.ssp").exists());
+    for part in ["broken.toml` is broken", "has no variable `x` in the system bad"] {
+        assert!(stderr.contains(part), "{stderr}");
+    }
+    // With no other wish it is the only answer.
+    fails(&systems[..4], &["broken.toml` is broken", "no variable `x`"]);
+}
+
 #[test]
 fn a_folder_that_cannot_be_written_is_told_before_the_build() {
     let folder = tempfile::tempdir().unwrap();

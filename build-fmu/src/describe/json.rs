@@ -74,7 +74,7 @@ fn value(value: &Value) -> Json {
 
 /// A system.
 pub fn system(system: &System) -> String {
-    let parameters = system.settings().unwrap_or_default().into_iter().map(|setting| {
+    let parameters = system.settings().0.into_iter().map(|setting| {
         let name = format!("{}.{}", setting.port.component, setting.port.variable);
         (name, json!({"value": value(&setting.value), "unit": setting.unit}))
     });

@@ -19,7 +19,7 @@ pub fn page(system: &System) -> String {
     page.table(&["from", "  to"], None, &rows.collect::<Vec<_>>());
     let rows: Vec<_> = system
         .settings()
-        .unwrap_or_default()
+        .0
         .into_iter()
         .map(|setting| {
             let unit = setting.unit.as_deref().map(printed).unwrap_or_default();

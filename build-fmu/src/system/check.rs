@@ -1,12 +1,12 @@
 //! Whether a system fits its components.
 
-use strut_check::unit::Fit;
+use strut_check::unit::{Fit, Unit};
 use strut_model::{Causality, Value};
 
 use super::adapter::{Adaptation, Adapter, Operation};
 use super::face::{Face, Kind};
 use super::wire::{End, Sink, Source, Way, Wire};
-use super::{Factors, Line, Part, Port, Setting, System};
+use super::{Factors, Line, Part, Port, Setting, System, Units};
 use crate::failure::{Failure, Result, similar};
 
 /// A system that fits: every name exists, every unit agrees or is adapted, every input is driven.
@@ -22,52 +22,52 @@ pub struct Checked<'a> {
 }
 
 impl<'a> Checked<'a> {
-    /// Finds every name and compares every unit.
+    /// Finds every name and compares every unit. All mistakes are told at once.
     pub fn new(system: &System, faces: &'a [Face]) -> Result<Self> {
         let finder = Finder { system, faces };
-        let (mut wires, mut adapters): (Vec<Wire>, Vec<Adapter>) = Default::default();
+        let mut checked =
+            Self { wires: Vec::new(), adapters: Vec::new(), outputs: Vec::new(), settings: Vec::new() };
+        let mut failures = Vec::new();
+        // Inputs that something is meant for, be it right or wrong: that nothing drives them is no mistake of its own.
+        let mut meant = Vec::new();
         for line in &system.connections {
-            let (from, to, adaptation) = match line {
-                Line::Plain(text) => {
-                    let (from, to) = text.split_once("->").ok_or_else(|| {
-                        Failure::new(format!(
-                            "the connection `{text}` of the system {} has no arrow",
-                            system.name
-                        ))
-                        .help("write `road.position -> rig.road.position`")
-                    })?;
-                    (from, to, None)
+            let laid = finder.ends(line).and_then(|(from, to, adaptation)| {
+                let to = finder.find_as(&system.port(to)?, Causality::Input)?;
+                meant.push(to);
+                let from = finder.find_as(&system.port(from)?, Causality::Output)?;
+                match adaptation {
+                    None => finder.agree(from, to, Operation::Value)?,
+                    Some(adaptation) => finder.adaptable(from, to, adaptation)?,
                 }
-                Line::Adapted(line) => (line.from.as_str(), line.to.as_str(), Adaptation::of(line)),
-            };
-            let from = finder.find_as(&system.port(from)?, Causality::Output)?;
-            let to = finder.find_as(&system.port(to)?, Causality::Input)?;
-            match adaptation {
-                None => finder.agree(from, to, Operation::Value)?,
-                Some(adaptation) => finder.adaptable(from, to, adaptation)?,
-            }
-            finder.lay(from, to, adaptation, &mut wires, &mut adapters)?;
+                finder.lay(from, to, adaptation, &mut checked.wires, &mut checked.adapters)
+            });
+            failures.extend(laid.err());
         }
-        let outputs = system
-            .outputs
-            .iter()
-            .map(|text| finder.find_as(&system.port(text)?, Causality::Output))
-            .collect::<Result<Vec<_>>>()?;
-        let mut settings: Vec<(End, Value)> = Vec::new();
-        for setting in system.settings()? {
-            let end = finder.find(&setting.port)?;
-            if wires.iter().any(|wire| wire.leads_to(end)) {
-                return Err(
-                    finder.failure(format!("`{}` is connected and has a value as well", finder.name(end)))
-                );
+        for text in &system.outputs {
+            match system.port(text).and_then(|port| finder.find_as(&port, Causality::Output)) {
+                Ok(end) => checked.outputs.push(end),
+                Err(failure) => failures.push(failure),
             }
-            if settings.iter().any(|(other, _)| other.is(end)) {
-                return Err(finder.failure(format!("`{}` has two values", finder.name(end))));
-            }
-            settings.push((end, finder.value(end, &setting)?));
         }
-        finder.every_input_is_driven(&wires, &settings)?;
-        Ok(Self { wires, adapters, outputs, settings })
+        let (settings, broken) = system.settings();
+        failures.extend(broken);
+        for setting in settings {
+            let set = finder.find(&setting.port).and_then(|end| {
+                meant.push(end);
+                let name = || finder.name(end);
+                if checked.wires.iter().any(|wire| wire.leads_to(end)) {
+                    return Err(finder.failure(format!("`{}` is connected and has a value as well", name())));
+                }
+                if checked.settings.iter().any(|(other, _)| other.is(end)) {
+                    return Err(finder.failure(format!("`{}` has two values", name())));
+                }
+                checked.settings.push((end, finder.value(end, &setting)?));
+                Ok(())
+            });
+            failures.extend(set.err());
+        }
+        failures.extend(finder.undriven(&meant));
+        Failure::together(failures).map_or(Ok(checked), Err)
     }
 }
 
@@ -126,22 +126,46 @@ impl<'a> Finder<'a, '_> {
         Err(similar(&port.variable, names).into_iter().fold(failure, Failure::help))
     }
 
-    fn every_input_is_driven(&self, wires: &[Wire], settings: &[(End, Value)]) -> Result<()> {
-        for (component, face) in self.faces.iter().enumerate() {
-            for variable in face.variables.iter().filter(|variable| variable.causality == Causality::Input) {
-                let end = End { component, variable };
-                if !wires.iter().any(|wire| wire.leads_to(end))
-                    && !settings.iter().any(|(set, _)| set.is(end))
-                {
-                    let name = self.name(end);
-                    let unit = variable.symbol();
-                    return Err(self.failure(format!("nothing drives the input `{name}`")).help(format!(
-                        "connect it, or let it rest: \"{name}\" = {{ value = 0.0, unit = \"{unit}\" }} under [parameters]"
-                    )));
-                }
+    /// The texts of a connection's ends, and what is done on the way.
+    fn ends<'l>(&self, line: &'l Line) -> Result<(&'l str, &'l str, Option<Adaptation>)> {
+        match line {
+            Line::Plain(text) => {
+                let (from, to) = text.split_once("->").ok_or_else(|| {
+                    let name = &self.system.name;
+                    Failure::new(format!("the connection `{text}` of the system {name} has no arrow"))
+                        .help("write `road.position -> rig.road.position`")
+                })?;
+                Ok((from, to, None))
             }
+            Line::Adapted(line) => Ok((&line.from, &line.to, Adaptation::of(line))),
         }
-        Ok(())
+    }
+
+    /// The inputs that nothing is meant for.
+    fn undriven(&self, meant: &[End]) -> Vec<Failure> {
+        let inputs = self.faces.iter().enumerate().flat_map(|(component, face)| {
+            let inputs = face.variables.iter().filter(|variable| variable.causality == Causality::Input);
+            inputs.map(move |variable| End { component, variable })
+        });
+        let undriven = inputs.filter(|end| !meant.iter().any(|other| other.is(*end)));
+        undriven
+            .map(|end| {
+                let (name, unit) = (self.name(end), end.variable.symbol());
+                self.failure(format!("nothing drives the input `{name}`")).help(format!(
+                    "connect it, or let it rest: \"{name}\" = {{ value = 0.0, unit = \"{unit}\" }} under [parameters]"
+                ))
+            })
+            .collect()
+    }
+
+    /// Whether a variable's missing unit is that of the SI for what it is connected to.
+    fn is_coherent(&self, silent: End, other: End) -> bool {
+        let si = match &self.system.components[silent.component] {
+            Part::Theirs(foreign) => foreign.units == Some(Units::Si),
+            Part::Ours(_) => false,
+        };
+        let coherent = |unit: &Unit| unit.base.is_some() && unit.factor == 1.0 && unit.offset == 0.0;
+        si && silent.variable.unit().is_none() && other.variable.unit().is_some_and(coherent)
     }
 
     /// Whether what becomes of a signal can be passed on as it is; if not, what to write.
@@ -157,6 +181,11 @@ impl<'a> Finder<'a, '_> {
             };
             format!("write {{ {ends}{operation}{rest} }}")
         };
+        // A rate of change or an integral of what has no unit may be anything.
+        let value = operation == Operation::Value;
+        if value && (self.is_coherent(from, to) || self.is_coherent(to, from)) {
+            return Ok(());
+        }
         let leads = self
             .failure(format!("the connection `{from_name} -> {to_name}` leads from {given:?} to {wanted:?}"));
         let same = "connect variables of the same unit";
@@ -182,10 +211,18 @@ impl<'a> Finder<'a, '_> {
                 let silent =
                     if from.variable.unit().is_none_or(|unit| unit.base.is_none()) { from } else { to };
                 let other = if silent.is(from) { wanted } else { given };
-                self.failure(format!("`{}` does not tell its unit", self.name(silent))).help(format!(
-                    "look it up; if it is that of {other:?} with the same sign, {}",
-                    with(operation, ", factor = 1.0")
-                ))
+                let failure =
+                    self.failure(format!("`{}` does not tell its unit", self.name(silent))).help(format!(
+                        "look it up; if it is that of {other:?} with the same sign, {}",
+                        with(operation, ", factor = 1.0")
+                    ));
+                match &self.system.components[silent.component] {
+                    Part::Theirs(foreign) if value && silent.variable.unit().is_none() => failure.help(format!(
+                        "if all of its variables without a unit are in SI units, write {{ fmu = {:?}, units = \"SI\" }}",
+                        foreign.fmu.display().to_string()
+                    )),
+                    _ => failure,
+                }
             }
         })
     }

@@ -55,6 +55,28 @@ fn a_good_system_passes() {
 }
 
 #[test]
+fn all_mistakes_are_told_at_once() {
+    let text = GOOD
+        .replace("road.velocity -> rig.road.velocity", "raod.velocity -> rig.road.velocity")
+        .replace("\"rig.body.position\", \"road.position\"", "\"rig.body.place\"")
+        .replace("value = 2.5", "value = -2.5")
+        .replace("\"rig.actuator.force\"", "\"rig.actuator.froce\"");
+    let told = check(&text).unwrap_err().to_string();
+    let errors: Vec<&str> = told.lines().filter(|line| line.starts_with("error:")).collect();
+    // An input whose connection is wrong is not told as one that nothing drives; one whose value misses it is.
+    for (error, part) in errors.iter().zip([
+        "no component `raod`",
+        "no variable `body.place`",
+        "no variable `actuator.froce`",
+        "`rig.sprung_mass` = -2.5 kg is out of bounds",
+        "nothing drives the input `rig.actuator.force`",
+    ]) {
+        assert!(error.contains(part), "{told}");
+    }
+    assert_eq!(errors.len(), 5, "{told}");
+}
+
+#[test]
 fn mistakes_are_named() {
     let wrong = |from: &str, to: &str| {
         assert!(GOOD.contains(from), "{from}");

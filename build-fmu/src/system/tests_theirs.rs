@@ -177,6 +177,27 @@ fn mistakes_tell_what_to_write() {
     }
 }
 
+/// Who knows that a model without units is in SI units says so once.
+#[test]
+fn what_has_no_unit_may_be_in_si_units() {
+    let silent = SYSTEM.replace(
+        "{ from = \"truck.chassis.z[1]\", to = \"motor.suspension.velocity\", factor = -1e-3, operation = \"derivative\", filter = 0.01 }",
+        "\"truck.chassis.v[1] -> motor.suspension.velocity\"",
+    );
+    let told = check(&silent).unwrap_err().to_string();
+    assert!(told.contains("write { fmu = \"Truck.fmu\", units = \"SI\" }"), "{told}");
+    let si = silent.replace("{ fmu = \"Truck.fmu\" }", "{ fmu = \"Truck.fmu\", units = \"SI\" }");
+    assert_eq!(check(&si).unwrap().len(), 2);
+    // What declares a unit is still in that, and what has no factor of one to the SI's is no coherent unit.
+    let millimetres = si.replace(
+        "{ from = \"truck.chassis.z[1]\", to = \"motor.suspension.deflection\", factor = -1e-3 }",
+        "\"truck.chassis.z[1] -> motor.suspension.deflection\"",
+    );
+    assert!(check(&millimetres).unwrap_err().to_string().contains("leads from \"mm\" to \"m\""));
+    let other = si.replace("units = \"SI\"", "units = \"cgs\"");
+    assert!(System::parse("truck.toml", &other).unwrap_err().to_string().contains("units = \"SI\""));
+}
+
 #[test]
 fn files_that_are_no_fmus_for_co_simulation_are_told_apart() {
     let folder = tempfile::tempdir().unwrap();
