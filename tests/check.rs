@@ -179,6 +179,74 @@ fn each_rule_finds_what_breaks_it() {
     );
 }
 
+/// Each kind of declaration, made twice, and each number that nothing can be converted by.
+#[test]
+fn each_kind_of_declaration_is_made_once() {
+    let unit = "<Unit name=\"m\"><BaseUnit m=\"1\"/></Unit>";
+    let kind = "<SimpleType name=\"Kind\"><Enumeration><Item name=\"One\" value=\"1\"/><Item name=\"Two\" value=\"2\"/>\
+                </Enumeration></SimpleType>";
+    let display = "<DisplayUnit name=\"mm\" factor=\"1000\"/>";
+    let displayed = unit.replace("</Unit>", &format!("{display}{display}</Unit>"));
+    let categories = "<LogCategories><Category name=\"logAll\"/><Category name=\"logAll\"/></LogCategories><DefaultExperiment";
+    let twice = |text: &str| described(text, &format!("{text}{text}"));
+    let mut cases = vec![
+        (
+            "unit",
+            twice(unit),
+            "description.twice",
+            "the unit `m` is declared twice; first in line 6".to_owned(),
+        ),
+        ("type", twice(kind), "description.twice", "the type `Kind` is declared twice".into()),
+        (
+            "item",
+            described("name=\"Two\"", "name=\"One\""),
+            "description.twice",
+            "the item `One` of `Kind` is declared twice".into(),
+        ),
+        (
+            "value",
+            described("value=\"2\"", "value=\"1\""),
+            "description.twice",
+            "the item's value `1` of `Kind` is declared twice".into(),
+        ),
+        (
+            "display",
+            described(unit, &displayed),
+            "description.twice",
+            "the display unit `mm` of `m` is declared twice".into(),
+        ),
+        (
+            "category",
+            described("<DefaultExperiment", categories),
+            "description.twice",
+            "the log category `logAll` is declared twice".into(),
+        ),
+        (
+            "itself",
+            described("derivative=\"1\"", "derivative=\"2\""),
+            "variables.derivative",
+            "`der(x)` is the derivative of itself".into(),
+        ),
+    ];
+    for factor in ["0", "0.0", "INF", "NaN"] {
+        let base = described("<BaseUnit m=\"1\"/>", &format!("<BaseUnit m=\"1\" factor=\"{factor}\"/>"));
+        let shown = described(unit, &displayed.replacen(display, "", 1).replace("1000", factor));
+        cases.push((
+            "factor",
+            base,
+            "variables.unit",
+            format!("the unit `m` has the factor {factor}, by which"),
+        ));
+        let message = format!("the display unit `mm` of `m` has the factor {factor}, by which");
+        cases.push(("display-factor", shown, "variables.unit", message));
+    }
+    let packed: Vec<_> = cases
+        .iter()
+        .map(|(name, parts, rule, message)| (*name, parts.bytes(), *rule, message.as_str()))
+        .collect();
+    crate::subject::each_has_its_problem(&packed, "fmu", &["--no-run"]);
+}
+
 /// Libraries that are run.
 #[test]
 fn each_fault_of_behaviour_is_found() {

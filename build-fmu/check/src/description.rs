@@ -24,6 +24,8 @@ pub struct Description {
     pub units: Vec<Unit>,
     /// Declared types by name: element and unit.
     pub types: BTreeMap<String, (String, Option<String>)>,
+    /// All that is declared by a name, in the order of the document.
+    pub declared: Vec<Declared>,
     /// Default experiment: start, stop, tolerance, step.
     pub experiment: Experiment,
     /// Variables in their order; the first has the index 1.
@@ -177,6 +179,7 @@ impl Description {
                 line: line(node),
             }));
         }
+        description.declared = declared(root, &lines);
         for unit in child("UnitDefinitions").into_iter().flat_map(|node| elements(node, "Unit")) {
             // What its numbers are the schema tells; the unit is declared all the same.
             let named = || Unit::named(unit.attribute("name").unwrap_or_default());
@@ -229,6 +232,58 @@ impl Description {
     pub fn interface(&self, kind: Kind) -> Option<&Interface> {
         self.interfaces.iter().find(|interface| interface.kind == kind)
     }
+}
+
+/// Something that is declared by a name, or a value, of which there may be one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Declared {
+    /// What it is: `unit`, `type`.
+    pub what: &'static str,
+    /// In what: nothing, or the type or unit that it belongs to.
+    pub within: String,
+    /// Its name.
+    pub name: String,
+    /// Factor to another unit, if there is one.
+    pub factor: Option<String>,
+    /// Line of the element.
+    pub line: u32,
+}
+
+/// Units with their display units, types with their items (by name and by value), log categories.
+fn declared(root: Node, lines: &Lines) -> Vec<Declared> {
+    let mut all = Vec::new();
+    let mut add = |what, within: &str, node: Node, name: &str, factor: Option<&str>| {
+        all.push(Declared {
+            what,
+            within: within.into(),
+            name: name.into(),
+            factor: factor.map(str::to_owned),
+            line: lines.line(node),
+        });
+    };
+    let name = |node: Node| node.attribute("name").unwrap_or_default().to_owned();
+    let list = |list: &'static str, item: &'static str| {
+        let found = root.children().find(move |node| node.has_tag_name(list));
+        found.into_iter().flat_map(move |node| elements(node, item))
+    };
+    for unit in list("UnitDefinitions", "Unit") {
+        let base = unit.children().find(|node| node.has_tag_name("BaseUnit"));
+        add("unit", "", unit, &name(unit), base.and_then(|base| base.attribute("factor")));
+        for display in elements(unit, "DisplayUnit") {
+            add("display unit", &name(unit), display, &name(display), display.attribute("factor"));
+        }
+    }
+    for ty in list("TypeDefinitions", "SimpleType") {
+        add("type", "", ty, &name(ty), None);
+        for item in ty.children().filter(Node::is_element).flat_map(|kind| elements(kind, "Item")) {
+            add("item", &name(ty), item, &name(item), None);
+            add("item's value", &name(ty), item, item.attribute("value").unwrap_or_default().trim(), None);
+        }
+    }
+    for category in list("LogCategories", "Category") {
+        add("log category", "", category, &name(category), None);
+    }
+    all
 }
 
 fn elements<'a, 'input>(node: Node<'a, 'input>, name: &'a str) -> impl Iterator<Item = Node<'a, 'input>> {

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use crate::description::{Description, Variable};
+use crate::description::{Declared, Description, Variable};
 use crate::finding::{Finding, names};
 use crate::names::is_structured;
 
@@ -22,6 +22,7 @@ const LEGAL: &[(&str, &[&str], &[&str])] = &[
 /// What is wrong outside of the model structure.
 pub fn findings(description: &Description) -> Vec<Finding> {
     let mut findings = head(description);
+    findings.extend(declarations(description));
     findings.extend(unique_names(description));
     let units: HashSet<&str> = description.units.iter().map(|unit| unit.symbol.as_str()).collect();
     for variable in &description.variables {
@@ -73,6 +74,29 @@ fn head(description: &Description) -> Vec<Finding> {
         if let Some(value) = value.filter(|value| *value <= 0.0) {
             let message = format!("the default experiment's {name} is {value}, but must be positive");
             findings.push(Finding::error("description.experiment", message).line(experiment.line));
+        }
+    }
+    findings
+}
+
+/// What is declared by a name is declared once, and a factor is one that can be divided by.
+fn declarations(description: &Description) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    let mut seen: HashMap<(&str, &str, &str), u32> = HashMap::new();
+    for Declared { what, within, name, factor, line } in &description.declared {
+        let within_it = if within.is_empty() { String::new() } else { format!(" of `{within}`") };
+        if let Some(first) = seen.insert((what, within, name), *line) {
+            let message = format!("the {what} `{name}`{within_it} is declared twice; first in line {first}");
+            findings.push(Finding::error("description.twice", message).line(*line));
+        }
+        let number = factor.as_ref().map(|text| text.trim().parse::<f64>());
+        if let (Some(Ok(number)), Some(text)) = (number, factor)
+            && !(number.is_finite() && number != 0.0)
+        {
+            let message = format!(
+                "the {what} `{name}`{within_it} has the factor {text}, by which nothing can be converted"
+            );
+            findings.push(Finding::error("variables.unit", message).line(*line));
         }
     }
     findings
@@ -273,6 +297,12 @@ fn derivative(variable: &Variable, state: Option<&Variable>, index: usize) -> Op
     let finding = |message: String| Some(Finding::error("variables.derivative", message).line(variable.line));
     match state {
         None => finding(format!("`{name}` is the derivative of variable {index}, which there is none of")),
+        Some(state) if std::ptr::eq(state, variable) => {
+            finding(format!("`{name}` is the derivative of itself"))
+        }
+        Some(_) if variable.kind != "Real" || variable.variability != "continuous" => {
+            finding(format!("`{name}` is a derivative, but no continuous Real"))
+        }
         Some(state) if state.kind != "Real" || state.variability != "continuous" => finding(format!(
             "`{name}` is the derivative of `{}`, which is no continuous Real and cannot be a state",
             state.name
