@@ -111,6 +111,12 @@ impl Cause {
             && self.setting.is_none_or(|setting| plant.setting(setting).is_some())
     }
 
+    /// Whether it is dry friction: a force against the motion, and the velocity within which it turns over. At rest it is
+    /// whatever holds.
+    pub fn is_friction(&self) -> bool {
+        matches!(self.parts, [force, velocity] if force.scale == Scale::FORCE && velocity.scale == Scale::VELOCITY)
+    }
+
     /// Whether its law is over the velocity of its element, not the deflection alone.
     pub fn is_over_velocity(&self) -> bool {
         self.parts.iter().any(|part| part.scale.velocity != 0)

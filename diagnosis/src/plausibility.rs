@@ -48,8 +48,7 @@ pub fn problems(rig: &Rig, records: &Records, options: &Options) -> Result<Vec<D
         own.is_some_and(|(_, value, deviation)| *deviation < VAGUE * value.abs())
     };
     let known = |index: usize| rig.stated[index] || given(index);
-    let nominal = rig.kind.base.iter().chain(rig.driven().map_or(&[][..], |it| it.base));
-    let mut nominal = nominal.filter_map(|name| rig.plant.parameter(name));
+    let mut nominal = rig.nominal().filter_map(|name| rig.plant.parameter(name));
     // A start value of zero claims no magnitude.
     if !nominal.all(|index| known(index) || rig.parameters[index] == 0.0) {
         return Ok(records_of().flat_map(|it| kinematics::beyond_any_rig(rig, it)).collect());

@@ -50,6 +50,8 @@ pub struct Kind {
     pub elements: &'static [ElementSignals],
     /// Other names of its signals in records.
     pub aliases: &'static [Aliases],
+    /// Outputs that show a state of another name: output, state.
+    pub shown: &'static [(&'static str, &'static str)],
     /// Outputs that follow from the inputs alone and show nothing.
     pub trivial: &'static [&'static str],
     /// A column in whose sense a signal is recorded if the column is there: of opposite sign to the model's.
@@ -78,6 +80,35 @@ pub struct DrivenBy {
     pub base: &'static [&'static str],
     /// Columns that are this input where none has its name.
     pub columns: &'static [&'static str],
+    /// Outputs that follow from the inputs alone then.
+    pub trivial: &'static [&'static str],
+    /// What it takes for the inverse: the motion drives the model, and the force is compared.
+    pub inverse: Option<Inverse>,
+    /// Longest section then, in seconds, if it is not the kind's.
+    pub section: Option<f64>,
+}
+
+/// The inverse of a drive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inverse {
+    /// The output that is compared.
+    pub force: &'static str,
+    /// The input that is measured.
+    pub position: &'static str,
+    /// The input that is its second derivative.
+    pub acceleration: &'static str,
+    /// The output that says more where it is measured.
+    pub instead: &'static str,
+}
+
+/// A way in which a plant can be driven, forward: setting, item, input, columns.
+const fn driven(
+    setting: &'static str,
+    item: &'static str,
+    input: &'static str,
+    columns: &'static [&'static str],
+) -> DrivenBy {
+    DrivenBy { setting, item, input, base: &[], columns, trivial: &[], inverse: None, section: None }
 }
 
 /// A signal that drives a virtual rig.
@@ -115,8 +146,6 @@ pub enum ForceOf {
     SpringAndDamper(&'static str, &'static str),
     /// An output times a parameter, the lever with which it turns something.
     Moment(&'static str, &'static str),
-    /// In an input, or, if that is more, an output times a parameter.
-    InputOrMoment(&'static str, &'static str, &'static str),
 }
 
 /// A force that the model misses, as it shows in an output.
@@ -137,7 +166,7 @@ impl ForceOf {
     pub fn signal(self) -> Option<&'static str> {
         match self {
             Self::Output(name) | Self::Input(name) => Some(name),
-            Self::SpringAndDamper(..) | Self::Moment(..) | Self::InputOrMoment(..) => None,
+            Self::SpringAndDamper(..) | Self::Moment(..) => None,
         }
     }
 }
@@ -239,17 +268,35 @@ impl Rig {
         choice(&self.plant, index, &Value::Text(by.item.into())).as_ref() == Ok(&self.choices[index])
     }
 
-    /// Chooses how the plant is driven by what a record has; `has` tells whether there is a signal or a column of a
-    /// name. The rig's own way comes first, and a signal's own name before a column's that may be it.
+    /// The ways in which the plant may be driven by what a record has; `has` tells whether there is a signal or a column of
+    /// a name. The inverse comes first where the record has the force, too, then the rig's own way, and a signal's own
+    /// name before a column's that may be it.
+    pub fn ways(&self, has: impl Fn(&str) -> bool) -> Vec<&'static DrivenBy> {
+        let drives = self.kind.drives;
+        let by_column = |it: &&DrivenBy| it.columns.iter().any(|column| has(column));
+        let compared = |it: &&DrivenBy| {
+            let any = |signal: &'static str| self.called(signal).any(|name| has(name));
+            // An accelerometer sees what differentiation loses.
+            let force = it.inverse.is_some_and(|inverse| any(inverse.force) && !any(inverse.instead));
+            force && (has(it.input) || by_column(it))
+        };
+        let forward = || drives.iter().filter(|it| it.inverse.is_none());
+        let own = forward().filter(|it| self.is_driven(it) && has(it.input));
+        let by_name = forward().filter(|it| has(it.input));
+        drives.iter().filter(compared).chain(own).chain(by_name).chain(forward().filter(by_column)).collect()
+    }
+
+    /// A signal's own name and the others that it has in records.
+    fn called(&self, signal: &'static str) -> impl Iterator<Item = &'static str> {
+        let aliases = self.kind.aliases.iter().filter(move |(name, _)| *name == signal);
+        std::iter::once(signal).chain(aliases.flat_map(|(_, names)| *names).copied())
+    }
+
+    /// Drives the plant in this way by what a record has.
     ///
     /// # Errors
     /// If the model does not know the choice.
-    pub fn drive_by(&mut self, has: impl Fn(&str) -> bool) -> Result<(), String> {
-        let drives = self.kind.drives;
-        let own = drives.iter().filter(|it| self.is_driven(it) && has(it.input));
-        let by_name = drives.iter().filter(|it| has(it.input));
-        let by_column = drives.iter().filter(|it| it.columns.iter().any(|column| has(column)));
-        let Some(by) = own.chain(by_name).chain(by_column).next() else { return Ok(()) };
+    pub fn drive_by(&mut self, by: &DrivenBy, has: impl Fn(&str) -> bool) -> Result<(), String> {
         if let Some(index) = self.plant.setting(by.setting) {
             self.choices[index] = choice(&self.plant, index, &Value::Text(by.item.into()))?;
         }
@@ -261,18 +308,44 @@ impl Rig {
         Ok(())
     }
 
+    /// Longest section that is simulated in one go, in seconds.
+    pub fn section(&self) -> f64 {
+        self.driven().and_then(|by| by.section).unwrap_or(self.kind.section)
+    }
+
+    /// Whether an output follows from the inputs alone.
+    pub fn is_trivial(&self, output: &str) -> bool {
+        let driven = self.driven().map_or(&[][..], |by| by.trivial);
+        self.kind.trivial.iter().chain(driven).any(|it| *it == output)
+    }
+
+    /// Whether an input does nothing, since the plant is driven by another one.
+    pub fn is_idle(&self, input: &str) -> bool {
+        let other = |it: &DrivenBy| it.input == input && !self.is_driven(it);
+        let imposed = self.kind.drives.iter().filter(|it| it.inverse.is_some() && !self.is_driven(it));
+        let mut of_imposed = imposed.filter_map(|it| it.input.split_once('.'));
+        self.kind.drives.iter().any(other)
+            || of_imposed.any(|(group, _)| input.split_once('.').is_some_and(|(own, _)| own == group))
+    }
+
+    /// The state that an output shows.
+    pub fn shown(&self, output: &str) -> Option<usize> {
+        let named = self.kind.shown.iter().find(|(name, _)| *name == output).map(|(_, state)| *state);
+        self.plant.state(named.unwrap_or(output))
+    }
+
     /// The input that one is the rate of: `road.velocity` is that of `road.position`.
     pub fn rate_of(&self, name: &str) -> Option<usize> {
-        let group = name.strip_suffix("velocity")?;
-        ["position", "height"].into_iter().find_map(|of| self.plant.input(&format!("{group}{of}")))
+        const RATES: [(&str, &[&str]); 2] =
+            [("velocity", &["position", "height"]), ("acceleration", &["velocity"])];
+        let (group, of) = RATES.iter().find_map(|(rate, of)| Some((name.strip_suffix(rate)?, of)))?;
+        of.iter().find_map(|of| self.plant.input(&format!("{group}{of}")))
     }
 
     /// Usual amplitude, in the input's unit, and band in Hz of what drives an input; none if it rests. What a kind does not
     /// tell follows from the unit.
     pub fn excitation(&self, declared: &Declaration) -> Option<(f64, (f64, f64))> {
-        let idle = self.kind.drives.iter().any(|it| it.input == declared.name)
-            && self.driven().is_some_and(|driven| driven.input != declared.name);
-        if idle {
+        if self.is_idle(&declared.name) {
             return None;
         }
         if self.kind.excitation.is_empty() {
@@ -286,11 +359,15 @@ impl Rig {
         Some((excitation.amplitude, excitation.band))
     }
 
+    /// Names of the parameters that every model of the kind has, as it is driven.
+    pub fn nominal(&self) -> impl Iterator<Item = &'static str> {
+        self.kind.base.iter().chain(self.driven().map_or(&[][..], |it| it.base)).copied()
+    }
+
     /// Indices of the parameters that are fitted first: those of the data sheet, and all of each effect that the rig has
     /// already. How wide its friction's transition is counts among them: who holds it finds its error elsewhere.
     pub fn base(&self) -> Vec<usize> {
-        let names = self.kind.base.iter().chain(self.driven().map_or(&[][..], |it| it.base));
-        let mut base: Vec<usize> = names.filter_map(|name| self.plant.parameter(name)).collect();
+        let mut base: Vec<usize> = self.nominal().filter_map(|name| self.plant.parameter(name)).collect();
         for cause in catalogue::causes(&self.plant) {
             let parts = || cause.parts.iter().filter_map(|part| self.plant.parameter(part.parameter));
             if parts().next().is_some_and(|amount| self.parameters[amount] != 0.0) {

@@ -5,8 +5,7 @@ use std::fs;
 use strut_diagnosis::app::virtual_rig::{self, Experiment};
 use strut_diagnosis::catalogue::naming::{handle, name};
 use strut_diagnosis::data::map::Map;
-use strut_diagnosis::dataset::import::{align, choose_drive, import};
-use strut_diagnosis::dataset::recorded::Recorded;
+use strut_diagnosis::dataset::import::{Loaded, load};
 use strut_diagnosis::dataset::split::Records;
 use strut_diagnosis::diagnosis::{Options, diagnose};
 use strut_diagnosis::estimation::fit::Handle;
@@ -64,7 +63,8 @@ impl Case {
     fn diagnosed(&self, hidden: &[(&str, f64)]) -> Said {
         let mut rig = Rig::published(self.rig).unwrap();
         if let Some(input) = self.drive {
-            rig.drive_by(|name| name == input).unwrap();
+            let way = rig.ways(|name| name == input)[0];
+            rig.drive_by(way, |name| name == input).unwrap();
         }
         let hidden = hidden.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
         let experiment =
@@ -79,13 +79,9 @@ impl Case {
         if self.stated {
             rig.stated.fill(true);
         }
-        choose_drive(&mut rig, &paths[0], &Map::default()).unwrap();
-        let mut records: Vec<Recorded> = Vec::new();
-        for path in &paths {
-            let imported = import(&rig, path, &Map::default()).unwrap();
-            records.push(imported.recorded.unwrap_or_else(|| panic!("{:?}", imported.problems)));
-        }
-        align(&mut records).unwrap();
+        let paths = [paths[0].as_path(), paths[1].as_path()];
+        let Loaded { mut records, problems } = load(&mut rig, &paths, &Map::default()).unwrap();
+        assert_eq!(records.len(), 2, "{problems:?}");
         let test = records.split_off(1);
         let records = Records::new(&records, test);
         let diagnosis = diagnose(&rig, &records, Options::default(), &|_| {}).unwrap();

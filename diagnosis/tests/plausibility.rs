@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use strut_blind::{cases, files, generate};
 use strut_diagnosis::app::virtual_rig::{self, Experiment};
 use strut_diagnosis::data::map::Map;
-use strut_diagnosis::dataset::import::{align, choose_drive, import};
+use strut_diagnosis::dataset::import::load;
 use strut_diagnosis::dataset::split::Records;
 use strut_diagnosis::dataset::witness;
 use strut_diagnosis::diagnosis::Options;
@@ -57,10 +57,7 @@ fn found(rig: &str, hidden: &[(&str, f64)], change: impl Fn(&mut Table)) -> Vec<
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("record.csv");
     fs::write(&path, text(&table)).unwrap();
-    choose_drive(&mut rig, &path, &Map::default()).unwrap();
-    let imported = import(&rig, &path, &Map::default()).unwrap();
-    let mut records: Vec<_> = imported.recorded.into_iter().collect();
-    align(&mut records).unwrap();
+    let records = load(&mut rig, &[&path], &Map::default()).unwrap().records;
     problems(&rig, &Records::new(&records, Vec::new()), &Options::default()).unwrap()
 }
 
@@ -129,10 +126,8 @@ fn nothing_in_the_blind_benchmark_is_taken_for_a_wrong_column() {
             paths
         };
         let (train, test) = (of("train"), of("test"));
-        choose_drive(&mut rig, &train[0], &Map::default()).unwrap();
-        let all = train.iter().chain(&test).map(|path| import(&rig, path, &Map::default()).unwrap());
-        let mut records: Vec<_> = all.filter_map(|it| it.recorded).collect();
-        align(&mut records).unwrap();
+        let paths: Vec<&Path> = train.iter().chain(&test).map(PathBuf::as_path).collect();
+        let mut records = load(&mut rig, &paths, &Map::default()).unwrap().records;
         let test = records.split_off(train.len());
         assert_eq!(witness::notes(&records, &test), [], "{}", case.name);
         let problems = problems(&rig, &Records::new(&records, test), &Options::default()).unwrap();

@@ -1,5 +1,7 @@
 """Cases of the linear positioning drive, each effect at once."""
 
+import math
+
 from cases import single
 from cases_effects import points
 from linear_drive import LinearDrive
@@ -15,6 +17,8 @@ GUIDE = {
     "guide.cogging.period": 0.03,
     "guide.cogging.phase": 0.4,
 }
+OMEGA = 2.0 * math.pi * 0.7
+HALF_PI = 0.5 * math.pi
 SINES = [[90.0, 0.9, 0.3], [40.0, 2.7, 1.2]]
 
 
@@ -22,7 +26,7 @@ def drive(name, inputs, changed, description, settings=None):
     rest = {"sines": [], "steps": []}
     inputs = {name: inputs.get(name, rest) for name in LinearDrive.inputs}
     return single(name, LinearDrive, inputs, stop=3.0, every=15, parameters=DECLARED, changed=changed,
-                  settings=settings, start={"position": 0.01, "velocity": -0.05}, description=description)
+                  settings=settings, start={"carriage.position": 0.01, "carriage.velocity": -0.05}, description=description)
 
 
 CASES = [
@@ -35,4 +39,12 @@ CASES = [
                    **points("guide.curve.over_velocity",
                             [-9.0, -7.0, -8.0, -4.0, -2.0, 0.0, 3.0, 5.0, 4.0, 8.0, 9.0])},
           "Behind an amplifier, with an unnamed force.", settings={"drive": "Command"}),
+    # x, x' and x'' of one sine of 0.05 m and 0.7 Hz about 0.02 m.
+    drive("linear-drive-motion",
+          {"motion.position": {"sines": [[0.05, 0.7, 0.2]], "steps": [[0.02, 0.0]]},
+           "motion.velocity": {"sines": [[0.05 * OMEGA, 0.7, 0.2 + HALF_PI]], "steps": []},
+           "motion.acceleration": {"sines": [[-0.05 * OMEGA**2, 0.7, 0.2]], "steps": []},
+           "load.force": {"sines": [], "steps": [[-12.0, 2.0005]]}},
+          GUIDE | {"ground_spring.stiffness": 400.0, "constant_load": 4.0},
+          "The motion is imposed and the force sought.", settings={"drive": "Motion"}),
 ]

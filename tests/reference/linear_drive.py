@@ -1,6 +1,6 @@
 """A linear positioning drive.
 
-    m x'' = F - k x - g - F_0 + load,   F = force, or gain times command
+    m x'' = F - k x - g - F_0 + load,   F = force, or gain times command; or x, x', x'' are given and F is sought
     g = d x' + [F_c + F_b exp(-(x'/v_s)^2)] tanh(x'/v_0) + A sin(2 pi x/p + phi) + s curve(x')
 
 The curve's points are guards, so that the equations are smooth within a mode.
@@ -13,17 +13,20 @@ from integrate import Switched
 
 
 class LinearDrive(Switched):
-    states = ["position", "velocity"]
-    inputs = ["force", "command", "load.force"]
-    outputs = ["acceleration", "resistance"]
+    states = ["carriage.position", "carriage.velocity"]
+    inputs = ["force", "command", "load.force", "motion.position", "motion.velocity", "motion.acceleration"]
+    outputs = ["acceleration", "resistance", "position", "velocity", "motor.force"]
 
     def __init__(self, parameters, settings):
         self.p = parameters
-        self.commanded = settings.get("drive") == "Command"
+        self.drive = settings.get("drive", "Force")
         self.curve = Curve(parameters, "guide.curve", "velocity")
 
-    def guards(self, state, _u):
-        return self.curve.guards(state[1])
+    def guards(self, state, u):
+        return self.curve.guards(self.motion(state, u)[1])
+
+    def motion(self, state, u):
+        return u[3:5] if self.drive == "Motion" else state
 
     def resistance(self, state, mode):
         get = lambda name, otherwise=0.0: self.p.get(name, otherwise)
@@ -35,13 +38,23 @@ class LinearDrive(Switched):
         return (get("guide.damping") * v + friction * math.tanh(v / get("guide.coulomb.velocity", 0.008)) + cogging
                 + self.curve.force(v, mode))
 
-    def acceleration(self, state, u, mode):
-        driven = self.p["amplifier.gain"] * u[1] if self.commanded else u[0]
-        held = self.p.get("ground_spring.stiffness", 0.0) * state[0] + self.p.get("constant_load", 0.0)
-        return (driven + u[2] - held - self.resistance(state, mode)) / self.p["moving_mass"]
+    def held(self, state, u, mode):
+        """The force against the carriage beside its inertia."""
+        motion = self.motion(state, u)
+        spring = self.p.get("ground_spring.stiffness", 0.0) * motion[0] + self.p.get("constant_load", 0.0)
+        return spring + self.resistance(motion, mode) - u[2]
+
+    def driven(self, state, u, mode):
+        """Acceleration and the motor's force."""
+        if self.drive == "Motion":
+            return u[5], self.p["moving_mass"] * u[5] + self.held(state, u, mode)
+        force = self.p["amplifier.gain"] * u[1] if self.drive == "Command" else u[0]
+        return (force - self.held(state, u, mode)) / self.p["moving_mass"], force
 
     def derivative(self, state, u, mode):
-        return [state[1], self.acceleration(state, u, mode)]
+        return [self.motion(state, u)[1], self.driven(state, u, mode)[0]]
 
     def output(self, state, u, mode):
-        return [self.acceleration(state, u, mode), self.resistance(state, mode)]
+        acceleration, force = self.driven(state, u, mode)
+        motion = self.motion(state, u)
+        return [acceleration, self.resistance(motion, mode), *motion, force]

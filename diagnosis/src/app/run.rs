@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::fs;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
@@ -16,7 +16,7 @@ use crate::app::virtual_rig::{self, Experiment};
 use crate::catalogue::{self, naming};
 use crate::data::map::Map;
 use crate::data::table::did_you_mean;
-use crate::dataset::import::{align, choose_drive, import};
+use crate::dataset::import::{Loaded, load};
 use crate::dataset::recorded::Recorded;
 use crate::dataset::split::Records;
 use crate::dataset::witness;
@@ -95,18 +95,9 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
         None => Map::default(),
         Some(path) => Map::parse(&read(path)?).map_err(|error| format!("{}: {error}", path.display()))?,
     };
-    if let Some(first) = arguments.train.first() {
-        choose_drive(&mut rig, first, &map)?;
-    }
-    let mut problems: Vec<DataProblem> = Vec::new();
-    let mut records = Vec::new();
-    for path in arguments.train.iter().chain(&arguments.test) {
-        let imported = import(&rig, path, &map)?;
-        problems.extend(imported.problems);
-        records.extend(imported.recorded);
-    }
+    let paths: Vec<&Path> = arguments.train.iter().chain(&arguments.test).map(PathBuf::as_path).collect();
+    let Loaded { mut records, mut problems } = load(&mut rig, &paths, &map)?;
     refuse(&rig, arguments, &problems)?;
-    align(&mut records)?;
     let test: Vec<Recorded> = records.split_off(arguments.train.len());
     problems.extend(witness::notes(&records, &test));
     eprintln!("time limit {} s (--time-limit)", arguments.time_limit);
@@ -291,6 +282,6 @@ fn read(path: &Path) -> Result<String, String> {
     fs::read_to_string(path).map_err(|error| format!("cannot read `{}`: {error}", path.display()))
 }
 
-fn names(paths: &[std::path::PathBuf]) -> Vec<String> {
+fn names(paths: &[PathBuf]) -> Vec<String> {
     paths.iter().map(|path| path.file_name().unwrap_or_default().to_string_lossy().into_owned()).collect()
 }

@@ -67,7 +67,7 @@ pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String,
         .filter(|(declared, signal)| {
             let hidden = declared.name.ends_with("body.position")
                 || (declared.name.ends_with("velocity") && !drives(rig, &declared.name));
-            !hidden && !rig.kind.trivial.contains(&declared.name.as_str()) && rms(signal) > 0.0
+            !hidden && !rig.is_trivial(&declared.name) && !rig.is_idle(&declared.name) && rms(signal) > 0.0
         })
         .map(|(declared, signal)| {
             let deviation = experiment.noise * rms(signal);

@@ -31,7 +31,20 @@ const BEYOND_CHANCE: f64 = 1.5;
 impl Recorded {
     /// The record without its inputs' noise, and thinned.
     pub fn conditioned(&self) -> Self {
-        let factor = ((1.0 / (self.step * ENOUGH)).floor() as usize).max(1);
+        // Of what is thinned to its band, nobody tells noise from signal any more.
+        if self.between == Between::Curves { self.clone() } else { self.thinned(ENOUGH, true) }
+    }
+
+    /// The record below a frequency in Hz, thinned. All signals pass the same filter: whatever it takes away of a motion, it
+    /// takes away of the force that made it.
+    pub fn below(&self, top: f64) -> Self {
+        self.thinned(2.0 * top / KEPT, false)
+    }
+
+    /// The record with at least so many samples a second, and nothing above four fifths of half of them.
+    /// Without the inputs' noise, if it is to be taken away.
+    fn thinned(&self, rate: f64, denoised: bool) -> Self {
+        let factor = ((1.0 / (self.step * rate)).floor() as usize).max(1);
         let mut sections: Vec<Range<usize>> = Vec::new();
         for section in &self.sections {
             let first = sections.last().map_or(0, |before: &Range<usize>| before.end);
@@ -45,7 +58,7 @@ impl Recorded {
             Source::Measured(values) => {
                 let known: Vec<f64> =
                     self.sections.iter().flat_map(|it| values[it.clone()].to_vec()).collect();
-                Source::Measured(through(values, noise_floor(&known)))
+                Source::Measured(through(values, if denoised { noise_floor(&known) } else { 0.0 }))
             }
             other => other.clone(),
         });

@@ -14,6 +14,8 @@ use crate::plant::Between;
 use crate::report::findings::DataProblem;
 use crate::rig::Rig;
 
+use super::inverse::{self, Banded};
+
 /// Samples that a record needs.
 const FEWEST: usize = 100;
 
@@ -21,32 +23,74 @@ const FEWEST: usize = 100;
 const MOST_LEFT_OUT: f64 = 0.2;
 
 /// A record on a rig, with what is to be said about the data.
-#[derive(Clone, Debug)]
-pub struct Imported {
+struct Imported {
     /// The record; none if it cannot be used.
-    pub recorded: Option<Recorded>,
+    recorded: Option<Recorded>,
+    /// What is wrong with the data.
+    problems: Vec<DataProblem>,
+}
+
+/// Records on a rig that can be compared with each other.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The records, in the order of their files; none where a problem is fatal.
+    pub records: Vec<Recorded>,
     /// What is wrong with the data.
     pub problems: Vec<DataProblem>,
 }
 
-/// Chooses how a rig is driven by what a record has.
+/// Reads all records of a diagnosis. How the rig is driven follows from what they have: inversely only if all of them can be
+/// compared so.
 ///
 /// # Errors
-/// If the file cannot be read.
-pub fn choose_drive(rig: &mut Rig, path: &Path, map: &Map) -> Result<(), String> {
-    if rig.kind.drives.is_empty() {
-        return Ok(());
+/// If a file cannot be read, or has not the signals that the rig needs: what to do.
+pub fn load(rig: &mut Rig, paths: &[&Path], map: &Map) -> Result<Loaded, String> {
+    let has = names(rig, paths, map)?;
+    for by in rig.ways(&has) {
+        rig.drive_by(by, &has)?;
+        let Some(inverse) = by.inverse else { break };
+        if let Ok(loaded) = forward(rig, paths, map)
+            && let Some(Banded { records, note }) = inverse::banded(rig, &loaded.records, inverse)
+        {
+            let problems = loaded.problems.into_iter().chain([note]).collect();
+            return Ok(Loaded { records, problems });
+        }
     }
-    let record = data::read_with(path, map.time.as_ref()).map_err(|error| error.to_string())?;
-    let columns: Vec<String> = record.channels.iter().map(|channel| plain(&channel.name)).collect();
-    rig.drive_by(|name| map.signals.contains_key(name) || columns.contains(&plain(name)))
+    forward(rig, paths, map)
+}
+
+/// Whether the first of some files has a signal or a column of a name.
+fn names<'a>(rig: &Rig, paths: &[&Path], map: &'a Map) -> Result<impl Fn(&str) -> bool + use<'a>, String> {
+    let first = paths.first().filter(|_| !rig.kind.drives.is_empty());
+    let record =
+        first.map(|path| data::read_with(path, map.time.as_ref()).map_err(|error| error.to_string()));
+    let columns = record.transpose()?.map_or(Vec::new(), |it| it.channels);
+    let columns: Vec<String> = columns.iter().map(|channel| plain(&channel.name)).collect();
+    Ok(move |name: &str| map.signals.contains_key(name) || columns.contains(&plain(name)))
+}
+
+/// Reads all records as the rig is driven.
+fn forward(rig: &Rig, paths: &[&Path], map: &Map) -> Result<Loaded, String> {
+    let (mut records, mut problems) = (Vec::new(), Vec::new());
+    for path in paths {
+        let imported = import(rig, path, map)?;
+        problems.extend(imported.problems);
+        records.extend(imported.recorded);
+    }
+    if problems.iter().any(|it| it.fatal) {
+        records.clear();
+    }
+    if !records.is_empty() {
+        align(&mut records)?;
+    }
+    Ok(Loaded { records, problems })
 }
 
 /// Reads a file and finds the rig's signals in it.
 ///
 /// # Errors
 /// If the file cannot be read, or has not the signals that the rig needs: what to do.
-pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
+fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
     let mut record = data::read_with(path, map.time.as_ref()).map_err(|error| error.to_string())?;
     oppose(rig, &mut record, map);
     let mapped = map.apply(record, &wanted(rig)).map_err(|error| error.to_string())?;
@@ -79,13 +123,15 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
     for declared in &rig.plant.inputs {
         inputs.push(match values(&declared.name) {
             Some(values) => Source::Measured(values),
+            // A rate is declared after its motion.
             None => rig
                 .rate_of(&declared.name)
-                .filter(|other| values(&rig.plant.inputs[*other].name).is_some())
+                .filter(|other| !matches!(inputs[*other], Source::Constant(_)))
                 .map_or(Source::Constant(declared.start), Source::DerivativeOf),
         });
     }
-    let measured = rig.plant.outputs.iter().enumerate().filter_map(|(output, declared)| {
+    let outputs = rig.plant.outputs.iter().enumerate().filter(|(_, it)| !rig.is_trivial(&it.name));
+    let measured = outputs.filter_map(|(output, declared)| {
         let mut values = values(&declared.name)?;
         if is_constant(&values) {
             problems.push(DataProblem {
@@ -131,7 +177,7 @@ pub fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
         });
         return Ok(Imported { recorded: None, problems });
     }
-    let sections = sections(&uniform.segments, uniform.step, rig.kind.section);
+    let sections = sections(&uniform.segments, uniform.step, rig.section());
     Ok(Imported {
         recorded: Some(Recorded {
             name,
@@ -195,12 +241,14 @@ fn oppose(rig: &Rig, record: &mut data::Record, map: &Map) {
 
 /// Every signal of a rig with the names that it may have.
 fn wanted(rig: &Rig) -> Vec<Wanted> {
+    // What follows from the inputs the way the rig is driven has its column all the same: it explains nothing.
     let shows = |name: &String| !rig.kind.trivial.contains(&name.as_str()) && !rig.taken.contains(name);
     let outputs = rig.plant.outputs.iter().filter(|it| shows(&it.name));
     let driven = rig.driven();
     rig.plant
         .inputs
         .iter()
+        .filter(|declared| !rig.is_idle(&declared.name))
         .chain(outputs)
         .map(|declared| {
             let aliases = rig.kind.aliases.iter().filter(|(name, _)| *name == declared.name);
@@ -233,8 +281,9 @@ fn missing(rig: &Rig, record: &data::Record, name: &str, unused: &[String]) -> R
             inputs.join(", ")
         ));
     }
-    if !rig.plant.outputs.iter().any(|declared| has(&declared.name)) {
-        let outputs: Vec<&str> = rig.plant.outputs.iter().map(|declared| declared.name.as_str()).collect();
+    let outputs = rig.plant.outputs.iter().map(|declared| declared.name.as_str());
+    let outputs: Vec<&str> = outputs.filter(|name| !rig.is_trivial(name)).collect();
+    if !outputs.iter().any(|name| has(name)) {
         return Err(format!(
             "{name}: no column says what the rig did; one of {} is needed{hint}",
             outputs.join(", ")
@@ -261,7 +310,7 @@ fn sections(segments: &[Range<usize>], step: f64, seconds: f64) -> Vec<Range<usi
 ///
 /// # Errors
 /// If there are none.
-pub fn align(records: &mut [Recorded]) -> Result<(), String> {
+fn align(records: &mut [Recorded]) -> Result<(), String> {
     let Some(first) = records.first() else { return Err("there is no record".into()) };
     let mut common: Vec<usize> = first.measured.iter().map(|measured| measured.output).collect();
     for record in records.iter() {

@@ -2,6 +2,7 @@
 
 pub mod conditioning;
 pub mod import;
+pub mod inverse;
 pub mod recorded;
 pub mod split;
 pub mod witness;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::data::Channel;
 use crate::plant::{Between, Drive};
 use crate::signal::distortion::{Correction, Samples};
-use crate::signal::spectral::{FINER, refined};
+use crate::signal::spectral::{FINER, in_band, refined};
 
 /// A record on a plant's inputs and outputs, evenly sampled.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,8 +33,21 @@ pub enum Source {
     Measured(Vec<f64>),
     /// It is the time derivative of another input, by its index.
     DerivativeOf(usize),
+    /// The same where all of the signal is in the band of its samples: the second derivative of a curve through samples would
+    /// be that of the curve, and not of the signal.
+    RateOf(usize),
     /// It rests.
     Constant(f64),
+}
+
+impl Source {
+    /// The input that it is the derivative of.
+    pub fn motion(&self) -> Option<usize> {
+        match self {
+            Self::DerivativeOf(other) | Self::RateOf(other) => Some(*other),
+            Self::Measured(_) | Self::Constant(_) => None,
+        }
+    }
 }
 
 /// A measured output.
@@ -115,20 +128,24 @@ impl Recorded {
                 Source::Measured(values) if correction.is_neutral() => signal(&values[section.clone()]),
                 Source::Measured(values) => correction.applied(&signal(&values[section.clone()]), samples),
                 Source::Constant(value) => vec![*value; finer * section.len().saturating_sub(1) + 1],
-                Source::DerivativeOf(_) => Vec::new(),
+                Source::DerivativeOf(_) | Source::RateOf(_) => Vec::new(),
             });
         }
         for (index, source) in self.inputs.iter().enumerate() {
-            if let Source::DerivativeOf(other) = source {
-                inputs[index] = self.rate(&inputs[*other]);
+            if let Some(other) = source.motion() {
+                inputs[index] = self.rate(&inputs[other], source);
             }
         }
         Drive { step: self.step, inputs, finer, between: self.between }
     }
 
-    /// The derivative of an input: as a file's reader takes it, or nearly that of the curve through the samples.
-    fn rate(&self, signal: &[f64]) -> Vec<f64> {
+    /// The derivative of an input: as a file's reader takes it, nearly that of the curve through the samples, or that of the
+    /// signal in the band of its samples.
+    fn rate(&self, signal: &[f64], source: &Source) -> Vec<f64> {
         let step = self.step / self.finer() as f64;
+        if matches!(source, Source::RateOf(_)) {
+            return in_band(signal, step, 0.5 / self.step, 1);
+        }
         let mut rate = derivative(signal, step);
         if self.between == Between::Curves {
             for (rate, near) in rate.iter_mut().skip(3).zip(signal.windows(7)) {
@@ -141,13 +158,14 @@ impl Recorded {
 
     /// How the drive changes when one input's signal does.
     pub fn change(&self, input: usize, change: Vec<f64>) -> Vec<(usize, Vec<f64>)> {
-        let mut changes = Vec::new();
+        let mut changes = vec![(input, change)];
+        // A derivative comes after what it is the derivative of.
         for (index, source) in self.inputs.iter().enumerate() {
-            if *source == Source::DerivativeOf(input) {
-                changes.push((index, self.rate(&change)));
+            let of = changes.iter().find(|(other, _)| source.motion() == Some(*other));
+            if let Some(rate) = of.map(|(_, change)| self.rate(change, source)) {
+                changes.push((index, rate));
             }
         }
-        changes.push((input, change));
         changes
     }
 }

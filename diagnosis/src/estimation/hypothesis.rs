@@ -154,14 +154,14 @@ impl World<'_> {
             let mut start = self.rig.start.clone();
             for measured in &record.measured {
                 let (output, value) = (&plant.outputs[measured.output].name, measured.values[at]);
-                if let Some(state) = plant.state(output).filter(|_| value.is_finite()) {
+                if let Some(state) = self.rig.shown(output).filter(|_| value.is_finite()) {
                     start[state] = value;
                 }
                 // A body that starts at rest may stick, and where nothing but its position is measured, nothing tells how
                 // fast it was.
                 let alone = (record.measured.len() == 1).then_some(output);
                 let rate =
-                    alone.and_then(|it| plant.state(&format!("{}velocity", it.strip_suffix("position")?)));
+                    alone.and_then(|it| self.rig.shown(&format!("{}velocity", it.strip_suffix("position")?)));
                 let span = ((RATE / record.step) as usize).max(3);
                 if let (Some(state), Some(later)) = (rate, measured.values.get(at + span))
                     && later.is_finite()
@@ -335,7 +335,7 @@ impl World<'_> {
     pub fn largest(&self, input: usize) -> f64 {
         let values = self.train.iter().filter_map(|record| match &record.inputs[input] {
             Source::Measured(values) => Some(values),
-            Source::DerivativeOf(_) | Source::Constant(_) => None,
+            Source::DerivativeOf(_) | Source::RateOf(_) | Source::Constant(_) => None,
         });
         values.flatten().filter(|it| it.is_finite()).fold(0.0, |most, it| it.abs().max(most))
     }

@@ -91,7 +91,7 @@ impl World<'_> {
         };
         let measured = self.train.iter().filter_map(|record| match &record.inputs[input] {
             Source::Measured(values) => Some((values, record.step)),
-            Source::DerivativeOf(_) | Source::Constant(_) => None,
+            Source::DerivativeOf(_) | Source::RateOf(_) | Source::Constant(_) => None,
         });
         let each =
             measured.map(|(values, step)| [largest(values, rest), largest(&derivative(values, step), 0.0)]);

@@ -75,7 +75,7 @@ impl World<'_> {
                 whole[window.samples.clone()].copy_from_slice(signal);
             }
         }
-        let parameters = &missing.setting.point.parameters;
+        let parameters = &missing.point().parameters;
         typical((self.rig, parameters), &missing.records[..missing.train], &whole[..missing.train])
     }
 
@@ -90,14 +90,12 @@ impl World<'_> {
 
     fn laws(&self, missing: &Missing<'_>, explained: &[Term], all: &mut Candidates) {
         let (setting, windows) = (&missing.setting, &missing.windows);
-        let terms = self.terms();
+        let (terms, at) = (self.terms(), missing.point());
         let shapes: Vec<(Term, Probe)> = terms
             .iter()
             .enumerate()
             .filter(|(_, term)| !explained.contains(term))
-            .flat_map(|(index, term)| {
-                self.probes(index, *term, &setting.point).into_iter().map(|probe| (*term, probe))
-            })
+            .flat_map(|(index, term)| self.probes(index, *term, &at).into_iter().map(|probe| (*term, probe)))
             .collect();
         let columns = |(term, probe): &(Term, Probe)| -> Option<Vec<Vec<Column>>> {
             let dynamics = self.dynamics(&[*term]).ok()?;

@@ -7,10 +7,13 @@ use crate::missing::innovations::Column;
 use crate::missing::ports::{Entry, Port};
 use crate::missing::trajectory::{Setting, Window};
 use crate::plant::{Dynamics, Follower, Seen};
+use crate::screening::rms;
 use crate::signal::distortion::Fault;
 
 /// Share of a change of the rates, in squares, that a signal at a port may leave if it is all of the change.
 const ALL: f64 = 1e-9;
+/// Share of a state's magnitude to which a trajectory is known.
+const KNOWN: f64 = 0.02;
 
 impl Setting<'_> {
     /// Rates of the states that matter by a unit signal at a port of the plant, sample by sample along a window.
@@ -27,6 +30,50 @@ impl Setting<'_> {
         rates
     }
 
+    /// Lets laws that the rig has by its parameter set act along the trajectory: from here on, changes are counted from there.
+    pub fn take_along(&self, record: &Recorded, window: &mut Window, laws: &[Column], with_laws: &Point) {
+        let along = self.along(record, window, self.dynamics, with_laws);
+        let rates = along.rates.iter().zip(&window.rates).map(|(more, plain)| more + plain).collect();
+        let outputs = along.outputs.iter().zip(&window.predicted);
+        let outputs = outputs.map(|(more, plain)| f64::from(*more) + plain).collect();
+        window.lawful = Some((rates, outputs));
+        for law in laws {
+            window.defects.iter_mut().zip(&law.next).for_each(|(defect, more)| *defect += f64::from(*more));
+            let residuals = window.residuals.iter_mut().zip(&law.outputs);
+            residuals.for_each(|(residual, more)| *residual -= f64::from(*more));
+        }
+    }
+
+    /// Adds what laws may be otherwise, since the trajectory is known so well only: the friction of what hardly moves is
+    /// anything up to its limit, whatever the sign of the velocity seems to be.
+    pub fn loosen(&self, record: &Recorded, window: &mut Window, with_laws: &Point) {
+        let (n, m, samples) = (window.states, window.outputs, window.samples.len());
+        let mut loose = (vec![0.0; samples.saturating_sub(1) * n], vec![0.0; samples * m]);
+        for state in 0..n {
+            let values: Vec<f64> = window.trajectory.iter().map(|it| it[self.active[state]]).collect();
+            let reach = KNOWN * rms(&values);
+            let law = |shift: f64| {
+                let shifted = |point: &Point| self.shifted(record, window, point, (state, shift));
+                let (with, without) = (shifted(with_laws), shifted(&self.point));
+                with.minus(&without)
+            };
+            let spread = law(reach).minus(&law(-reach));
+            let add = |to: &mut [f64], spread: &[f32]| {
+                to.iter_mut().zip(spread).for_each(|(to, it)| *to += f64::from(0.5 * it).powi(2));
+            };
+            add(&mut loose.0, &spread.next);
+            add(&mut loose.1, &spread.outputs);
+        }
+        window.loose = loose;
+    }
+
+    /// What the model says otherwise along a trajectory with one state shifted.
+    fn shifted(&self, record: &Recorded, window: &Window, point: &Point, shift: (usize, f64)) -> Column {
+        let along = self.along_shifted(record, (window, shift), self.dynamics, point);
+        let next = along.increments();
+        Column { next, outputs: along.outputs }
+    }
+
     fn along<'b>(
         &'b self,
         record: &Recorded,
@@ -34,9 +81,21 @@ impl Setting<'_> {
         dynamics: &dyn Dynamics,
         point: &Point,
     ) -> Along<'b> {
+        self.along_shifted(record, (window, (0, 0.0)), dynamics, point)
+    }
+
+    fn along_shifted<'b>(
+        &'b self,
+        record: &Recorded,
+        (window, shift): (&'b Window, (usize, f64)),
+        dynamics: &dyn Dynamics,
+        point: &Point,
+    ) -> Along<'b> {
         let drive = record.drive(&window.samples, &point.inputs);
         let wanted: Vec<usize> = record.measured.iter().map(|it| it.output).collect();
-        let mut along = Along { active: &self.active, window, rates: Vec::new(), outputs: Vec::new() };
+        let plain = window.plain();
+        let mut along =
+            Along { active: &self.active, window, shift, plain, rates: Vec::new(), outputs: Vec::new() };
         dynamics.followed(&point.parameters, &window.trajectory[0], &drive, (&[], &wanted), &mut along);
         along
     }
@@ -55,7 +114,7 @@ impl Setting<'_> {
             Term::Fault(Handle::Output(output, _)) | Term::Response(output) => {
                 let row = record.measured.iter().position(|it| it.output == output)?;
                 let m = window.outputs;
-                let plain: Vec<f64> = window.predicted.iter().skip(row).step_by(m).copied().collect();
+                let plain: Vec<f64> = window.plain().1.iter().skip(row).step_by(m).copied().collect();
                 let seen = point.outputs[output].applied(&plain, record.samples(&window.samples));
                 let mut outputs = vec![0.0_f32; window.predicted.len()];
                 for ((place, seen), plain) in outputs.iter_mut().skip(row).step_by(m).zip(seen).zip(plain) {
@@ -78,6 +137,10 @@ impl Setting<'_> {
 struct Along<'a> {
     active: &'a [usize],
     window: &'a Window,
+    /// A state, by its place among those that matter, and by how much it is moved off the trajectory.
+    shift: (usize, f64),
+    /// Rates and outputs from which changes are counted.
+    plain: (&'a [f64], &'a [f64]),
     /// Changes of the rates, sample by sample and state by state.
     rates: Vec<f64>,
     outputs: Vec<f32>,
@@ -143,12 +206,16 @@ impl Follower for Along<'_> {
         for index in self.active {
             state[*index] = self.window.trajectory[sample][*index];
         }
+        if let Some(index) = self.active.get(self.shift.0) {
+            state[*index] += self.shift.1;
+        }
     }
 
     fn seen(&mut self, sample: usize, Seen { outputs, rates, .. }: Seen<'_>, _: &mut [f64]) {
-        let predicted = &self.window.predicted[sample * outputs.len()..];
+        let (plain_rates, plain_outputs) = self.plain;
+        let predicted = &plain_outputs[sample * outputs.len()..];
         self.outputs.extend(outputs.iter().zip(predicted).map(|(value, plain)| (value - plain) as f32));
-        let plain = &self.window.rates[sample * self.active.len()..];
+        let plain = &plain_rates[sample * self.active.len()..];
         self.rates.extend(self.active.iter().zip(plain).map(|(index, plain)| rates[*index] - plain));
     }
 

@@ -3,6 +3,7 @@
 use crate::dataset::recorded::{Recorded, derivative};
 use crate::missing::motion::Motion;
 use crate::missing::trajectory::Window;
+use crate::signal::spectral::in_band;
 
 /// Knots of a curve over a variable.
 const KNOTS: usize = 9;
@@ -84,7 +85,8 @@ pub fn features(
             hats(&v).into_iter().chain(steps).collect()
         }
         Group::Acceleration => {
-            vec![v.iter().zip(windows).map(|(v, window)| derivative(v, window.step)).collect()]
+            let rate = |(v, window): (&Vec<f64>, &Window)| in_band(v, window.step, 0.5 / window.step, 1);
+            vec![v.iter().zip(windows).map(rate).collect()]
         }
         Group::Memory => MEMORIES
             .iter()

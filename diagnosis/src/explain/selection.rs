@@ -161,7 +161,7 @@ impl World<'_> {
             match &candidate.kind {
                 Kind::Named { term, probe } => {
                     let amounts = DVector::from_vec(amounts);
-                    let at = &missing.setting.point;
+                    let at = &missing.point();
                     let (possible, point) = self.start(*term, probe, &amounts, gain.max(0.0), at);
                     // What would have to be negative is not there, and what would have to be too large is held back.
                     let within = self.within(*term, probe, &amounts, (&point, at));

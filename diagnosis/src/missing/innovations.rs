@@ -28,6 +28,30 @@ pub struct Column {
     pub outputs: Vec<f32>,
 }
 
+impl Column {
+    /// The difference from another one.
+    pub fn minus(&self, other: &Self) -> Self {
+        let minus = |one: &[f32], two: &[f32]| one.iter().zip(two).map(|(one, two)| one - two).collect();
+        Self { next: minus(&self.next, &other.next), outputs: minus(&self.outputs, &other.outputs) }
+    }
+}
+
+impl Window {
+    /// Variance of an output's noise at a sample, with what laws add.
+    fn noise(&self, noise: &Noise, sample: usize, output: usize) -> f64 {
+        noise.outputs[output] + self.loose.1.get(sample * self.outputs + output).unwrap_or(&0.0)
+    }
+
+    /// Variances of what drives states and ports after a sample, with what laws add.
+    fn driven<'a>(&self, driven: &[f64], sample: usize, all: &'a mut Vec<f64>) -> &'a [f64] {
+        all.clear();
+        all.extend_from_slice(driven);
+        let loose = self.loose.0.iter().skip(sample * self.states);
+        all[..self.states].iter_mut().zip(loose).for_each(|(own, more)| *own += more);
+        all
+    }
+}
+
 /// Sums over a block of time.
 #[derive(Clone, Debug)]
 pub struct Block {
@@ -132,7 +156,7 @@ impl Setting<'_> {
         let parameters = self.parameters.len();
         let columns = 1 + parameters + window.timing.len() + candidates.len();
         let mut filter = Filter::new(&self.variances(&entered), columns);
-        let driven = self.driven(&entered, decay);
+        let (driven, mut spread) = (self.driven(&entered, decay), Vec::new());
         let samples = window.samples.len();
         let length = ((BLOCK / window.step).round() as usize).max(4);
         let (mut h, mut a) = (vec![0.0; own], vec![0.0; own * own]);
@@ -156,7 +180,7 @@ impl Setting<'_> {
                 {
                     *y = column.outputs.get(sample * m + output).map_or(0.0, |it| -f64::from(*it));
                 }
-                let update = filter.measure(&h, noise.outputs[output], &mut y);
+                let update = filter.measure(&h, window.noise(noise, sample, output), &mut y);
                 let scale = update.variance.sqrt().recip();
                 rows.extend(y.iter().map(|it| it * scale));
                 log_variance += update.variance.ln();
@@ -189,7 +213,7 @@ impl Setting<'_> {
                 }
             }
             entered.transition(sample, decay, &mut a);
-            filter.predict(&a, &input, &driven);
+            filter.predict(&a, &input, window.driven(&driven, sample, &mut spread));
         }
         blocks
     }
@@ -207,7 +231,7 @@ impl Setting<'_> {
         let (n, m, width, own) = (window.states, window.outputs, window.width, entered.width());
         let decay = (-window.step / MEMORY).exp();
         let mut filter = Filter::new(&self.variances(&entered), 1);
-        let driven = self.driven(&entered, decay);
+        let (driven, mut spread) = (self.driven(&entered, decay), Vec::new());
         let samples = window.samples.len();
         let mut passed = Vec::with_capacity(samples);
         let parameters = |slopes: &[f64]| -> f64 {
@@ -230,7 +254,7 @@ impl Setting<'_> {
                     })
                     .sum();
                 let mut y = [residual - taken - parameters(&window.output_slopes[place * width..][..width])];
-                let update = filter.measure(&h, noise.outputs[output], &mut y);
+                let update = filter.measure(&h, window.noise(noise, sample, output), &mut y);
                 at.measured.push((h, filter.gain().to_vec(), y[0], update.variance));
             }
             if sample + 1 < samples {
@@ -249,7 +273,7 @@ impl Setting<'_> {
                         + taken
                         + parameters(&window.next_slopes[place * width..][..width]);
                 }
-                filter.predict(&a, &input, &driven);
+                filter.predict(&a, &input, window.driven(&driven, sample, &mut spread));
                 at.a = a;
             }
             passed.push(at);

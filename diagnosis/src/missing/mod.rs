@@ -18,6 +18,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::catalogue;
 use crate::dataset::recorded::Recorded;
 use crate::estimation::fit::{Handle, Point};
 use crate::estimation::hypothesis::{TIMING, Term, World};
@@ -25,7 +26,7 @@ use crate::plant::Dynamics;
 use crate::signal::distortion::Correction;
 
 use innovations::Column;
-use nominal::About;
+use nominal::{About, TOLERANCE};
 use ports::Port;
 use trajectory::{Setting, Window};
 
@@ -46,6 +47,8 @@ pub struct Missing<'a> {
     pub setting: Setting<'a>,
     /// The predictions about the trajectory.
     pub windows: Vec<Window>,
+    /// Laws that the rig has by its parameter set.
+    own: &'a [Law],
     /// What was known of each nuisance before: precisions of nominal parameters, then of the channels' timing, then of what was
     /// explained.
     pub precisions: Vec<f64>,
@@ -61,11 +64,31 @@ pub struct Frame {
     /// Whether those that nobody states may be off by decades.
     far: bool,
     dynamics: Box<dyn Dynamics>,
-    /// Laws that were found, each with the model that has it.
-    laws: Vec<(Term, Box<dyn Dynamics>, Point)>,
+    /// Laws that the rig has by its parameter set, with the values there.
+    own: Vec<Law>,
+    /// Laws that were found.
+    laws: Vec<Law>,
     ports: Vec<Port>,
     parameters: Vec<usize>,
     nominal: Vec<f64>,
+}
+
+/// A law that acts beside the model, along the trajectory: friction inside a prediction would stick where the rig does not.
+struct Law {
+    term: Term,
+    /// The model that has it.
+    dynamics: Box<dyn Dynamics>,
+    /// Its values.
+    values: Vec<(Handle, f64)>,
+}
+
+impl Law {
+    /// A point with the law.
+    fn at(&self, point: &Point) -> Point {
+        let mut point = point.clone();
+        self.values.iter().for_each(|(handle, value)| point.set(*handle, *value));
+        point
+    }
 }
 
 impl World<'_> {
@@ -90,24 +113,31 @@ impl World<'_> {
                 }
             }
         }
-        // Laws act beside the model, along the trajectory: friction inside a prediction would stick where the rig does not.
+        let law = |term: Term, handles: Vec<Handle>| {
+            let values = handles.into_iter().map(|handle| (handle, at.get(handle))).collect();
+            Ok::<_, String>(Law { term, dynamics: self.dynamics(&[term])?, values })
+        };
+        let mut own = Vec::new();
+        for cause in catalogue::causes(&self.rig.plant) {
+            let parts = cause.parts.iter().filter_map(|part| self.rig.plant.parameter(part.parameter));
+            let parts: Vec<usize> = parts.collect();
+            let there = |amount: &usize| self.rig.parameters[*amount] != 0.0;
+            if cause.is_friction() && parts.first().is_some_and(there) {
+                own.push(law(Term::Cause(cause), parts.iter().map(|it| Handle::Parameter(*it)).collect())?);
+                parts.iter().for_each(|it| point.parameters[*it] = self.rig.plant.parameters[*it].start);
+            }
+        }
         let mut laws = Vec::new();
         for term in found.iter().filter(|term| matches!(term, Term::Cause(_) | Term::Table(_))) {
-            laws.push((
-                *term,
-                self.own_coordinates(*term).into_iter().map(|it| it.handle).collect::<Vec<_>>(),
-            ));
+            let handles: Vec<Handle> = self.own_coordinates(*term).into_iter().map(|it| it.handle).collect();
+            handles.iter().for_each(|handle| point.set(*handle, self.origin().get(*handle)));
+            laws.push(law(*term, handles)?);
         }
-        let fitted = point.clone();
-        for handle in laws.iter().flat_map(|(_, handles)| handles) {
-            point.set(*handle, self.origin().get(*handle));
-        }
-        let with = |(term, handles): (Term, Vec<Handle>)| {
-            let mut point = point.clone();
-            handles.iter().for_each(|handle| point.set(*handle, fitted.get(*handle)));
-            Ok((term, self.dynamics(&[term])?, point))
+        let beside = |index: &usize| {
+            own.iter()
+                .any(|it: &Law| it.values.iter().any(|(handle, _)| *handle == Handle::Parameter(*index)))
         };
-        let laws = laws.into_iter().map(with).collect::<Result<Vec<_>, String>>()?;
+        let parameters = self.rig.base().into_iter().filter(|it| !beside(it)).collect();
         let states = self.rig.plant.states.iter();
         Ok(Frame {
             records,
@@ -115,9 +145,10 @@ impl World<'_> {
             fresh: found.is_empty(),
             far: false,
             dynamics: self.dynamics(&[])?,
+            parameters,
+            own,
             laws,
             ports: Port::all(self.rig, record),
-            parameters: self.rig.base(),
             nominal: states.map(|it| it.nominal.unwrap_or(1.0)).collect(),
         })
     }
@@ -141,11 +172,12 @@ impl World<'_> {
         let about = About { frame, errors, stretches: &stretches, timing: &timing };
         let mut precisions = self.precisions(&frame.parameters);
         precisions.extend(timing.iter().map(|_| (DELAY / TIMING).powi(2)));
+        precisions.extend(frame.own.iter().map(|_| TOLERANCE.powi(-2)));
         let point =
             if frame.fresh { self.nominal_by_balance(&about, &precisions) } else { frame.point.clone() };
         let (setting, windows) = self.along(&about, &point)?;
         let (records, train) = (&frame.records[..], self.train.len());
-        let mut missing = Missing { records, train, setting, windows, precisions };
+        let mut missing = Missing { records, train, own: &frame.own, setting, windows, precisions };
         // Where nothing needs to be missing, a trajectory that follows the sensors follows their noise.
         let location = missing.located();
         let likely = location.ranked.iter().filter(|it| it.gain > 0.0).take(1);
@@ -157,9 +189,9 @@ impl World<'_> {
         if windows.len() == missing.windows.len() {
             missing.windows = windows;
         }
-        for (term, dynamics, point) in &frame.laws {
-            let of =
-                |window: &Window| missing.setting.changed((records, window), (*term, &**dynamics), point);
+        for law in &frame.laws {
+            let (term, at) = ((law.term, &*law.dynamics), law.at(&frame.point));
+            let of = |window: &Window| missing.setting.changed((records, window), term, &at);
             let columns: Option<Vec<Column>> = missing.windows.iter().map(of).collect();
             missing.explain(columns.into_iter());
         }
@@ -199,15 +231,22 @@ impl World<'_> {
             let part = Recorded { sections, ..records[*record].clone() };
             let start = self.starts(std::slice::from_ref(&part)).pop()?;
             let mut window = setting.window(records, *record, samples.clone(), &start)?;
-            let columns: Option<Vec<Column>> = timing
-                .iter()
-                .map(|handle| {
-                    let mut late = point.clone();
-                    late.set(*handle, DELAY);
-                    setting.changed((records, &window), (Term::Fault(*handle), setting.dynamics), &late)
-                })
-                .collect();
-            window.timing = columns?;
+            // The rig's own laws, as its parameter set has them; by how much more or less is a nuisance.
+            let own =
+                |law: &Law| setting.changed((records, &window), (law.term, &*law.dynamics), &law.at(point));
+            let own = frame.own.iter().map(own).collect::<Option<Vec<Column>>>()?;
+            let with_own = frame.own.iter().fold(point.clone(), |point, law| law.at(&point));
+            if !own.is_empty() {
+                setting.take_along(&records[*record], &mut window, &own, &with_own);
+                setting.loosen(&records[*record], &mut window, &with_own);
+            }
+            let late = |handle: &Handle| {
+                let mut late = with_own.clone();
+                late.set(*handle, DELAY);
+                setting.changed((records, &window), (Term::Fault(*handle), setting.dynamics), &late)
+            };
+            window.timing = timing.iter().map(late).collect::<Option<_>>()?;
+            window.timing.extend(own);
             Some(window)
         };
         stretches.par_iter().filter_map(of).collect()
@@ -215,6 +254,11 @@ impl World<'_> {
 }
 
 impl Missing<'_> {
+    /// The point of the trajectory, with the laws that the rig has by its parameter set.
+    pub fn point(&self) -> Point {
+        self.own.iter().fold(self.setting.point.clone(), |point, law| law.at(&point))
+    }
+
     /// Numbers of the columns that are fitted whatever is looked for.
     pub fn nuisances(&self) -> Vec<usize> {
         (1..=self.precisions.len()).collect()

@@ -10,7 +10,7 @@ use super::innovations::Noise;
 use super::likelihood::{Amounts, Sums};
 
 /// Standard deviation of a nominal parameter over its value, before the data are seen.
-const TOLERANCE: f64 = 0.3;
+pub(super) const TOLERANCE: f64 = 0.3;
 /// Least share of a nominal value that a parameter is believed to have, where it cannot be zero.
 const LEAST: f64 = 0.3;
 /// Share of each port's size that may be missing while stated parameters are corrected.
@@ -56,7 +56,7 @@ impl World<'_> {
     pub(crate) fn balanced(&self, at: &Point) -> Result<Vec<f64>, String> {
         let mut frame = self.frame(&[], at)?;
         frame.far = true;
-        Ok(self.missing(&frame)?.setting.point.parameters)
+        Ok(self.missing(&frame)?.point().parameters)
     }
 
     /// What was known of each nominal parameter before.

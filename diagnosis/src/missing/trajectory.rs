@@ -84,8 +84,23 @@ pub struct Window {
     pub drive: Drive,
     /// What the timing of each channel changes, which every measurement has a little of.
     pub timing: Vec<Column>,
+    /// Rates and predicted outputs with the laws that the rig has by its parameter set, where it has some.
+    pub lawful: Option<(Vec<f64>, Vec<f64>)>,
+    /// Variances that laws add to the next states and to the outputs, sample by sample, since the trajectory is known so well
+    /// only; empty: none.
+    pub loose: (Vec<f64>, Vec<f64>),
     /// Rates of the states that matter by a unit signal at each port of the plant, sample by sample.
     pub pushes: Vec<Vec<f64>>,
+}
+
+impl Window {
+    /// Rates of the states that matter and predicted outputs, with the laws that the rig has by its parameter set.
+    pub fn plain(&self) -> (&[f64], &[f64]) {
+        match &self.lawful {
+            Some((rates, outputs)) => (rates, outputs),
+            None => (&self.rates, &self.predicted),
+        }
+    }
 }
 
 impl<'a> Setting<'a> {
@@ -249,6 +264,8 @@ impl<'a> Setting<'a> {
                 residuals: Vec::new(),
                 drive: drive.clone(),
                 timing: Vec::new(),
+                lawful: None,
+                loose: (Vec::new(), Vec::new()),
                 pushes: Vec::new(),
             },
         };

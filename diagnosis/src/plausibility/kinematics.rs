@@ -21,7 +21,7 @@ type Column<'a> = (&'a str, &'static str, &'a [f64]);
 fn columns<'a>(rig: &'a Rig, record: &'a Recorded) -> Vec<Column<'a>> {
     let inputs = rig.plant.inputs.iter().zip(&record.inputs).filter_map(|(declared, source)| match source {
         Source::Measured(values) => Some((declared.name.as_str(), declared.unit.symbol, &values[..])),
-        Source::DerivativeOf(_) | Source::Constant(_) => None,
+        Source::DerivativeOf(_) | Source::RateOf(_) | Source::Constant(_) => None,
     });
     let outputs = record.measured.iter().map(|measured| {
         let declared = &rig.plant.outputs[measured.output];
@@ -72,6 +72,8 @@ pub(super) fn beyond_any_rig(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
 
 /// Whether a signal is the rate of another one, by their names.
 fn is_rate(motion: &str, rate: &str) -> bool {
+    // A motion that is imposed is the rig's own.
+    let motion = motion.strip_prefix("motion.").unwrap_or(motion);
     let of = |(motions, end): &(&[&str], &str)| {
         let group = rate.strip_suffix(end)?;
         Some(motions.iter().any(|it| motion.strip_suffix(it) == Some(group)))
@@ -116,7 +118,8 @@ mod tests {
 
     #[test]
     fn a_rate_has_the_name_of_its_motion() {
-        assert!(is_rate("position", "velocity") && is_rate("velocity", "acceleration"));
+        assert!(is_rate("position", "velocity") && is_rate("motion.position", "velocity"));
+        assert!(is_rate("velocity", "acceleration"));
         assert!(is_rate("suspension.deflection", "suspension.velocity"));
         assert!(!is_rate("body.position", "wheel.velocity") && !is_rate("position", "acceleration"));
         assert!(!is_rate("velocity", "velocity"));

@@ -56,6 +56,7 @@ pub(super) const SERVO_SUSPENSION: Kind = Kind {
         ("suspension.deflection", &["deflection"]),
         ("spool.position", &["spool"]),
     ],
+    shown: &[],
     trivial: &[],
     opposed: None,
     missing: &[
@@ -116,6 +117,7 @@ pub(super) const PUMP_ACTUATOR: Kind = Kind {
         ("motor.speed", &["speed"]),
         ("force", &["actuator.force"]),
     ],
+    shown: &[],
     trivial: &["motor.power"],
     opposed: None,
     missing: &[],
@@ -160,6 +162,7 @@ pub(super) const SAS_RIG: Kind = Kind {
         ("wheel_arm.angle", &["wheel.angle", "alpha_1"]),
         ("relative.angle", &["alpha_2"]),
     ],
+    shown: &[],
     trivial: &[],
     opposed: None,
     missing: &[Missing {

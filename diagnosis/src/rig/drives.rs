@@ -3,22 +3,43 @@
 use crate::catalogue::Element;
 use crate::plant::models;
 
-use super::{Aliases, DrivenBy, ElementSignals, Excitation, ForceOf, Kind, Missing};
+use super::kinds::LONG;
+use super::{Aliases, DrivenBy, ElementSignals, Excitation, ForceOf, Inverse, Kind, Missing, driven};
 
-const MISSING: &[Missing] = &[Missing {
+const MISSING_ON_THE_MASS: Missing = Missing {
     quantity: "force missing on the moving mass",
     output: "acceleration",
     factor: Some(("moving_mass", -1.0)),
     over: &[Element::Guide],
-}];
+};
+
+const MISSING_IN_THE_MOTOR: Missing = Missing {
+    quantity: "force missing on the moving mass",
+    output: "motor.force",
+    factor: None,
+    over: &[Element::Guide],
+};
 
 const POSITION: Aliases = ("position", &["displacement", "x", "q", "measured.position", "motor.position"]);
 const VELOCITY: Aliases = ("velocity", &["speed", "v", "measured.velocity"]);
 const ACCELERATION: Aliases = ("acceleration", &["a"]);
+const POSITIONS: &[&str] = &["position", "displacement", "x", "q", "measured.position"];
 const LOAD: Aliases = ("load.force", &["external.force"]);
 
 const FORCES: &[&str] = &["force.command", "commanded.force", "control.force", "force", "motor.force"];
 const VOLTAGES: &[&str] = &["voltage.command", "control.voltage", "voltage", "motor.voltage", "u"];
+
+const SET_POINTS: &[&str] = &[
+    "position.command",
+    "commanded.position",
+    "reference.position",
+    "position.reference",
+    "desired.position",
+    "set.point",
+    "setpoint",
+    "reference",
+    "command",
+];
 
 pub(super) const LINEAR_DRIVE: Kind = Kind {
     plant: models::linear_drive,
@@ -30,17 +51,29 @@ pub(super) const LINEAR_DRIVE: Kind = Kind {
         element: Element::Guide,
         deflection: "position",
         velocity: Some("velocity"),
-        force: ForceOf::InputOrMoment("force", "acceleration", "moving_mass"),
+        force: ForceOf::Output("motor.force"),
     }],
-    aliases: &[POSITION, VELOCITY, ACCELERATION, LOAD],
+    aliases: &[POSITION, VELOCITY, ACCELERATION, LOAD, ("motor.force", FORCES)],
+    shown: &[("position", "carriage.position"), ("velocity", "carriage.velocity")],
     trivial: &["resistance"],
     opposed: None,
-    missing: MISSING,
+    missing: &[MISSING_ON_THE_MASS, MISSING_IN_THE_MOTOR],
     // Behind a force the position drifts wherever nothing holds it: over a second, errors are still of what happens then.
     section: 1.0,
     drives: &[
-        DrivenBy { setting: "drive", item: "Force", input: "force", base: &[], columns: FORCES },
-        DrivenBy { setting: "drive", item: "Command", input: "command", base: &[], columns: VOLTAGES },
+        DrivenBy { trivial: &["motor.force"], ..driven("drive", "Force", "force", FORCES) },
+        DrivenBy { trivial: &["motor.force"], ..driven("drive", "Command", "command", VOLTAGES) },
+        DrivenBy {
+            trivial: &["position", "velocity", "acceleration"],
+            inverse: Some(Inverse {
+                force: "motor.force",
+                position: "motion.position",
+                acceleration: "motion.acceleration",
+                instead: "acceleration",
+            }),
+            section: Some(LONG),
+            ..driven("drive", "Motion", "motion.position", POSITIONS)
+        },
     ],
     excitation: &[
         Excitation { input: "force", amplitude: 60.0, band: (0.4, 12.0) },
@@ -66,37 +99,22 @@ pub(super) const EXCITATION_MOTOR: Kind = Kind {
         ("force", &["motor.force"]),
         LOAD,
     ],
+    shown: &[],
     trivial: &["following_error", "stroke.reserve", "speed.reserve", "power"],
     opposed: None,
-    missing: MISSING,
+    missing: &[MISSING_ON_THE_MASS],
     // Behind a force or a voltage the position drifts wherever nothing holds it.
     section: 5.0,
     // A measured force or voltage says more of the motor than a set point, which a loop of unknown make follows.
     drives: &[
-        DrivenBy { setting: "drive", item: "Force", input: "command.force", base: &[], columns: FORCES },
+        driven("drive", "Force", "command.force", FORCES),
         DrivenBy {
-            setting: "drive",
-            item: "Voltage",
-            input: "command.voltage",
             base: &["force_constant", "resistance"],
-            columns: VOLTAGES,
+            ..driven("drive", "Voltage", "command.voltage", VOLTAGES)
         },
         DrivenBy {
-            setting: "drive",
-            item: "Position",
-            input: "command.position",
             base: &["position_loop.gain", "velocity_loop.proportional", "velocity_loop.integral"],
-            columns: &[
-                "position.command",
-                "commanded.position",
-                "reference.position",
-                "position.reference",
-                "desired.position",
-                "set.point",
-                "setpoint",
-                "reference",
-                "command",
-            ],
+            ..driven("drive", "Position", "command.position", SET_POINTS)
         },
     ],
     excitation: &[

@@ -8,7 +8,7 @@ use super::drives::{EXCITATION_MOTOR, LINEAR_DRIVE};
 use super::{ElementSignals, ForceOf, Kind, Missing};
 
 /// Section of a plant that does not drift, in seconds: it bounds the memory.
-const LONG: f64 = 60.0;
+pub(super) const LONG: f64 = 60.0;
 
 pub(super) const STRUT_FORCE: ForceOf = ForceOf::SpringAndDamper("strut.stiffness", "strut.damping");
 
@@ -63,6 +63,7 @@ pub(super) const KINDS: &[Kind] = &[
             },
         ],
         aliases: &[("road.position", &["road"]), ("actuator.force", &["force"])],
+        shown: &[],
         trivial: &[],
         opposed: None,
         missing: &[
@@ -94,6 +95,7 @@ pub(super) const KINDS: &[Kind] = &[
             force: ForceOf::Output("force"),
         }],
         aliases: &[("motion.position", &["-deflection"]), ("motion.velocity", &["-velocity"])],
+        shown: &[],
         trivial: &["deflection"],
         // A force that is recorded beside a deflection resists it.
         opposed: Some(("deflection", "force")),

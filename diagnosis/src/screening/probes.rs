@@ -140,7 +140,7 @@ impl World<'_> {
         let (fault, magnitude) = match handle {
             Handle::Input(input, fault) => match &record.inputs[input] {
                 Source::Measured(values) => (fault, rms(values)),
-                Source::DerivativeOf(_) | Source::Constant(_) => (fault, 1.0),
+                Source::DerivativeOf(_) | Source::RateOf(_) | Source::Constant(_) => (fault, 1.0),
             },
             Handle::Output(output, fault) => {
                 let measured = record.measured.iter().find(|it| it.output == output);

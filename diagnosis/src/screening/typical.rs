@@ -25,7 +25,7 @@ pub fn typical(
         let driven: Vec<f64> = sources
             .flat_map(|source| match source {
                 Source::Measured(values) => values.clone(),
-                Source::DerivativeOf(_) | Source::Constant(_) => Vec::new(),
+                Source::DerivativeOf(_) | Source::RateOf(_) | Source::Constant(_) => Vec::new(),
             })
             .collect();
         rms(&driven).max(1e-12)
@@ -53,10 +53,6 @@ pub fn typical(
             }
             ForceOf::Input(name) => driven(name),
             ForceOf::Moment(force, lever) => (value(lever) * magnitude(&signal(force))).max(1e-12),
-            // What is slow and sticks is hardly accelerated by what drives it.
-            ForceOf::InputOrMoment(name, force, lever) => {
-                driven(name).max(value(lever) * magnitude(&signal(force)))
-            }
             ForceOf::SpringAndDamper(stiffness, damping) => {
                 (value(stiffness) * deflection).hypot(value(damping) * velocity)
             }

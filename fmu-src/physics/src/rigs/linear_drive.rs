@@ -1,4 +1,5 @@
-//! A linear positioning drive: a mass on a guide, behind an amplifier.
+//! A linear positioning drive: a mass on a guide, behind an amplifier. It runs forward, from the force to the motion, or
+//! inversely, from the motion to the force.
 
 use std::path::Path;
 
@@ -21,6 +22,8 @@ pub enum Drive {
     Force,
     /// The command to an amplifier that controls the motor's current
     Command,
+    /// The motion that is imposed on the carriage (inverse dynamics)
+    Motion,
 }
 
 /// What can be chosen.
@@ -102,6 +105,22 @@ pub struct Input<R> {
     pub command: R,
     /// External force on the carriage
     pub load: Load<R>,
+    /// Motion of the carriage (setting Motion)
+    pub motion: ImposedMotion<R>,
+}
+
+/// A motion that is imposed on the carriage. Its three signals belong together: each is the rate of the one before.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct ImposedMotion<R> {
+    /// Position
+    #[var(unit = M)]
+    pub position: R,
+    /// Velocity
+    #[var(unit = M_PER_S)]
+    pub velocity: R,
+    /// Acceleration
+    #[var(unit = M_PER_S2)]
+    pub acceleration: R,
 }
 
 /// What acts on the carriage besides the motor.
@@ -112,14 +131,21 @@ pub struct Load<R> {
     pub force: R,
 }
 
-/// Motion of the carriage.
+/// What the forces on the carriage have made of its motion; in the setting Motion it goes where it is told.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct State<R> {
+    /// Carriage
+    pub carriage: CarriageMotion<R>,
+}
+
+/// Motion of the carriage.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct CarriageMotion<R> {
     /// Position
-    #[var(unit = M, nominal = 0.1, output)]
+    #[var(unit = M, nominal = 0.1)]
     pub position: R,
     /// Velocity
-    #[var(unit = M_PER_S, nominal = 0.1, output)]
+    #[var(unit = M_PER_S, nominal = 0.1)]
     pub velocity: R,
 }
 
@@ -132,18 +158,38 @@ pub struct Output<R> {
     /// Force that the guide resists with
     #[var(unit = N)]
     pub resistance: R,
+    /// Position
+    #[var(unit = M)]
+    pub position: R,
+    /// Velocity
+    #[var(unit = M_PER_S)]
+    pub velocity: R,
+    /// Motor
+    pub motor: MotorForce<R>,
+}
+
+/// What the motor does.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct MotorForce<R> {
+    /// Force of the motor; in the setting Motion, the force that the motion takes
+    #[var(unit = N)]
+    pub force: R,
 }
 
 impl Model for LinearDrive {
     const ABOUT: About = About {
         name: "LinearDrive",
         summary: "Linear positioning drive: mass on a guide with friction, breakaway and cogging; force or amplifier's \
-            command in, position out",
+            command in, position out; or motion in, force out",
         kind: Kind::Rig,
         equations: &[
             Equation {
                 text: "m x'' = F - k x - g(x, x') - F_0 + load.force, F = force or gain command",
                 source: "momentum",
+            },
+            Equation {
+                text: "setting Motion: F = m x'' + k x + g(x, x') + F_0 - load.force, x, x', x'' = motion",
+                source: "inverse dynamics; Siciliano et al., Robotics (2009), section 7.5",
             },
             Equation {
                 text: "g = d x' + [F_c + F_b exp(-(x'/v_s)^2)] tanh(x'/v_0) + A sin(2 pi x/p + phi) + s f(x')",
@@ -154,6 +200,9 @@ impl Model for LinearDrive {
             "A rig for records of a positioning drive in closed loop: what the loop asked for is measured, so that the \
              loop itself need not be known. A motor whose voltage is measured, with resistance and inductance, is \
              ExcitationMotor.",
+            "With the setting Motion it gives the feedforward force of a motion, and the force to compare where a motion \
+             was measured: a drive with much friction and little mass amplifies every error of the force when it is \
+             simulated forward.",
             "No source gives numbers of such a drive: the declared mass and gain are to be replaced by those of a data \
              sheet.",
         ],
@@ -175,15 +224,26 @@ impl Model for LinearDrive {
     }
 
     fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
-        let (p, &State { position, velocity }, input) = (now.parameters, now.state, now.input);
-        let force = match self.drive {
-            Drive::Force => input.force,
-            Drive::Command => p.amplifier.gain * input.command,
+        let (p, state, input) = (now.parameters, now.state, now.input);
+        let CarriageMotion { position, velocity } = match self.drive {
+            Drive::Force | Drive::Command => state.carriage,
+            Drive::Motion => {
+                CarriageMotion { position: input.motion.position, velocity: input.motion.velocity }
+            }
         };
         let resistance = p.guide.resistance(position, velocity);
-        let held = p.ground_spring.stiffness * position + resistance + p.constant_load;
-        let acceleration = (force + input.load.force - held) / p.moving_mass;
-        (State { position: velocity, velocity: acceleration }, Output { acceleration, resistance })
+        let held = p.ground_spring.stiffness * position + resistance + p.constant_load - input.load.force;
+        let driven = |force: R| ((force - held) / p.moving_mass, force);
+        let (acceleration, force) = match self.drive {
+            Drive::Force => driven(input.force),
+            Drive::Command => driven(p.amplifier.gain * input.command),
+            Drive::Motion => (input.motion.acceleration, p.moving_mass * input.motion.acceleration + held),
+        };
+        let rates = CarriageMotion { position: velocity, velocity: acceleration };
+        (
+            State { carriage: rates },
+            Output { acceleration, resistance, position, velocity, motor: MotorForce { force } },
+        )
     }
 }
 
@@ -231,8 +291,8 @@ mod tests {
             .start("guide.stribeck.force", 8.0)
             .start("guide.stribeck.velocity", 0.05)
             .start("guide.cogging.force", 6.0)
-            .start("position", 0.006)
-            .start("velocity", 1e-3)
+            .start("carriage.position", 0.006)
+            .start("carriage.velocity", 1e-3)
             .initialized();
         assert!((drive.get("resistance") - (28.0 + 6.0)).abs() < 0.01);
     }
@@ -247,5 +307,37 @@ mod tests {
         drive.set("force", 57.0);
         drive.step(3.0);
         assert!((drive.get("velocity") - (57.0 - 20.0 + 3.0) / 200.0).abs() < 1e-9);
+    }
+
+    /// The force that the inverse asks for moves the carriage as it was imposed.
+    #[test]
+    fn the_inverse_gives_the_force_that_makes_the_motion() {
+        let bench = |drive: Drive| {
+            Bare::new()
+                .choose("drive", Value::Integer(drive as i32 + 1))
+                .start("guide.damping", 60.0)
+                .start("guide.coulomb.force", 15.0)
+                .start("guide.cogging.force", 5.0)
+                .start("ground_spring.stiffness", 400.0)
+                .start("constant_load", -3.0)
+                .start("carriage.position", 0.02)
+                .start("carriage.velocity", 0.3)
+                .initialized()
+        };
+        let mut inverse = bench(Drive::Motion);
+        inverse.set("load.force", 2.0);
+        for (signal, value) in [("position", 0.02), ("velocity", 0.3), ("acceleration", 1.7)] {
+            inverse.set(&format!("motion.{signal}"), value);
+        }
+        let force = inverse.get("motor.force");
+        let mut forward = bench(Drive::Force);
+        forward.set("load.force", 2.0);
+        forward.set("force", force);
+        assert!((forward.get("acceleration") - 1.7).abs() < 1e-12, "{}", forward.get("acceleration"));
+        assert_eq!(forward.get("motor.force"), force);
+        // The carriage goes where it is told.
+        inverse.step(0.1);
+        assert!((inverse.get("carriage.position") - 0.05).abs() < 1e-9);
+        assert_eq!(inverse.get("position"), 0.02);
     }
 }

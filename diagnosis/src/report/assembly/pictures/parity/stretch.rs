@@ -162,7 +162,7 @@ impl Rigged<'_> {
                 Some((self.point.inputs[input].applied(&values, samples), noise))
             }
             Source::Constant(value) => Some((vec![*value; section.len()], 0.0)),
-            Source::DerivativeOf(_) => None,
+            Source::DerivativeOf(_) | Source::RateOf(_) => None,
         }
     }
 

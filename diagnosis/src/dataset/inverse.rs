@@ -1,0 +1,294 @@
+//! Whether a motion is measured so well that a drive may be compared inversely: motion given, force compared.
+//!
+//! Simulated forward, a drive with much friction and little mass amplifies every error of the force; where nothing holds
+//! it, it drifts away. The inverse does neither. But it differentiates the position twice, and what is noise of the
+//! position becomes noise of the force, times the mass and the frequency squared. So force and motion are compared in the
+//! band in which that noise does not count, behind one filter without phase (the decimation of M. Gautier, Dynamic
+//! identification of robots with power model, IEEE ICRA 1997).
+
+use std::ops::Range;
+
+use nalgebra::{DMatrix, DVector};
+use rustfft::num_complex::Complex;
+
+use super::recorded::{Recorded, Source};
+use crate::data::check::noise_floor;
+use crate::report::findings::DataProblem;
+use crate::report::words::digits;
+use crate::rig::{Inverse, Rig};
+use crate::screening::rms;
+use crate::signal::distortion::Correction;
+use crate::signal::random::Random;
+use crate::signal::spectral::{about_line, filled};
+
+/// Lowest end of a band in Hz: at its sampling rate, a block of errors has ten samples.
+const LOWEST: f64 = 8.0;
+/// Share of the force's power above which nothing is compared: it is 3 % of the force, and would decide about all that is slow.
+const NEGLIGIBLE: f64 = 1e-3;
+/// Share of the force's power that has to lie in the band.
+const COVERED: f64 = 0.9;
+/// Share of the force's power that the position's noise may make up by way of the mass.
+const NOISY: f64 = 0.01;
+/// Ratio of a band's end to that of the next narrower one that is tried.
+const NARROWER: f64 = 0.8;
+/// Share of its magnitude below which a velocity is none …
+const STILL: f64 = 0.02;
+/// … if it lasts so long, in seconds: a reversal does not.
+const REST: f64 = 0.1;
+/// Records in the band in which their motion is known.
+#[derive(Clone, Debug)]
+pub struct Banded {
+    /// The records: every signal behind the same filter without phase, and thinned.
+    pub records: Vec<Recorded>,
+    /// What the user has to know of it.
+    pub note: DataProblem,
+}
+
+/// The records in the widest band in which the position's noise makes up little of the force, if most of the force is in it.
+pub fn banded(rig: &Rig, records: &[Recorded], inverse: Inverse) -> Option<Banded> {
+    let signals = Signals {
+        force: rig.plant.output(inverse.force)?,
+        acceleration: rig.plant.input(inverse.acceleration)?,
+    };
+    // One band for all: in a wider one, what is fast would decide.
+    let ends = records.iter().map(|record| Some(relevant(record, signals.force(record)?)));
+    let mut top = ends.collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::min)?.max(LOWEST);
+    let banded = loop {
+        let banded: Vec<Recorded> = records.iter().map(|it| below(it, top)).collect();
+        let covered = |(record, banded): (&Recorded, &Recorded)| {
+            Some(power(signals.force(banded)?) >= COVERED * power(signals.force(record)?))
+        };
+        if !records.iter().zip(&banded).all(|pair| covered(pair).unwrap_or(false)) {
+            return None;
+        }
+        if records.iter().zip(&banded).all(|pair| signals.noise(pair, top).is_some_and(|it| it < NOISY)) {
+            break banded;
+        }
+        if top <= LOWEST {
+            return None;
+        }
+        top = (NARROWER * top).max(LOWEST);
+    };
+    let text = format!(
+        "the motion drives the model and the force is compared (inverse dynamics), below {} Hz: beyond, {} is lost in its \
+         noise, or the force has less than {} % of its power. At rest nothing is compared: friction holds whatever acts",
+        digits(top, 2),
+        inverse.position,
+        100.0 * NEGLIGIBLE
+    );
+    let note = DataProblem { record: "all".into(), signal: inverse.force.into(), text, fatal: false };
+    Some(Banded { records: banded.into_iter().map(|it| signals.moving(it)).collect(), note })
+}
+
+/// A record below a frequency in Hz, with the exact rates of its motion.
+fn below(record: &Recorded, top: f64) -> Recorded {
+    let mut banded = record.below(top);
+    for source in &mut banded.inputs {
+        if let Some(motion) = source.motion() {
+            *source = Source::RateOf(motion);
+        }
+    }
+    banded
+}
+
+/// The signals of a balance of forces.
+#[derive(Clone, Copy)]
+struct Signals {
+    /// The output that is compared.
+    force: usize,
+    /// The input that the mass resists.
+    acceleration: usize,
+}
+
+impl Signals {
+    fn force(self, record: &Recorded) -> Option<&[f64]> {
+        record.measured.iter().find(|it| it.output == self.force).map(|it| &it.values[..])
+    }
+
+    /// Share of the force's power that the noise of the position makes up by way of the mass.
+    fn noise(self, (record, banded): (&Recorded, &Recorded), top: f64) -> Option<f64> {
+        let (motion, force) = (motion(banded), self.force(banded)?);
+        let noisier = self::motion(&below(&with_noise_again(record), top));
+        let pairs = motion[self.acceleration].iter().zip(&noisier[self.acceleration]);
+        let noise: Vec<f64> = pairs.map(|(one, two)| one - two).collect();
+        let mass = coefficient(&motion, force, self.acceleration)?;
+        Some((mass * rms(&noise)).powi(2) / power(force))
+    }
+
+    /// The record without the force at rest.
+    fn moving(self, mut record: Recorded) -> Recorded {
+        let motion = motion(&record);
+        if let Some(velocity) = record.inputs[self.acceleration].motion() {
+            let rests = resting(&motion[velocity], record.step);
+            for measured in record.measured.iter_mut().filter(|it| it.output == self.force) {
+                let still = measured.values.iter_mut().zip(&rests).filter(|(_, rests)| **rests);
+                still.for_each(|(value, _)| *value = f64::NAN);
+            }
+        }
+        record
+    }
+}
+
+/// Whether what moves stands still, sample by sample.
+fn resting(velocity: &[f64], step: f64) -> Vec<bool> {
+    let (still, shortest) = (STILL * rms(velocity), (REST / step).ceil() as usize);
+    let mut resting = vec![false; velocity.len()];
+    let mut since = 0;
+    for sample in 0..=velocity.len() {
+        if velocity.get(sample).is_none_or(|it| it.abs() >= still) {
+            if sample - since >= shortest {
+                resting[since..sample].fill(true);
+            }
+            since = sample + 1;
+        }
+    }
+    resting
+}
+
+/// Mean square of the known values about their mean.
+fn power(values: &[f64]) -> f64 {
+    rms(&values.iter().copied().filter(|it| it.is_finite()).collect::<Vec<_>>()).powi(2)
+}
+
+/// The frequency above which a signal has no power worth a comparison, in Hz: the highest over the record's sections.
+fn relevant(record: &Recorded, values: &[f64]) -> f64 {
+    let of = |section: &Range<usize>| {
+        let part = filled(&values[section.clone()]).filter(|it| it.len() >= 16)?;
+        let mut top = 0.0;
+        about_line(&part, |spectrum| {
+            let len = spectrum.len();
+            let power: Vec<f64> = spectrum[..=len / 2].iter().map(Complex::norm_sqr).collect();
+            let (total, mut beyond) = (power.iter().sum::<f64>(), 0.0);
+            let bin = (0..power.len()).rev().find(|bin| {
+                beyond += power[*bin];
+                beyond > NEGLIGIBLE * total
+            });
+            top = bin.unwrap_or(0) as f64 / (len as f64 * record.step);
+            vec![Complex::from(1.0); len]
+        });
+        Some(top)
+    };
+    record.sections.iter().filter_map(of).fold(0.0, f64::max)
+}
+
+/// Every input at the samples of a record.
+fn motion(record: &Recorded) -> Vec<Vec<f64>> {
+    let neutral = vec![Correction::default(); record.inputs.len()];
+    let mut inputs = vec![Vec::with_capacity(record.len()); record.inputs.len()];
+    for section in &record.sections {
+        let drive = record.drive(section, &neutral);
+        for (all, values) in inputs.iter_mut().zip(&drive.inputs) {
+            all.extend(values.iter().step_by(drive.finer));
+        }
+    }
+    inputs
+}
+
+/// How much of one input is in a signal, beside all others, their signs and a constant, by least squares; none if they
+/// cannot be told apart.
+fn coefficient(inputs: &[Vec<f64>], signal: &[f64], wanted: usize) -> Option<f64> {
+    let moving: Vec<usize> = (0..inputs.len()).filter(|input| rms(&inputs[*input]) > 0.0).collect();
+    let column = moving.iter().position(|input| *input == wanted)?;
+    let scales: Vec<f64> = moving.iter().map(|input| rms(&inputs[*input])).collect();
+    let known: Vec<usize> =
+        (0..signal.len().min(inputs[wanted].len())).filter(|k| signal[*k].is_finite()).collect();
+    let width = 2 * moving.len() + 1;
+    let rows = DMatrix::from_fn(known.len(), width, |row, at| match moving.get(at % moving.len().max(1)) {
+        _ if at + 1 == width => 1.0,
+        Some(input) if at < moving.len() => inputs[*input][known[row]] / scales[at],
+        Some(input) => inputs[*input][known[row]].signum(),
+        None => 0.0,
+    });
+    let right = DVector::from_fn(known.len(), |row, _| signal[known[row]]);
+    let solution = rows.svd(true, true).solve(&right, 1e-9).ok()?;
+    Some(solution[column] / scales[column])
+}
+
+/// The record with as much noise on its measured inputs once more.
+fn with_noise_again(record: &Recorded) -> Recorded {
+    let mut inputs = record.inputs.clone();
+    for (channel, source) in (1..).zip(&mut inputs) {
+        if let Source::Measured(values) = source {
+            let (deviation, mut random) = (noise_floor(values), Random::new(channel));
+            values.iter_mut().for_each(|value| *value += deviation * random.normal());
+        }
+    }
+    Recorded { inputs, ..record.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+    use crate::dataset::recorded::Measured;
+    use crate::plant::Between;
+
+    /// A mass and 30 N of friction, moved by 10 mm at 2 Hz, 3 mm at 6.2 Hz and 0.1 mm at 40 Hz.
+    fn record(rig: &Rig, mass: f64, noise: f64) -> Recorded {
+        const SINES: [(f64, f64); 3] = [(0.01, 2.0), (3e-3, 6.2), (1e-4, 40.0)];
+        let mut random = Random::new(7);
+        let step = 1e-3;
+        let wave = |t: f64, of: fn(f64) -> f64, order: i32| -> f64 {
+            SINES.iter().map(|(size, hertz)| size * (TAU * hertz).powi(order) * of(TAU * hertz * t)).sum()
+        };
+        let time = || (0..8000).map(|k| f64::from(k) * step);
+        let position: Vec<f64> = time().map(|t| wave(t, f64::sin, 0) + noise * random.normal()).collect();
+        let force = time().map(|t| 30.0 * (wave(t, f64::cos, 1) / 0.01).tanh() - mass * wave(t, f64::sin, 2));
+        let inputs = rig.plant.inputs.iter().map(|declared| match declared.name.as_str() {
+            "motion.position" => Source::Measured(position.clone()),
+            _ => rig.rate_of(&declared.name).map_or(Source::Constant(0.0), Source::DerivativeOf),
+        });
+        let output = rig.plant.output("motor.force").unwrap();
+        Recorded {
+            name: String::new(),
+            step,
+            inputs: inputs.collect(),
+            between: Between::Lines,
+            measured: vec![Measured { output, values: force.collect(), noise_floor: 0.1 }],
+            others: vec![],
+            sections: std::iter::once(0..8000).collect(),
+        }
+    }
+
+    const INVERSE: Inverse = Inverse {
+        force: "motor.force",
+        position: "motion.position",
+        acceleration: "motion.acceleration",
+        instead: "acceleration",
+    };
+
+    #[test]
+    fn a_position_has_to_be_fine_where_the_mass_matters() {
+        let rig = Rig::published("linear-drive").unwrap();
+        let step = |mass: f64, noise: f64| {
+            banded(&rig, &[record(&rig, mass, noise)], INVERSE).map(|it| it.records[0].step)
+        };
+        assert!(step(20.0, 1e-7).unwrap() < 0.01);
+        // Half of the force is at 40 Hz, where nothing of the motion is left in such noise.
+        assert_eq!(step(20.0, 1e-3), None);
+        assert!(step(1e-3, 1e-5).is_some());
+    }
+
+    #[test]
+    fn a_stop_is_a_rest_and_a_reversal_is_none() {
+        let velocity: Vec<f64> = (0..300)
+            .map(|k| if (100..130).contains(&k) { 1e-3 } else { (0.1 * f64::from(k)).cos() })
+            .collect();
+        let rests = resting(&velocity, 0.01);
+        let first = rests.iter().position(|it| *it).unwrap();
+        assert!((99..=100).contains(&first), "{first}");
+        assert!((30..=32).contains(&rests.iter().filter(|it| **it).count()));
+    }
+
+    #[test]
+    fn the_mass_is_found_beside_friction() {
+        let rig = Rig::published("linear-drive").unwrap();
+        let record = record(&rig, 20.0, 0.0).below(100.0);
+        let motion = motion(&record);
+        let at = rig.plant.input("motion.acceleration").unwrap();
+        let mass = coefficient(&motion, &record.measured[0].values, at).unwrap();
+        // The sign stands for a friction that takes a while to turn over.
+        assert!((mass / 20.0 - 1.0).abs() < 0.05, "{mass}");
+    }
+}
