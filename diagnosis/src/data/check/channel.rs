@@ -65,7 +65,7 @@ pub(super) fn check<'a>(
     } else {
         let mut faults = Vec::new();
         let moving = moves(values, MOVING);
-        let steady: Option<Range<usize>> = moving.then(|| stuck(values, others)).flatten();
+        let steady: Option<Range<usize>> = moving.then(|| stuck(values, others.clone())).flatten();
         if let Some(run) = &steady {
             let text = format!(
                 "is stuck at {} {} from {} to {} s while other signals move: check the sensor and its cable, and leave \
@@ -81,7 +81,7 @@ pub(super) fn check<'a>(
             for (extreme, word) in [(f64::max as fn(f64, f64) -> f64, "highest"), (f64::min, "lowest")] {
                 faults.extend(saturation(time, channel, extreme, word));
             }
-            faults.extend(held(time, channel));
+            faults.extend(held(time, channel, others));
         }
         faults.extend(dropouts(time, channel));
         for Fault { text, samples } in faults {
@@ -168,8 +168,25 @@ fn is_smooth(values: &[f64]) -> bool {
     noise_floor(values) < SMOOTH * spread(values).1
 }
 
+/// Whether a rig stands still: every signal keeps its value, and goes on from there. Where samples were lost, what moves has
+/// gone on meanwhile.
+fn rests<'a>(run: &Range<usize>, mut others: impl Iterator<Item = &'a Channel> + Clone) -> bool {
+    let goes_on = |Channel { values, .. }: &Channel| {
+        let change = |pair: &[f64]| (pair[1] - pair[0]).abs();
+        let mut changes: Vec<f64> = values.windows(2).map(change).filter(|it| *it > 0.0).collect();
+        let usual = median(&mut changes).unwrap_or(0.0);
+        let kept = values[run.clone()].iter().all(|it| *it == values[run.start]);
+        kept && values.get(run.end).is_none_or(|next| (next - values[run.start]).abs() <= JUMP * usual)
+    };
+    others.clone().next().is_some() && others.all(goes_on)
+}
+
 /// Short stretches over which a moving signal keeps one value, as where samples were lost and the last one repeated.
-fn held(time: &[f64], channel: &Channel) -> Option<Fault> {
+fn held<'a>(
+    time: &[f64],
+    channel: &Channel,
+    others: impl Iterator<Item = &'a Channel> + Clone,
+) -> Option<Fault> {
     let values = &channel.values;
     // What has no noise may be at rest, and what has less than its lattice's steps keeps its values at every turn.
     if is_smooth(values) || lattice(values).is_some_and(|lattice| noise_floor(values) < lattice.step) {
@@ -186,7 +203,7 @@ fn held(time: &[f64], channel: &Channel) -> Option<Fault> {
         .map(|run| run.start..run.end + 1)
         .filter(|run| run.len() >= HELD && by_chance(run.len()) < BY_CHANCE)
         // Flat tops are another matter.
-        .filter(|run| !extremes.contains(&Some(values[run.start])))
+        .filter(|run| !extremes.contains(&Some(values[run.start])) && !rests(run, others.clone()))
         .collect();
     let longest = stretches.iter().map(Range::len).max().filter(|_| stretches.len() >= FEWEST_HELD)?;
     // What friction holds moves off smoothly; a signal of which samples were lost has gone on meanwhile.
