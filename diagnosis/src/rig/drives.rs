@@ -64,6 +64,8 @@ pub(super) const LINEAR_DRIVE: Kind = Kind {
         DrivenBy { trivial: &["motor.force"], ..driven("drive", "Force", "force", FORCES) },
         DrivenBy { trivial: &["motor.force"], ..driven("drive", "Command", "command", VOLTAGES) },
         DrivenBy {
+            // What turns has its weight, which takes a force that follows the position.
+            base: &["ground_spring.stiffness"],
             trivial: &["position", "velocity", "acceleration"],
             inverse: Some(Inverse {
                 force: "motor.force",
