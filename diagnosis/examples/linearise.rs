@@ -11,7 +11,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use strut_diagnosis::data::map::Map;
-use strut_diagnosis::dataset::import::import;
+use strut_diagnosis::dataset::import::load;
 use strut_diagnosis::estimation::fit::{Coordinate, Fit, Handle, Point};
 use strut_diagnosis::estimation::lsq::Problem;
 use strut_diagnosis::rig::Rig;
@@ -23,9 +23,9 @@ const RUNS: usize = 11;
 fn main() -> Result<(), String> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [rig, record] = &arguments[..] else { return Err("give the name of a rig and a record".into()) };
-    let rig = Rig::published(rig)?;
-    let imported = import(&rig, Path::new(record), &Map::default())?;
-    let record = imported.recorded.ok_or("the record cannot be used")?;
+    let mut rig = Rig::published(rig)?;
+    let loaded = load(&mut rig, &[Path::new(record)], &Map::default())?;
+    let record = loaded.records.into_iter().next().ok_or("the record cannot be used")?;
     let dynamics = rig.plant.prepare(&rig.choices)?;
     let base = rig.base();
     let coordinate = |index: &usize| Coordinate {
