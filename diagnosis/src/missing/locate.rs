@@ -70,20 +70,18 @@ impl Missing<'_> {
             }
             more
         };
-        // Whichever raises the likelihood most, step by step: what is made larger first would stand for the other, too.
         let (mut best, mut likelihood) = (noise.clone(), self.log_likelihood_with(noise, columns));
-        loop {
-            let rows = std::iter::once(None).chain((0..noise.outputs.len()).map(Some));
-            let tried = rows.map(|row| {
+        for row in std::iter::once(None).chain((0..noise.outputs.len()).map(Some)) {
+            loop {
                 let more = larger(&best, row);
-                let likelihood = self.log_likelihood_with(&more, columns);
-                (more, likelihood)
-            });
-            match tried.max_by(|a, b| a.1.total_cmp(&b.1)) {
-                Some((more, other)) if other > likelihood + WORTH => (best, likelihood) = (more, other),
-                _ => return best,
+                let other = self.log_likelihood_with(&more, columns);
+                if other <= likelihood + WORTH {
+                    break;
+                }
+                (best, likelihood) = (more, other);
             }
         }
+        best
     }
 
     /// Compares the likelihoods of a signal missing at each port.
