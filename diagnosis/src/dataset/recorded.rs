@@ -156,6 +156,15 @@ impl Recorded {
         rate
     }
 
+    /// The derivative of a signal at the record's samples: exact where the record ends at its band, by differences elsewhere,
+    /// where what is fast is noise.
+    pub fn rate_of(&self, signal: &[f64]) -> Vec<f64> {
+        match self.inputs.iter().any(|source| matches!(source, Source::RateOf(_))) {
+            true => in_band(signal, self.step, 0.5 / self.step, 1),
+            false => derivative(signal, self.step),
+        }
+    }
+
     /// How the drive changes when one input's signal does.
     pub fn change(&self, input: usize, change: Vec<f64>) -> Vec<(usize, Vec<f64>)> {
         let mut changes = vec![(input, change)];

@@ -3,7 +3,6 @@
 use crate::dataset::recorded::{Recorded, derivative};
 use crate::missing::motion::Motion;
 use crate::missing::trajectory::Window;
-use crate::signal::spectral::in_band;
 
 /// Knots of a curve over a variable.
 const KNOTS: usize = 9;
@@ -85,7 +84,7 @@ pub fn features(
             hats(&v).into_iter().chain(steps).collect()
         }
         Group::Acceleration => {
-            let rate = |(v, window): (&Vec<f64>, &Window)| in_band(v, window.step, 0.5 / window.step, 1);
+            let rate = |(v, window): (&Vec<f64>, &Window)| records[window.record].rate_of(v);
             vec![v.iter().zip(windows).map(rate).collect()]
         }
         Group::Memory => MEMORIES
