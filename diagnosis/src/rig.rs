@@ -275,7 +275,7 @@ impl Rig {
         let drives = self.kind.drives;
         let by_column = |it: &&DrivenBy| it.columns.iter().any(|column| has(column));
         let compared = |it: &&DrivenBy| {
-            let any = |signal: &'static str| self.called(signal).any(|name| has(name));
+            let any = |signal: &'static str| self.called(signal).any(&has);
             // An accelerometer sees what differentiation loses.
             let force = it.inverse.is_some_and(|inverse| any(inverse.force) && !any(inverse.instead));
             force && (has(it.input) || by_column(it))

@@ -81,7 +81,7 @@ pub(super) fn check<'a>(
             for (extreme, word) in [(f64::max as fn(f64, f64) -> f64, "highest"), (f64::min, "lowest")] {
                 faults.extend(saturation(time, channel, extreme, word));
             }
-            faults.extend(held(time, channel, others));
+            faults.extend(held(time, channel, &others));
         }
         faults.extend(dropouts(time, channel));
         for Fault { text, samples } in faults {
@@ -185,7 +185,7 @@ fn rests<'a>(run: &Range<usize>, mut others: impl Iterator<Item = &'a Channel> +
 fn held<'a>(
     time: &[f64],
     channel: &Channel,
-    others: impl Iterator<Item = &'a Channel> + Clone,
+    others: &(impl Iterator<Item = &'a Channel> + Clone),
 ) -> Option<Fault> {
     let values = &channel.values;
     // What has no noise may be at rest, and what has less than its lattice's steps keeps its values at every turn.
