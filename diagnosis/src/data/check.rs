@@ -47,7 +47,7 @@ pub fn check(record: &Record) -> Checked {
         let rest = standstill(record);
         for (i, channel) in record.channels.iter().enumerate() {
             let others = record.channels.iter().enumerate().filter(|&(j, _)| j != i).map(|(_, other)| other);
-            unusable[i] = channel::check(&record.time, channel, others, &mut problems);
+            unusable[i] = channel::check(&record.time, channel, &others, &mut problems);
             if let Some(rest) = rest.clone() {
                 check_offset(&record.time, channel, rest, &mut problems);
             }

@@ -133,7 +133,7 @@ fn multisine(time: Vec<f64>, amplitude: f64, from: f64, to: f64) -> Vec<f64> {
     };
     // The peak is that between the samples, too: it must not depend on how often it is sampled.
     let end = time.last().copied().unwrap_or(0.0);
-    let fine = 0.02 / to;
+    let fine = 5e-3 / to;
     let peak =
         (0..=(end / fine) as usize).map(|k| value(fine * k as f64).abs()).fold(f64::MIN_POSITIVE, f64::max);
     time.into_iter().map(|t| amplitude * value(t) / peak).collect()

@@ -117,6 +117,12 @@ impl World<'_> {
             let values = handles.into_iter().map(|handle| (handle, at.get(handle))).collect();
             Ok::<_, String>(Law { term, dynamics: self.dynamics(&[term])?, values })
         };
+        let mut laws = Vec::new();
+        for term in found.iter().filter(|term| matches!(term, Term::Cause(_) | Term::Table(_))) {
+            let handles: Vec<Handle> = self.own_coordinates(*term).into_iter().map(|it| it.handle).collect();
+            handles.iter().for_each(|handle| point.set(*handle, self.origin().get(*handle)));
+            laws.push(law(*term, handles)?);
+        }
         let mut own = Vec::new();
         for cause in catalogue::causes(&self.rig.plant) {
             let parts = cause.parts.iter().filter_map(|part| self.rig.plant.parameter(part.parameter));
@@ -126,12 +132,6 @@ impl World<'_> {
                 own.push(law(Term::Cause(cause), parts.iter().map(|it| Handle::Parameter(*it)).collect())?);
                 parts.iter().for_each(|it| point.parameters[*it] = self.rig.plant.parameters[*it].start);
             }
-        }
-        let mut laws = Vec::new();
-        for term in found.iter().filter(|term| matches!(term, Term::Cause(_) | Term::Table(_))) {
-            let handles: Vec<Handle> = self.own_coordinates(*term).into_iter().map(|it| it.handle).collect();
-            handles.iter().for_each(|handle| point.set(*handle, self.origin().get(*handle)));
-            laws.push(law(*term, handles)?);
         }
         let beside = |index: &usize| {
             own.iter()
@@ -190,7 +190,7 @@ impl World<'_> {
             missing.windows = windows;
         }
         for law in &frame.laws {
-            let (term, at) = ((law.term, &*law.dynamics), law.at(&frame.point));
+            let (term, at) = ((law.term, &*law.dynamics), law.at(&missing.point()));
             let of = |window: &Window| missing.setting.changed((records, window), term, &at);
             let columns: Option<Vec<Column>> = missing.windows.iter().map(of).collect();
             missing.explain(columns.into_iter());

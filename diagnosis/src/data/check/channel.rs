@@ -44,7 +44,7 @@ struct Fault {
 pub(super) fn check<'a>(
     time: &[f64],
     channel: &Channel,
-    others: impl Iterator<Item = &'a Channel> + Clone,
+    others: &(impl Iterator<Item = &'a Channel> + Clone),
     problems: &mut Problems,
 ) -> Vec<Range<usize>> {
     let values = &channel.values;
@@ -81,7 +81,7 @@ pub(super) fn check<'a>(
             for (extreme, word) in [(f64::max as fn(f64, f64) -> f64, "highest"), (f64::min, "lowest")] {
                 faults.extend(saturation(time, channel, extreme, word));
             }
-            faults.extend(held(time, channel, &others));
+            faults.extend(held(time, channel, others));
         }
         faults.extend(dropouts(time, channel));
         for Fault { text, samples } in faults {
