@@ -9,6 +9,7 @@ pub mod filter;
 pub mod innovations;
 pub mod likelihood;
 pub mod locate;
+mod look;
 pub mod motion;
 mod nominal;
 pub mod ports;

@@ -9,6 +9,7 @@ use crate::screening::rms;
 
 use super::filter::{Filter, Passed, Smoothed, smoothed};
 use super::innovations::Column;
+use super::look::Look;
 use super::ports::{Entry, Port};
 
 /// Time in which a missing signal forgets what it was, in seconds: it may change as fast as a rig's own motions.
@@ -19,8 +20,6 @@ const LOOK: usize = 400;
 const BELIEVED: f64 = 2.0;
 /// Resolution of a signal without noise, in shares of its root mean square.
 const RESOLUTION: f64 = 1e-4;
-/// Share of what a port does that another one does not, below which the two are one place.
-const TIED: f64 = 1e-6;
 /// Share of a state's nominal value by which the model's own integration may be wrong in a sample.
 const ROUNDING: f64 = 1e-7;
 
@@ -86,8 +85,8 @@ pub struct Window {
     pub timing: Vec<Column>,
     /// Rates and predicted outputs with the laws that the rig has by its parameter set, where it has some.
     pub lawful: Option<(Vec<f64>, Vec<f64>)>,
-    /// Variances that laws add to the next states and to the outputs, sample by sample, since the trajectory is known so well
-    /// only; empty: none.
+    /// Variances that laws add to the next states and to the outputs, sample by sample, for the limited accuracy of the
+    /// trajectory; empty: none.
     pub loose: (Vec<f64>, Vec<f64>),
     /// Rates of the states that matter by a unit signal at each port of the plant, sample by sample.
     pub pushes: Vec<Vec<f64>>,
@@ -124,7 +123,7 @@ impl<'a> Setting<'a> {
             inputs.iter().map(|input| Seed::Inputs(record.change(*input, drive.inputs[*input].clone())));
         let seeds: Vec<Seed> = (0..states).map(Seed::State).chain(moving).chain(driven).collect();
         let wanted: Vec<usize> = record.measured.iter().map(|it| it.output).collect();
-        let mut look = Look { width: seeds.len(), next: vec![], outputs: vec![] };
+        let mut look = Look::new(seeds.len());
         dynamics.followed(&point.parameters, start, &drive, (&seeds, &wanted), &mut look);
         let active = look.active(states);
         let magnitudes: Vec<f64> = (0..wanted.len()).map(|row| magnitude(records, row)).collect();
@@ -147,7 +146,7 @@ impl<'a> Setting<'a> {
         };
         let ties =
             (0..ports.len()).map(|port| (0..port).find(|it| same(*it, port)).unwrap_or(port)).collect();
-        let inputs = column..look.width;
+        let inputs = column..seeds.len();
         let size = |(port, own): (&Port, &Option<usize>)| match (port.entry, own) {
             (Entry::Sensor(row), _) => magnitudes[row],
             (_, own) => own.map_or(f64::MIN_POSITIVE, |own| look.size(own, &magnitudes, &inputs)),
@@ -280,83 +279,6 @@ fn magnitude(records: &[Recorded], row: usize) -> f64 {
     let values: Vec<f64> =
         records.iter().flat_map(|it: &Recorded| it.measured[row].values.iter().copied()).collect();
     rms(&values).max(f64::MIN_POSITIVE)
-}
-
-/// Which states matter: the largest derivatives over the first samples.
-struct Look {
-    width: usize,
-    next: Vec<f64>,
-    outputs: Vec<f64>,
-}
-
-impl Look {
-    /// States that reach a measured output, directly or by others.
-    fn active(&self, states: usize) -> Vec<usize> {
-        let mut reaches: Vec<bool> = (0..states)
-            .map(|state| self.outputs.chunks_exact(self.width).any(|row| row[state] > 0.0))
-            .collect();
-        loop {
-            let before = reaches.clone();
-            for (to, row) in self.next.chunks_exact(self.width).enumerate() {
-                for (from, slope) in row[..states].iter().enumerate() {
-                    reaches[from] |= before[to] && *slope > 0.0;
-                }
-            }
-            if reaches == before {
-                return (0..states).filter(|it| reaches[*it]).collect();
-            }
-        }
-    }
-
-    /// Whether two seeds do the same but for their size.
-    fn same(&self, a: usize, b: usize) -> bool {
-        let rows = || self.next.chunks_exact(self.width).chain(self.outputs.chunks_exact(self.width));
-        let (mut aa, mut ab, mut bb) = (0.0, 0.0, 0.0);
-        for row in rows() {
-            aa += row[a] * row[a];
-            ab += row[a] * row[b];
-            bb += row[b] * row[b];
-        }
-        aa > 0.0 && bb > 0.0 && ab * ab > (1.0 - TIED) * aa * bb
-    }
-
-    /// The size of a port's signal that moves what the sensors show as far as it moves; where a port shows more by what it
-    /// does to the states within a sample than at once, the size that moves the states as far as the inputs do.
-    fn size(&self, port: usize, magnitudes: &[f64], inputs: &Range<usize>) -> f64 {
-        let least = |slope: &dyn Fn(&[f64]) -> f64| {
-            let shown = self.outputs.chunks_exact(self.width).zip(magnitudes);
-            let shown = shown.map(|(row, size)| (slope(row), size)).filter(|(slope, _)| *slope > 0.0);
-            shown.map(|(slope, size)| size / slope).fold(f64::INFINITY, f64::min)
-        };
-        let next = || self.next.chunks_exact(self.width).map(|row| row[port]);
-        let at_once = least(&|row| row[port]);
-        let by_states = least(&|row| row.iter().zip(next()).map(|(h, next)| h * next).sum());
-        if at_once.is_finite() && at_once <= by_states {
-            return at_once;
-        }
-        let driven = self.next.chunks_exact(self.width).filter(|row| row[port] > 0.0);
-        let driven = driven.flat_map(|row| row[inputs.clone()].iter().map(move |it| it / row[port]));
-        let sizes = [driven.fold(0.0, f64::max), at_once.min(by_states)];
-        // What shows nowhere is not missed.
-        sizes.into_iter().find(|it| *it > 0.0 && it.is_finite()).unwrap_or(f64::MIN_POSITIVE)
-    }
-}
-
-impl Follower for Look {
-    fn state(&mut self, _: usize, _: &mut [f64]) {}
-
-    fn seen(&mut self, _: usize, seen: Seen<'_>, _: &mut [f64]) {
-        larger(&mut self.outputs, seen.slopes);
-    }
-
-    fn advanced(&mut self, _: usize, _: &[f64], slopes: &[f64]) {
-        larger(&mut self.next, slopes);
-    }
-}
-
-fn larger(most: &mut Vec<f64>, slopes: &[f64]) {
-    most.resize(slopes.len(), 0.0);
-    most.iter_mut().zip(slopes).for_each(|(most, slope)| *most = most.max(slope.abs()));
 }
 
 /// An extended Kalman filter on its way through a record, every port's signal being free.

@@ -1,0 +1,90 @@
+//! A first look at a rig: which of its states matter, and what a signal at each port does.
+
+use std::ops::Range;
+
+use crate::plant::{Follower, Seen};
+
+/// Share of what a port does that another one does not, below which the two are one place.
+const TIED: f64 = 1e-6;
+
+/// Which states matter: the largest derivatives over the first samples.
+pub(super) struct Look {
+    width: usize,
+    next: Vec<f64>,
+    outputs: Vec<f64>,
+}
+
+impl Look {
+    /// Before anything is seen, for so many seeds.
+    pub fn new(width: usize) -> Self {
+        Self { width, next: Vec::new(), outputs: Vec::new() }
+    }
+
+    /// States that reach a measured output, directly or by others.
+    pub fn active(&self, states: usize) -> Vec<usize> {
+        let mut reaches: Vec<bool> = (0..states)
+            .map(|state| self.outputs.chunks_exact(self.width).any(|row| row[state] > 0.0))
+            .collect();
+        loop {
+            let before = reaches.clone();
+            for (to, row) in self.next.chunks_exact(self.width).enumerate() {
+                for (from, slope) in row[..states].iter().enumerate() {
+                    reaches[from] |= before[to] && *slope > 0.0;
+                }
+            }
+            if reaches == before {
+                return (0..states).filter(|it| reaches[*it]).collect();
+            }
+        }
+    }
+
+    /// Whether two seeds do the same but for their size.
+    pub fn same(&self, a: usize, b: usize) -> bool {
+        let rows = || self.next.chunks_exact(self.width).chain(self.outputs.chunks_exact(self.width));
+        let (mut aa, mut ab, mut bb) = (0.0, 0.0, 0.0);
+        for row in rows() {
+            aa += row[a] * row[a];
+            ab += row[a] * row[b];
+            bb += row[b] * row[b];
+        }
+        aa > 0.0 && bb > 0.0 && ab * ab > (1.0 - TIED) * aa * bb
+    }
+
+    /// The size of a port's signal that moves what the sensors show as far as it moves; where a port shows more by what it
+    /// does to the states within a sample than at once, the size that moves the states as far as the inputs do.
+    pub fn size(&self, port: usize, magnitudes: &[f64], inputs: &Range<usize>) -> f64 {
+        let least = |slope: &dyn Fn(&[f64]) -> f64| {
+            let shown = self.outputs.chunks_exact(self.width).zip(magnitudes);
+            let shown = shown.map(|(row, size)| (slope(row), size)).filter(|(slope, _)| *slope > 0.0);
+            shown.map(|(slope, size)| size / slope).fold(f64::INFINITY, f64::min)
+        };
+        let next = || self.next.chunks_exact(self.width).map(|row| row[port]);
+        let at_once = least(&|row| row[port]);
+        let by_states = least(&|row| row.iter().zip(next()).map(|(h, next)| h * next).sum());
+        if at_once.is_finite() && at_once <= by_states {
+            return at_once;
+        }
+        let driven = self.next.chunks_exact(self.width).filter(|row| row[port] > 0.0);
+        let driven = driven.flat_map(|row| row[inputs.clone()].iter().map(move |it| it / row[port]));
+        let sizes = [driven.fold(0.0, f64::max), at_once.min(by_states)];
+        // What shows nowhere is not missed.
+        sizes.into_iter().find(|it| *it > 0.0 && it.is_finite()).unwrap_or(f64::MIN_POSITIVE)
+    }
+}
+
+impl Follower for Look {
+    fn state(&mut self, _: usize, _: &mut [f64]) {}
+
+    fn seen(&mut self, _: usize, seen: Seen<'_>, _: &mut [f64]) {
+        larger(&mut self.outputs, seen.slopes);
+    }
+
+    fn advanced(&mut self, _: usize, _: &[f64], slopes: &[f64]) {
+        larger(&mut self.next, slopes);
+    }
+}
+
+fn larger(most: &mut Vec<f64>, slopes: &[f64]) {
+    most.resize(slopes.len(), 0.0);
+    most.iter_mut().zip(slopes).for_each(|(most, slope)| *most = most.max(slope.abs()));
+}
