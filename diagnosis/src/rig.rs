@@ -321,11 +321,11 @@ impl Rig {
 
     /// Whether an input does nothing, since the plant is driven by another one.
     pub fn is_idle(&self, input: &str) -> bool {
-        let other = |it: &DrivenBy| it.input == input && !self.is_driven(it);
-        let imposed = self.kind.drives.iter().filter(|it| it.inverse.is_some() && !self.is_driven(it));
-        let mut of_imposed = imposed.filter_map(|it| it.input.split_once('.'));
-        self.kind.drives.iter().any(other)
-            || of_imposed.any(|(group, _)| input.split_once('.').is_some_and(|(own, _)| own == group))
+        // A rate drives with its motion.
+        if let Some(motion) = self.rate_of(input) {
+            return self.is_idle(&self.plant.inputs[motion].name);
+        }
+        self.kind.drives.iter().any(|it| it.input == input && !self.is_driven(it))
     }
 
     /// The state that an output shows.

@@ -18,7 +18,7 @@ use crate::report::words::digits;
 use crate::rig::{Inverse, Rig};
 use crate::screening::rms;
 use crate::signal::distortion::Correction;
-use crate::signal::random::Random;
+use crate::signal::random::with_noise;
 use crate::signal::spectral::{about_line, filled};
 
 /// Lowest end of a band in Hz: at its sampling rate, a block of errors has ten samples.
@@ -35,6 +35,7 @@ const NARROWER: f64 = 0.8;
 const STILL: f64 = 0.02;
 /// … if it lasts so long, in seconds: a reversal does not.
 const REST: f64 = 0.1;
+
 /// Records in the band in which their motion is known.
 #[derive(Clone, Debug)]
 pub struct Banded {
@@ -147,7 +148,7 @@ fn resting(velocity: &[f64], step: f64) -> Vec<bool> {
 
 /// Mean square of the known values about their mean.
 fn power(values: &[f64]) -> f64 {
-    rms(&values.iter().copied().filter(|it| it.is_finite()).collect::<Vec<_>>()).powi(2)
+    rms(values).powi(2)
 }
 
 /// The frequency above which a signal has no power worth a comparison, in Hz: the highest over the record's sections.
@@ -209,8 +210,7 @@ fn with_noise_again(record: &Recorded) -> Recorded {
     let mut inputs = record.inputs.clone();
     for (channel, source) in (1..).zip(&mut inputs) {
         if let Source::Measured(values) = source {
-            let (deviation, mut random) = (noise_floor(values), Random::new(channel));
-            values.iter_mut().for_each(|value| *value += deviation * random.normal());
+            *values = with_noise(values, noise_floor(values), channel);
         }
     }
     Recorded { inputs, ..record.clone() }
@@ -223,6 +223,7 @@ mod tests {
     use super::*;
     use crate::dataset::recorded::Measured;
     use crate::plant::Between;
+    use crate::signal::random::Random;
 
     /// A mass and 30 N of friction, moved by 10 mm at 2 Hz, 3 mm at 6.2 Hz and 0.1 mm at 40 Hz.
     fn record(rig: &Rig, mass: f64, noise: f64) -> Recorded {
@@ -251,18 +252,12 @@ mod tests {
         }
     }
 
-    const INVERSE: Inverse = Inverse {
-        force: "motor.force",
-        position: "motion.position",
-        acceleration: "motion.acceleration",
-        instead: "acceleration",
-    };
-
     #[test]
     fn a_position_has_to_be_fine_where_the_mass_matters() {
         let rig = Rig::published("linear-drive").unwrap();
+        let inverse = rig.kind.drives.iter().find_map(|by| by.inverse).unwrap();
         let step = |mass: f64, noise: f64| {
-            banded(&rig, &[record(&rig, mass, noise)], INVERSE).map(|it| it.records[0].step)
+            banded(&rig, &[record(&rig, mass, noise)], inverse).map(|it| it.records[0].step)
         };
         assert!(step(20.0, 1e-7).unwrap() < 0.01);
         // Half of the force is at 40 Hz, where nothing of the motion is left in such noise.

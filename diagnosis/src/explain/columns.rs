@@ -44,8 +44,8 @@ impl Setting<'_> {
         }
     }
 
-    /// Adds what laws may be otherwise, since the trajectory is known so well only: the friction of what hardly moves is
-    /// anything up to its limit, whatever the sign of the velocity seems to be.
+    /// Adds the spread of the laws within the accuracy of the trajectory: the friction of a body that hardly moves is anything
+    /// up to its limit, whatever the sign of the velocity seems to be.
     pub fn loosen(&self, record: &Recorded, window: &mut Window, with_laws: &Point) {
         let (n, m, samples) = (window.states, window.outputs, window.samples.len());
         let mut loose = (vec![0.0; samples.saturating_sub(1) * n], vec![0.0; samples * m]);
@@ -91,12 +91,13 @@ impl Setting<'_> {
         dynamics: &dyn Dynamics,
         point: &Point,
     ) -> Along<'b> {
-        let drive = record.drive(&window.samples, &point.inputs);
+        // Most laws leave the inputs as they are.
+        let changed =
+            (point.inputs != self.point.inputs).then(|| record.drive(&window.samples, &point.inputs));
+        let drive = changed.as_ref().unwrap_or(&window.drive);
         let wanted: Vec<usize> = record.measured.iter().map(|it| it.output).collect();
-        let plain = window.plain();
-        let mut along =
-            Along { active: &self.active, window, shift, plain, rates: Vec::new(), outputs: Vec::new() };
-        dynamics.followed(&point.parameters, &window.trajectory[0], &drive, (&[], &wanted), &mut along);
+        let mut along = Along { active: &self.active, window, shift, rates: Vec::new(), outputs: Vec::new() };
+        dynamics.followed(&point.parameters, &window.trajectory[0], drive, (&[], &wanted), &mut along);
         along
     }
 
@@ -139,8 +140,6 @@ struct Along<'a> {
     window: &'a Window,
     /// A state, by its place among those that matter, and by how much it is moved off the trajectory.
     shift: (usize, f64),
-    /// Rates and outputs from which changes are counted.
-    plain: (&'a [f64], &'a [f64]),
     /// Changes of the rates, sample by sample and state by state.
     rates: Vec<f64>,
     outputs: Vec<f32>,
@@ -212,7 +211,7 @@ impl Follower for Along<'_> {
     }
 
     fn seen(&mut self, sample: usize, Seen { outputs, rates, .. }: Seen<'_>, _: &mut [f64]) {
-        let (plain_rates, plain_outputs) = self.plain;
+        let (plain_rates, plain_outputs) = self.window.plain();
         let predicted = &plain_outputs[sample * outputs.len()..];
         self.outputs.extend(outputs.iter().zip(predicted).map(|(value, plain)| (value - plain) as f32));
         let plain = &plain_rates[sample * self.active.len()..];

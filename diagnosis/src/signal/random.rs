@@ -2,6 +2,12 @@
 
 use std::f64::consts::TAU;
 
+/// Values with white noise of a standard deviation, the same for each seed.
+pub(crate) fn with_noise(values: &[f64], deviation: f64, seed: u64) -> Vec<f64> {
+    let mut random = Random::new(seed);
+    values.iter().map(|value| value + deviation * random.normal()).collect()
+}
+
 /// Marsaglia's xorshift.
 pub(crate) struct Random(u64);
 

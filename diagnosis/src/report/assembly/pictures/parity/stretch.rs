@@ -6,7 +6,7 @@ use crate::data::check::noise_floor;
 use crate::dataset::recorded::{Recorded, Source};
 use crate::estimation::fit::Point;
 use crate::plant::{Between, Drive, Plant};
-use crate::signal::random::Random;
+use crate::signal::random::with_noise;
 use crate::signal::spectral::{filled, in_band, power_spectrum};
 
 /// How far a signal's power stands above its noise's where it still counts.
@@ -170,8 +170,7 @@ impl Rigged<'_> {
         if !self.noisy {
             return values.to_vec();
         }
-        let mut random = Random::new(channel + 1);
-        values.iter().map(|value| value + deviation * random.normal()).collect()
+        with_noise(values, deviation, channel + 1)
     }
 }
 
