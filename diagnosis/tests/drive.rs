@@ -106,7 +106,7 @@ fn friction_is_found_in_a_drive_of_which_nothing_was_known() {
     ] {
         assert!((found / there - 1.0).abs() < 0.03, "{found} for {there}");
     }
-    // The motion is given and the force compared: what is left is how fast friction turns over.
+    // The motion is given and the force compared: the remaining error is the transition of the friction.
     let force = &report["signals"][0];
     assert_eq!(force["name"], "motor.force");
     assert!(force["phi_after"].as_f64().unwrap() > 0.94, "{force}");

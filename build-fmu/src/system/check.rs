@@ -22,7 +22,7 @@ pub struct Checked<'a> {
 }
 
 impl<'a> Checked<'a> {
-    /// Finds every name and compares every unit. All mistakes are told at once.
+    /// Finds every name and compares every unit. The error lists all mistakes.
     pub fn new(system: &System, faces: &'a [Face]) -> Result<Self> {
         let finder = Finder { system, faces };
         let mut checked =

@@ -171,7 +171,7 @@ fn connectors(checked: &Checked, component: usize) -> Vec<Element> {
     connectors
 }
 
-/// The connectors of an adapter bear the units that its parameter set gives it: those of what they are joined to.
+/// The connectors of an adapter have the units of its parameter set, which are those of the connected components.
 fn adapter_connectors(checked: &Checked, index: usize) -> Vec<Element> {
     let Adapter { units: [from, to], .. } = &checked.adapters[index];
     let added = checked.wires.iter().any(|wire| matches!(wire.to, Sink::Added(adapter) if adapter == index));

@@ -31,7 +31,7 @@ const BEYOND_CHANCE: f64 = 1.5;
 impl Recorded {
     /// The record without its inputs' noise, and thinned.
     pub fn conditioned(&self) -> Self {
-        // Of what is thinned to its band, nobody tells noise from signal any more.
+        // In a record that is thinned to its band already, noise and signal look alike.
         if self.between == Between::Curves { self.clone() } else { self.thinned(ENOUGH, true) }
     }
 
@@ -41,8 +41,8 @@ impl Recorded {
         self.thinned(2.0 * top / KEPT, false)
     }
 
-    /// The record with at least so many samples a second, and nothing above four fifths of half of them.
-    /// Without the inputs' noise, if it is to be taken away.
+    /// The record with at least `rate` samples a second, without frequencies above four fifths of half of them; without the
+    /// inputs' noise, if `denoised`.
     fn thinned(&self, rate: f64, denoised: bool) -> Self {
         let factor = ((1.0 / (self.step * rate)).floor() as usize).max(1);
         let mut sections: Vec<Range<usize>> = Vec::new();

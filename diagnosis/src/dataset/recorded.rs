@@ -157,7 +157,7 @@ impl Recorded {
     }
 
     /// The derivative of a signal at the record's samples: exact where the record ends at its band, by differences elsewhere,
-    /// where what is fast is noise.
+    /// since the fast part is noise.
     pub fn rate_of(&self, signal: &[f64]) -> Vec<f64> {
         match self.inputs.iter().any(|source| matches!(source, Source::RateOf(_))) {
             true => in_band(signal, self.step, 0.5 / self.step, 1),

@@ -40,7 +40,7 @@ impl Evidence {
     /// What has to be exceeded, in every gate; the chance must not be. The information criterion alone is never the verdict: small unmodelled
     /// effects pass it on every record.
     ///
-    /// Of `phi_gain` and `taken`, one is enough: what is large, or more than half of what is missing.
+    /// Of `phi_gain` and `taken`, one is enough: a large error, or more than half of the missing signal.
     pub const REQUIRED: Self = Self {
         delta_bic: 20.0,
         block_t: 3.5,

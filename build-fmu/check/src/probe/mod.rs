@@ -148,7 +148,7 @@ impl Calling {
     fn tell(&mut self, what: &str) {
         if let Some(file) = &mut self.0 {
             let text = format!("{what:<width$}", width = Self::LENGTH);
-            // Without the file, a crash is told without its place.
+            // Without the file, the message on a crash does not name the function.
             let _ = file.rewind().and_then(|()| file.write_all(text.as_bytes()));
         }
     }

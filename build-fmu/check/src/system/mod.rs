@@ -212,7 +212,7 @@ fn found(declared: &[Unit], symbol: &str) -> Unit {
 /// Checks an FMU of the archive; what is found is told with its name. Returns its description if it is FMI 2.0.
 fn component(file: &str, path: &Path, options: &Options, report: &mut Report) -> Option<Description> {
     let within = |line: &String| format!("{file}: {line}");
-    // What it finds is told with its name, here.
+    // The caller reports its findings, with the file's name.
     let options = &Options { listener: None, ..options.clone() };
     let opened = Package::open(path).and_then(|mut inner| Ok((fmu::description(&mut inner)?, inner)));
     let told = opened.and_then(|(description, mut inner)| match fmu::check(path, &mut inner, options) {

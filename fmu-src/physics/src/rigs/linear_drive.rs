@@ -131,7 +131,7 @@ pub struct Load<R> {
     pub force: R,
 }
 
-/// What the forces on the carriage have made of its motion; in the setting Motion it goes where it is told.
+/// States: the motion that the forces make, or the integral of the imposed motion (setting Motion).
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct State<R> {
     /// Carriage
@@ -335,7 +335,7 @@ mod tests {
         forward.set("force", force);
         assert!((forward.get("acceleration") - 1.7).abs() < 1e-12, "{}", forward.get("acceleration"));
         assert_eq!(forward.get("motor.force"), force);
-        // The carriage goes where it is told.
+        // The carriage follows the imposed motion.
         inverse.step(0.1);
         assert!((inverse.get("carriage.position") - 0.05).abs() < 1e-9);
         assert_eq!(inverse.get("position"), 0.02);
