@@ -20,10 +20,10 @@ const MISSING_IN_THE_MOTOR: Missing = Missing {
     over: &[Element::Guide],
 };
 
-const POSITION: Aliases = ("position", &["displacement", "x", "q", "measured.position", "motor.position"]);
+const POSITION: Aliases = ("position", POSITIONS);
 const VELOCITY: Aliases = ("velocity", &["speed", "v", "measured.velocity"]);
 const ACCELERATION: Aliases = ("acceleration", &["a"]);
-const POSITIONS: &[&str] = &["position", "displacement", "x", "q", "measured.position"];
+const POSITIONS: &[&str] = &["position", "displacement", "x", "q", "measured.position", "motor.position"];
 const LOAD: Aliases = ("load.force", &["external.force"]);
 
 const FORCES: &[&str] = &["force.command", "commanded.force", "control.force", "force", "motor.force"];
