@@ -3,11 +3,12 @@
 use crate::catalogue::naming::{name, prevalence};
 use crate::catalogue::{Element, Prevalence};
 use crate::dataset::recorded::Recorded;
+use crate::decision::account::account;
 use crate::decision::evidence::Evidence;
 use crate::estimation::comparison::{Errors, Student, student};
 use crate::estimation::fit::{Handle, Residuals, strain};
 use crate::estimation::hypothesis::{Fitted, TIMING, Term, World};
-use crate::screening::bent_rms;
+use crate::screening::{bent_rms, rms};
 use crate::signal::distortion::Fault;
 
 use super::has_threshold;
@@ -61,7 +62,7 @@ impl World<'_> {
             explained: if is_resonance(term) { learnt.max(held_out) } else { held_out },
             phi_gain: everywhere(term, self.phi_gains(null, fitted)),
             taken: everywhere(term, shares(null, fitted).map(|share| 1.0 - share)),
-            usual: self.is_usual(term, fitted),
+            usual: self.is_usual(term, fitted) && !self.is_open(&null.test),
             grave: false,
         }
     }
@@ -91,6 +92,22 @@ impl World<'_> {
         let driving = matches!(term, Term::Fault(Handle::Input(..)));
         let timing = is_in_time(term, fitted).is_some_and(|it| driving && (name(term, plant).sensor || it));
         prevalence(term, plant) == Prevalence::Background || timing
+    }
+
+    /// Whether these errors on the validation records leave the account of some signal open. What every rig has a little of leaves
+    /// it closed: where it is open, no more is asked of it than of any effect.
+    fn is_open(&self, left: &Residuals) -> bool {
+        let open = |(row, power): (usize, f64)| {
+            let noise = self.floor[row].powi(2);
+            account(power, power, &[], noise, 0.0).is_open(self.signal(row))
+        };
+        self.errors(left).mean_squares().into_iter().enumerate().any(open)
+    }
+
+    /// Mean square of a measured output on the validation records.
+    pub(crate) fn signal(&self, row: usize) -> f64 {
+        let values = self.test.iter().flat_map(|record| record.measured[row].values.iter().copied());
+        rms(&values.collect::<Vec<_>>()).powi(2)
     }
 
     /// The largest rise of Φ among the signals: on the training and on the held-out data. It is of what the model has to tell:

@@ -174,8 +174,9 @@ impl World<'_> {
                 }
                 Choice::Named(scores) => (scores, 0.0),
             };
-            // A fit is not worth its time where no signal would gain.
-            if scores.first().is_none_or(|it| self.improvement(&found.extended, it.share) < SMALLEST) {
+            // A fit is not worth its time where no signal has anything to gain. A share of the innovations says little of a share of
+            // the error, since a nominal parameter may have taken the effect's place.
+            if scores.is_empty() || self.improvement(&found.extended, 1.0) < SMALLEST {
                 return Ok(curve.map_or(Next::Nothing, Next::Curve));
             }
             let mut proposals = compared.proposals(&scores, Limits::USUAL.most);

@@ -30,9 +30,15 @@ impl Setting<'_> {
         rates
     }
 
-    /// Lets laws that the rig has by its parameter set act along the trajectory: from here on, changes are counted from there.
-    pub fn take_along(&self, record: &Recorded, window: &mut Window, laws: &[Column], with_laws: &Point) {
-        let along = self.along(record, window, self.dynamics, with_laws);
+    /// Lets laws act along the trajectory: from here on, changes are counted from there.
+    pub fn take_along(
+        &self,
+        record: &Recorded,
+        window: &mut Window,
+        laws: &[Column],
+        (dynamics, lawful): (&dyn Dynamics, &Point),
+    ) {
+        let along = self.along(record, window, dynamics, lawful);
         let rates = along.rates.iter().zip(&window.rates).map(|(more, plain)| more + plain).collect();
         let outputs = along.outputs.iter().zip(&window.predicted);
         let outputs = outputs.map(|(more, plain)| f64::from(*more) + plain).collect();
@@ -44,34 +50,41 @@ impl Setting<'_> {
         }
     }
 
-    /// Adds the spread of the laws within the accuracy of the trajectory: the friction of a body that hardly moves is anything
-    /// up to its limit, whatever the sign of the velocity seems to be.
-    pub fn loosen(&self, record: &Recorded, window: &mut Window, with_laws: &Point) {
+    /// Adds the spread of the laws within the accuracy of the trajectory, and of the velocity within which friction turns over: the
+    /// friction of a body that hardly moves is anything up to its limit, whatever the sign of the velocity seems to be.
+    pub fn loosen(
+        &self,
+        record: &Recorded,
+        window: &mut Window,
+        dynamics: &dyn Dynamics,
+        (lawful, sharp): (&Point, &Point),
+    ) {
         let (n, m, samples) = (window.states, window.outputs, window.samples.len());
         let mut loose = (vec![0.0; samples.saturating_sub(1) * n], vec![0.0; samples * m]);
-        for state in 0..n {
-            let values: Vec<f64> = window.trajectory.iter().map(|it| it[self.active[state]]).collect();
-            let reach = KNOWN * rms(&values);
-            let law = |shift: f64| {
-                let shifted = |point: &Point| self.shifted(record, window, point, (state, shift));
-                let (with, without) = (shifted(with_laws), shifted(&self.point));
-                with.minus(&without)
-            };
-            let spread = law(reach).minus(&law(-reach));
+        let mut add = |spread: &Column, share: f32| {
             let add = |to: &mut [f64], spread: &[f32]| {
-                to.iter_mut().zip(spread).for_each(|(to, it)| *to += f64::from(0.5 * it).powi(2));
+                to.iter_mut().zip(spread).for_each(|(to, it)| *to += f64::from(share * it).powi(2));
             };
             add(&mut loose.0, &spread.next);
             add(&mut loose.1, &spread.outputs);
+        };
+        let at = |(dynamics, point): (&dyn Dynamics, &Point), shift: Option<&Shift>| {
+            let along = self.along_shifted(record, (window, shift), dynamics, point);
+            Column { next: along.increments(), outputs: along.outputs }
+        };
+        if sharp != lawful {
+            add(&at((dynamics, sharp), None).minus(&at((dynamics, lawful), None)), 1.0);
+        }
+        for state in 0..n {
+            let reach = reach(window, self.active[state]);
+            let law = |sign: f64| {
+                let by = reach.iter().map(|it| sign * it).collect();
+                let shift = Shift { state, by };
+                at((dynamics, sharp), Some(&shift)).minus(&at((self.dynamics, &self.point), Some(&shift)))
+            };
+            add(&law(1.0).minus(&law(-1.0)), 0.5);
         }
         window.loose = loose;
-    }
-
-    /// What the model says otherwise along a trajectory with one state shifted.
-    fn shifted(&self, record: &Recorded, window: &Window, point: &Point, shift: (usize, f64)) -> Column {
-        let along = self.along_shifted(record, (window, shift), self.dynamics, point);
-        let next = along.increments();
-        Column { next, outputs: along.outputs }
     }
 
     fn along<'b>(
@@ -81,13 +94,13 @@ impl Setting<'_> {
         dynamics: &dyn Dynamics,
         point: &Point,
     ) -> Along<'b> {
-        self.along_shifted(record, (window, (0, 0.0)), dynamics, point)
+        self.along_shifted(record, (window, None), dynamics, point)
     }
 
     fn along_shifted<'b>(
         &'b self,
         record: &Recorded,
-        (window, shift): (&'b Window, (usize, f64)),
+        (window, shift): (&'b Window, Option<&'b Shift>),
         dynamics: &dyn Dynamics,
         point: &Point,
     ) -> Along<'b> {
@@ -134,12 +147,26 @@ impl Setting<'_> {
     }
 }
 
+/// A state, by its place among those that matter, and by how much it is moved off the trajectory, sample by sample.
+struct Shift {
+    state: usize,
+    by: Vec<f64>,
+}
+
+/// How far a state may be from the trajectory, sample by sample: by a share of its magnitude, and by what it moves in a sample,
+/// since a record does not tell when within a sample a velocity changes its sign.
+fn reach(window: &Window, state: usize) -> Vec<f64> {
+    let values: Vec<f64> = window.trajectory.iter().map(|it| it[state]).collect();
+    let known = KNOWN * rms(&values);
+    let last = values.len() - 1;
+    (0..=last).map(|k| known + (values[(k + 1).min(last)] - values[k.saturating_sub(1)]).abs()).collect()
+}
+
 /// Notes what a model says otherwise along a trajectory.
 struct Along<'a> {
     active: &'a [usize],
     window: &'a Window,
-    /// A state, by its place among those that matter, and by how much it is moved off the trajectory.
-    shift: (usize, f64),
+    shift: Option<&'a Shift>,
     /// Changes of the rates, sample by sample and state by state.
     rates: Vec<f64>,
     outputs: Vec<f32>,
@@ -205,8 +232,8 @@ impl Follower for Along<'_> {
         for index in self.active {
             state[*index] = self.window.trajectory[sample][*index];
         }
-        if let Some(index) = self.active.get(self.shift.0) {
-            state[*index] += self.shift.1;
+        if let Some(Shift { state: moved, by }) = self.shift {
+            state[self.active[*moved]] += by[sample];
         }
     }
 

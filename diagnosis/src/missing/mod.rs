@@ -35,6 +35,8 @@ use trajectory::{Setting, Window};
 const SAMPLES: usize = 12_000;
 /// Longest stretch that is filtered in one go, in seconds.
 const LONGEST: f64 = 10.0;
+/// Share of the velocity within which a parameter set lets friction turn over in which it may really do so.
+const SHARP: f64 = 0.05;
 /// The delay that a timing column stands for, in seconds.
 const DELAY: f64 = 1e-3;
 
@@ -48,8 +50,8 @@ pub struct Missing<'a> {
     pub setting: Setting<'a>,
     /// The predictions about the trajectory.
     pub windows: Vec<Window>,
-    /// Laws that the rig has by its parameter set.
-    own: &'a [Law],
+    /// Laws that act beside the model.
+    laws: &'a [Law],
     /// What was known of each nuisance before: precisions of nominal parameters, then of the channels' timing, then of what was
     /// explained.
     pub precisions: Vec<f64>,
@@ -65,9 +67,9 @@ pub struct Frame {
     /// Whether those that nobody states may be off by decades.
     far: bool,
     dynamics: Box<dyn Dynamics>,
-    /// Laws that the rig has by its parameter set, with the values there.
-    own: Vec<Law>,
-    /// Laws that were found.
+    /// The model with all laws.
+    lawful: Box<dyn Dynamics>,
+    /// Laws that the rig has by its parameter set, and those that were found.
     laws: Vec<Law>,
     ports: Vec<Port>,
     parameters: Vec<usize>,
@@ -81,9 +83,22 @@ struct Law {
     dynamics: Box<dyn Dynamics>,
     /// Its values.
     values: Vec<(Handle, f64)>,
+    /// What is known of its amount, in squares of its reciprocal share: nothing of a law that was found.
+    precision: f64,
 }
 
 impl Law {
+    /// A point with friction that turns over as sharply as that of a body that really sticks.
+    fn sharp(&self, point: &Point) -> Point {
+        let mut point = point.clone();
+        if let (Term::Cause(cause), [_, (handle, velocity)]) = (self.term, &self.values[..])
+            && cause.is_friction()
+        {
+            point.set(*handle, SHARP * velocity);
+        }
+        point
+    }
+
     /// A point with the law.
     fn at(&self, point: &Point) -> Point {
         let mut point = point.clone();
@@ -114,28 +129,32 @@ impl World<'_> {
                 }
             }
         }
-        let law = |term: Term, handles: Vec<Handle>| {
+        let law = |term: Term, handles: Vec<Handle>, precision: f64| {
             let values = handles.into_iter().map(|handle| (handle, at.get(handle))).collect();
-            Ok::<_, String>(Law { term, dynamics: self.dynamics(&[term])?, values })
+            Ok::<_, String>(Law { term, dynamics: self.dynamics(&[term])?, values, precision })
         };
         let mut laws = Vec::new();
-        for term in found.iter().filter(|term| matches!(term, Term::Cause(_) | Term::Table(_))) {
-            let handles: Vec<Handle> = self.own_coordinates(*term).into_iter().map(|it| it.handle).collect();
-            handles.iter().for_each(|handle| point.set(*handle, self.origin().get(*handle)));
-            laws.push(law(*term, handles)?);
-        }
-        let mut own = Vec::new();
+        let nominal: Vec<usize> =
+            self.rig.nominal().filter_map(|name| self.rig.plant.parameter(name)).collect();
         for cause in catalogue::causes(&self.rig.plant) {
             let parts = cause.parts.iter().filter_map(|part| self.rig.plant.parameter(part.parameter));
             let parts: Vec<usize> = parts.collect();
-            let there = |amount: &usize| self.rig.parameters[*amount] != 0.0;
-            if cause.is_friction() && parts.first().is_some_and(there) {
-                own.push(law(Term::Cause(cause), parts.iter().map(|it| Handle::Parameter(*it)).collect())?);
+            let there = |amount: &usize| {
+                self.rig.parameters[*amount] != 0.0 && self.rig.stated[*amount] && !nominal.contains(amount)
+            };
+            if parts.first().is_some_and(there) {
+                let handles = parts.iter().map(|it| Handle::Parameter(*it)).collect();
+                laws.push(law(Term::Cause(cause), handles, TOLERANCE.powi(-2))?);
                 parts.iter().for_each(|it| point.parameters[*it] = self.rig.plant.parameters[*it].start);
             }
         }
+        for term in found.iter().filter(|term| matches!(term, Term::Cause(_) | Term::Table(_))) {
+            let handles: Vec<Handle> = self.own_coordinates(*term).into_iter().map(|it| it.handle).collect();
+            handles.iter().for_each(|handle| point.set(*handle, self.origin().get(*handle)));
+            laws.push(law(*term, handles, 0.0)?);
+        }
         let beside = |index: &usize| {
-            own.iter()
+            laws.iter()
                 .any(|it: &Law| it.values.iter().any(|(handle, _)| *handle == Handle::Parameter(*index)))
         };
         let parameters = self.rig.base().into_iter().filter(|it| !beside(it)).collect();
@@ -146,8 +165,8 @@ impl World<'_> {
             fresh: found.is_empty(),
             far: false,
             dynamics: self.dynamics(&[])?,
+            lawful: self.dynamics(found)?,
             parameters,
-            own,
             laws,
             ports: Port::all(self.rig, record),
             nominal: states.map(|it| it.nominal.unwrap_or(1.0)).collect(),
@@ -173,12 +192,12 @@ impl World<'_> {
         let about = About { frame, errors, stretches: &stretches, timing: &timing };
         let mut precisions = self.precisions(&frame.parameters);
         precisions.extend(timing.iter().map(|_| (DELAY / TIMING).powi(2)));
-        precisions.extend(frame.own.iter().map(|_| TOLERANCE.powi(-2)));
+        precisions.extend(frame.laws.iter().map(|it| it.precision));
         let point =
             if frame.fresh { self.nominal_by_balance(&about, &precisions) } else { frame.point.clone() };
         let (setting, windows) = self.along(&about, &point)?;
         let (records, train) = (&frame.records[..], self.train.len());
-        let mut missing = Missing { records, train, own: &frame.own, setting, windows, precisions };
+        let mut missing = Missing { records, train, laws: &frame.laws, setting, windows, precisions };
         // Where nothing needs to be missing, a trajectory that follows the sensors follows their noise.
         let location = missing.located();
         let likely = location.ranked.iter().filter(|it| it.gain > 0.0).take(1);
@@ -189,12 +208,6 @@ impl World<'_> {
         let windows = self.windows(&missing.setting, &about, &point);
         if windows.len() == missing.windows.len() {
             missing.windows = windows;
-        }
-        for law in &frame.laws {
-            let (term, at) = ((law.term, &*law.dynamics), law.at(&missing.point()));
-            let of = |window: &Window| missing.setting.changed((records, window), term, &at);
-            let columns: Option<Vec<Column>> = missing.windows.iter().map(of).collect();
-            missing.explain(columns.into_iter());
         }
         Ok(missing)
     }
@@ -232,22 +245,24 @@ impl World<'_> {
             let part = Recorded { sections, ..records[*record].clone() };
             let start = self.starts(std::slice::from_ref(&part)).pop()?;
             let mut window = setting.window(records, *record, samples.clone(), &start)?;
-            // The rig's own laws, as its parameter set has them; by how much more or less is a nuisance.
-            let own =
+            // Laws with their values; by how much more or less is a nuisance.
+            let law =
                 |law: &Law| setting.changed((records, &window), (law.term, &*law.dynamics), &law.at(point));
-            let own = frame.own.iter().map(own).collect::<Option<Vec<Column>>>()?;
-            let with_own = frame.own.iter().fold(point.clone(), |point, law| law.at(&point));
-            if !own.is_empty() {
-                setting.take_along(&records[*record], &mut window, &own, &with_own);
-                setting.loosen(&records[*record], &mut window, &with_own);
+            let laws = frame.laws.iter().map(law).collect::<Option<Vec<Column>>>()?;
+            let lawful = frame.laws.iter().fold(point.clone(), |point, law| law.at(&point));
+            if !laws.is_empty() {
+                let (record, dynamics) = (&records[*record], &*frame.lawful);
+                let sharp = frame.laws.iter().fold(lawful.clone(), |point, law| law.sharp(&point));
+                setting.take_along(record, &mut window, &laws, (dynamics, &lawful));
+                setting.loosen(record, &mut window, dynamics, (&lawful, &sharp));
             }
             let late = |handle: &Handle| {
-                let mut late = with_own.clone();
+                let mut late = lawful.clone();
                 late.set(*handle, DELAY);
                 setting.changed((records, &window), (Term::Fault(*handle), setting.dynamics), &late)
             };
             window.timing = timing.iter().map(late).collect::<Option<_>>()?;
-            window.timing.extend(own);
+            window.timing.extend(laws);
             Some(window)
         };
         stretches.par_iter().filter_map(of).collect()
@@ -255,9 +270,9 @@ impl World<'_> {
 }
 
 impl Missing<'_> {
-    /// The point of the trajectory, with the laws that the rig has by its parameter set.
+    /// The point of the trajectory, with the laws.
     pub fn point(&self) -> Point {
-        self.own.iter().fold(self.setting.point.clone(), |point, law| law.at(&point))
+        self.laws.iter().fold(self.setting.point.clone(), |point, law| law.at(&point))
     }
 
     /// Numbers of the columns that are fitted whatever is looked for.

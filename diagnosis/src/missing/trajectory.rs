@@ -83,7 +83,7 @@ pub struct Window {
     pub drive: Drive,
     /// What the timing of each channel changes, which every measurement has a little of.
     pub timing: Vec<Column>,
-    /// Rates and predicted outputs with the laws that the rig has by its parameter set, where it has some.
+    /// Rates and predicted outputs with the laws that act beside the model, where there are some.
     pub lawful: Option<(Vec<f64>, Vec<f64>)>,
     /// Variances that laws add to the next states and to the outputs, sample by sample, for the limited accuracy of the
     /// trajectory; empty: none.
@@ -93,7 +93,7 @@ pub struct Window {
 }
 
 impl Window {
-    /// Rates of the states that matter and predicted outputs, with the laws that the rig has by its parameter set.
+    /// Rates of the states that matter and predicted outputs, with the laws that act beside the model.
     pub fn plain(&self) -> (&[f64], &[f64]) {
         match &self.lawful {
             Some((rates, outputs)) => (rates, outputs),

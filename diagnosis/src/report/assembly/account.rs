@@ -6,7 +6,6 @@ use crate::diagnosis::Diagnosis;
 use crate::estimation::hypothesis::Fitted;
 use crate::report::findings::{AccountItem, SignalAccount};
 use crate::report::words::located;
-use crate::screening::rms;
 
 impl Diagnosis<'_> {
     /// Where each signal's error goes; `share` of what is left is explained without a name.
@@ -21,8 +20,6 @@ impl Diagnosis<'_> {
         let of = |(row, measured): (usize, &crate::dataset::recorded::Measured)| {
             let after: Vec<f64> = stages.iter().map(|stage| stage[row]).collect();
             let noise = world.floor.get(row).map_or(0.0, |floor| floor * floor);
-            let values = world.test.iter().flat_map(|record| record.measured[row].values.iter().copied());
-            let signal = rms(&values.collect::<Vec<_>>()).powi(2);
             let account = account(start[row], fitted[row], &after, noise, share);
             let total = account.total.max(f64::MIN_POSITIVE);
             let item = |(taken, accepted): (&f64, &crate::confirm::Accepted)| {
@@ -37,7 +34,7 @@ impl Diagnosis<'_> {
                 effects: account.effects.iter().zip(&found.accepted).map(item).collect(),
                 unmodelled: account.unmodelled / total,
                 unexplained: account.unexplained / total,
-                open: account.is_open(signal),
+                open: account.is_open(world.signal(row)),
             }
         };
         rows.iter().enumerate().map(of).collect()
