@@ -10,16 +10,15 @@ use std::collections::BTreeSet;
 use rayon::prelude::*;
 
 use crate::catalogue::{Onset, Part, RESPONSE, naming};
+use crate::decision::criteria::CRITERIA;
 use crate::decision::evidence::Evidence;
-use crate::decision::rules::{Amount, CERTAIN, is_determined};
+use crate::decision::rules::{Amount, is_determined};
 use crate::estimation::deadline::Stage;
 use crate::estimation::fit::{Handle, Point};
 use crate::estimation::hypothesis::{Fitted, Term, World};
 use crate::estimation::lsq::Stop;
 use crate::explain::selection::Proposal;
 use crate::signal::distortion::Fault;
-
-pub(crate) use choice::SAME;
 
 /// Share of what may matter that any fit that is compared has to promise.
 const HINT: f64 = 0.2;
@@ -96,7 +95,7 @@ impl World<'_> {
     /// How large a term is in a fit, and how sure by the scatter of its blocks.
     fn amounts(&self, term: Term, fitted: &Fitted, base: &Fitted) -> Vec<Amount> {
         let covariance = fitted.linear.robust_covariance(&fitted.trace.scores);
-        let half = |index: usize| CERTAIN * covariance[(index, index)].max(0.0).sqrt();
+        let half = |index: usize| CRITERIA.certain * covariance[(index, index)].max(0.0).sqrt();
         let of = |handle: Handle| {
             let index = fitted.coordinates.iter().position(|it| it.handle == handle)?;
             let value = fitted.point.get(handle) - base.point.get(handle);

@@ -2,18 +2,12 @@
 
 use rayon::prelude::*;
 
+use crate::decision::criteria::CRITERIA;
 use crate::decision::evidence::Evidence;
 use crate::estimation::hypothesis::{Fitted, Term, World};
 use crate::estimation::lsq::Stop;
 
 use super::{Tried, contains, has_no_name, parts};
-
-/// Student's t of the difference of two fits' errors beyond which they are told apart.
-const APART: f64 = 2.5;
-/// Errors that are larger by less than this factor tell nothing apart, however steady the difference is.
-pub(crate) const SAME: f64 = 1.005;
-/// Errors of a rough fit that are larger by less than this factor may be as small when it is a close one.
-const NEAR: f64 = 1.1;
 
 impl World<'_> {
     /// The best of those with a name that pass; without any, the best table.
@@ -43,7 +37,8 @@ impl World<'_> {
 
     /// Whether a fit explains the data as well as the best one.
     pub(super) fn as_good(&self, base: &Fitted, best: &Fitted, other: &Fitted) -> bool {
-        self.apart_by_events(best, other) < APART || self.left(base, other) < SAME * self.left(base, best)
+        self.apart_by_events(best, other) < CRITERIA.paired_t
+            || self.left(base, other) < CRITERIA.same * self.left(base, best)
     }
 
     /// A fit that is nearly as good as the best one, as closely as that one before they are told apart; another as it is.
@@ -54,7 +49,7 @@ impl World<'_> {
         best: &Fitted,
     ) -> Result<Fitted, String> {
         let fitted = fitted?;
-        if self.left(base, &fitted) < NEAR * self.left(base, best) {
+        if self.left(base, &fitted) < CRITERIA.near * self.left(base, best) {
             return self.fitted(&fitted.terms, std::slice::from_ref(&fitted.point), Stop::NOISY);
         }
         Ok(fitted)

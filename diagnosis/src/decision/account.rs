@@ -1,5 +1,7 @@
 //! The account: where the power of a signal's error goes.
 
+use super::criteria::CRITERIA;
+
 /// A signal's error on the validation records, in powers (mean squares) that add up to the starting model's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Account {
@@ -16,11 +18,6 @@ pub struct Account {
     /// What nothing explains.
     pub unexplained: f64,
 }
-
-/// Errors beyond the noise that are told, as a factor of the noise's root mean square.
-pub const ABOVE_NOISE: f64 = 3.0;
-/// Share of the signal's root mean square below which an error is not worth a sentence.
-pub const VISIBLE: f64 = 0.1;
 
 /// From the mean squares of the starting model's error, of the error after fitting the nominal parameters, and after each effect; the
 /// noise's; and the share that features without a name explain of what is left then.
@@ -49,7 +46,7 @@ impl Account {
     /// Whether a signal of this mean square misses more than its noise and what is worth a sentence.
     pub fn is_open(&self, signal: f64) -> bool {
         let left = self.unexplained + self.unmodelled;
-        left > ((ABOVE_NOISE * ABOVE_NOISE) - 1.0) * self.noise && left > VISIBLE * VISIBLE * signal
+        left > (CRITERIA.above_noise.powi(2) - 1.0) * self.noise && left > CRITERIA.visible.powi(2) * signal
     }
 }
 

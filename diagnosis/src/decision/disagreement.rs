@@ -1,9 +1,6 @@
 //! Whether records want different values of a parameter.
 
-/// Standard deviations between the values of two records that chance does not make: for normal errors once in 16 000.
-const APART: f64 = 4.0;
-/// Difference over the parameter's value from which it matters.
-const MATTERS: f64 = 0.1;
+use super::criteria::CRITERIA;
 
 /// The value that a record on its own would choose.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +33,8 @@ pub fn wish(record: usize, pieces: &[(f64, f64)]) -> Option<Wish> {
 pub fn disagreement(wishes: &[Wish], value: f64) -> Option<(Wish, Wish)> {
     let pairs = wishes.iter().flat_map(|one| wishes.iter().map(move |two| (*one, *two)));
     let apart = |(low, high): &(Wish, Wish)| (high.value - low.value) / low.deviation.hypot(high.deviation);
-    let clear = pairs.filter(|it| apart(it) > APART && it.1.value - it.0.value > MATTERS * value.abs());
+    let matters = CRITERIA.visible * value.abs();
+    let clear = pairs.filter(|it| apart(it) > CRITERIA.apart && it.1.value - it.0.value > matters);
     clear.max_by(|a, b| apart(a).total_cmp(&apart(b)))
 }
 
@@ -55,10 +53,11 @@ mod tests {
             value in 1.0..1e3_f64, share in 0.0..1.0_f64, deviation in 1e-4..1.0_f64,
         ) {
             let wishes = [at(0, value, deviation * value), at(1, value * (1.0 + share), deviation * value)];
-            let clear = share > APART * deviation * 2.0_f64.sqrt() && share > MATTERS;
+            let (apart, matters) = (CRITERIA.apart * deviation * 2.0_f64.sqrt(), CRITERIA.visible);
+            let clear = share > apart && share > matters;
             let found = disagreement(&wishes, value);
             // At the edge, rounding decides.
-            if (share - MATTERS).abs() > 1e-9 && (share / (APART * deviation * 2.0_f64.sqrt()) - 1.0).abs() > 1e-9 {
+            if (share - matters).abs() > 1e-9 && (share / apart - 1.0).abs() > 1e-9 {
                 prop_assert_eq!(found.is_some(), clear);
             }
             // A factor of both changes nothing, nor does the order.

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use super::criteria::CRITERIA;
+
 /// Why an effect is believed: every gate that it went through.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Evidence {
@@ -26,35 +28,26 @@ pub struct Evidence {
     pub grave: bool,
 }
 
-/// Share of the error's power on held-out data that does not go by chance, however few the blocks are.
-const BY_FAR: f64 = 0.25;
-
-/// Share of the error's power that no mixture of small effects takes away …
-const BULK: f64 = 0.7;
-
-/// … so that this Student's t over the training data's blocks is enough for it: its gains are as uneven as the errors
-/// were, and t is small for all their size.
-const STEADY: f64 = 2.0;
-
 impl Evidence {
     /// What has to be exceeded, in every gate; the chance must not be. The information criterion alone is never the verdict: small unmodelled
     /// effects pass it on every record.
     ///
     /// Of `phi_gain` and `taken`, one is enough: a large error, or more than half of the missing signal.
     pub const REQUIRED: Self = Self {
-        delta_bic: 20.0,
-        block_t: 3.5,
-        chance: 0.01,
-        held_out_t: 3.0,
-        explained: 0.01,
-        phi_gain: 0.015,
-        taken: 0.55,
+        delta_bic: CRITERIA.bic,
+        block_t: CRITERIA.estimation_t,
+        chance: CRITERIA.p_value,
+        held_out_t: CRITERIA.validation_t,
+        explained: CRITERIA.explained,
+        phi_gain: CRITERIA.improvement,
+        taken: CRITERIA.majority,
         usual: false,
         grave: false,
     };
 
     /// The same of what every rig has a little of.
-    pub const REQUIRED_OF_USUAL: Self = Self { phi_gain: 0.03, usual: true, ..Self::REQUIRED };
+    pub const REQUIRED_OF_USUAL: Self =
+        Self { phi_gain: CRITERIA.background * CRITERIA.improvement, usual: true, ..Self::REQUIRED };
 
     /// What has to be exceeded here.
     pub fn required(&self) -> Self {
@@ -63,13 +56,13 @@ impl Evidence {
 
     /// Whether it takes most of the error away, however small that is.
     pub fn takes_the_bulk(&self) -> bool {
-        self.taken > BULK
+        self.taken > CRITERIA.bulk
     }
 
     /// Whether so much of the error on held-out data goes that chance is no question, however few the blocks are.
     pub fn is_no_chance(&self) -> bool {
-        let most_of_what_was_left = self.taken > self.required().taken && self.held_out_t > STEADY;
-        most_of_what_was_left || self.explained > BY_FAR && self.held_out_t > 0.0
+        let most_of_what_was_left = self.taken > self.required().taken && self.held_out_t > CRITERIA.certain;
+        most_of_what_was_left || self.explained > CRITERIA.by_far && self.held_out_t > 0.0
     }
 
     /// The first gate that is not passed, in words.
@@ -80,13 +73,14 @@ impl Evidence {
     /// Whether it passes beside another cause that has passed: whether anything is there is no question then, and its gains
     /// may be less steady.
     pub fn passes_beside_another(&self) -> bool {
-        let steady = self.block_t > STEADY;
+        let steady = self.block_t > CRITERIA.certain;
         steady && Self { block_t: f64::INFINITY, chance: 0.0, ..*self }.refusal().is_none()
     }
 
-    /// Whether it takes so much away that a small Student's t over the training data is enough.
+    /// Whether it takes so much away that a small Student's t over the estimation data is enough: its gains are as uneven as the
+    /// errors were.
     pub fn is_steady_enough(&self) -> bool {
-        self.takes_the_bulk() && self.block_t > STEADY
+        self.takes_the_bulk() && self.block_t > CRITERIA.certain
     }
 
     /// The first gate that is not passed of those that tell whether it is there at all.

@@ -1,7 +1,6 @@
 //! Rules that hold whatever the method: nothing is identified whose interval holds zero or that stands at a bound.
 
-/// Standard deviations from nothing within which an amount may be nothing.
-pub const CERTAIN: f64 = 2.0;
+use super::criteria::CRITERIA;
 
 /// How large an effect is, and how sure.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,8 +27,8 @@ pub fn is_determined(amounts: &[Amount]) -> bool {
     amounts.is_empty() || amounts.iter().any(Amount::is_determined)
 }
 
-/// Fall of a signal's fit that an effect may cost: twice the smallest rise that is worth reporting.
-pub const FALL: f64 = 0.03;
+/// Fall of a signal's fit that an effect may cost.
+pub const FALL: f64 = CRITERIA.background * CRITERIA.improvement;
 
 /// Whether some signal's fit falls, or runs away.
 pub fn lowers(before: &[f64], after: &[f64]) -> bool {

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use super::criteria::CRITERIA;
+
 /// What is the matter with the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -49,9 +51,6 @@ pub struct Facts {
     pub out_of_time: bool,
 }
 
-/// Fit of the best signal below which nothing is to be believed.
-pub const INADEQUATE: f64 = 0.2;
-
 /// The verdict.
 pub fn verdict(facts: Facts) -> Verdict {
     let Facts { best_fit, effects, ambiguous, sensors, unmodelled, unmodelled_first, mismatch, open, .. } =
@@ -59,7 +58,7 @@ pub fn verdict(facts: Facts) -> Verdict {
     // Of what was not looked at, nothing is claimed.
     if facts.out_of_time && effects == 0 && unmodelled == 0.0 {
         Verdict::OutOfTime
-    } else if best_fit < INADEQUATE && unmodelled == 0.0 {
+    } else if best_fit < CRITERIA.inadequate && unmodelled == 0.0 {
         Verdict::ModelInadequate
     } else if unmodelled > 0.0 && (effects == 0 || unmodelled_first || sensors) || effects == 0 && open {
         Verdict::Unmodelled

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::dataset::recorded::{Recorded, Source};
+use crate::decision::criteria::CRITERIA;
 use crate::estimation::deadline::Stage;
 use crate::estimation::fit::{Handle, Point, Residuals};
 use crate::estimation::hypothesis::{Fitted, World};
@@ -18,10 +19,8 @@ const SHOT: f64 = 1.0;
 
 /// Cost of a hasty fit with an input turned over, in that of the fit without, above which a close one is not worth the time …
 const HOPELESS: f64 = 1.5;
-/// … and cost of the close one below which the input had the wrong sign …
+/// … and cost of the close one below which the input had the wrong sign.
 const CLEARLY: f64 = 0.8;
-/// … if Student's t of the difference over blocks of time is above this.
-const STEADILY: f64 = 4.0;
 
 /// The starting model as it was given, the fit of its nominal parameters, and the signals that had to be turned over.
 pub(super) fn fit(world: &mut World<'_>) -> Result<(Point, Fitted, Vec<Handle>), String> {
@@ -104,7 +103,7 @@ fn turned_over(world: &World<'_>, base: &Fitted, turned: &Point, handle: Handle)
         return None;
     }
     let other = world.fitted(&[], &[other.point], Stop::NOISY).ok()?;
-    (other.cost < CLEARLY * base.cost && world.apart(&other, base) > STEADILY).then_some(other)
+    (other.cost < CLEARLY * base.cost && world.apart(&other, base) > CRITERIA.apart).then_some(other)
 }
 
 /// Whether every signal is met at least roughly.

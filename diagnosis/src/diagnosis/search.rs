@@ -1,11 +1,12 @@
 //! The search: place, law, confirmation, repeated until no error worth reporting remains.
 
 use crate::confirm::{Confirmed, Tried};
+use crate::decision::criteria::CRITERIA;
 use crate::estimation::deadline::Stage;
 use crate::estimation::fit::Point;
 use crate::estimation::hypothesis::{Fitted, Term, World};
-use crate::explain::describe::{MissingSignal, SMALLEST, Unmodelled};
-use crate::explain::selection::{Choice, Compared, Limits, Score, choose};
+use crate::explain::describe::{MissingSignal, Unmodelled};
+use crate::explain::selection::{Choice, Compared, MOST as MOST_TRIED, Score, choose};
 use crate::missing::innovations::Noise;
 use crate::missing::locate::Location;
 use crate::missing::motion::outputs;
@@ -17,9 +18,6 @@ use super::Found;
 
 /// Effects at most.
 const MOST: usize = 4;
-/// Share of what free features explain that a fitted law has to explain, to be named in their place: in a rough shape it may
-/// look much worse than it is.
-const AS_GOOD: f64 = 0.9;
 /// How often other effects are fitted where the first ones are not confirmed.
 const ATTEMPTS: usize = 4;
 /// How often errors are made as large as the best explanation leaves, where no effect is confirmed.
@@ -166,20 +164,20 @@ impl World<'_> {
         let mut features = &compared.features[..];
         let mut curve = None;
         for _ in 0..ATTEMPTS {
-            let (scores, least) = match choose(compared.misses, &names, features, Limits::USUAL) {
+            let (scores, least) = match choose(compared.misses, &names, features) {
                 Choice::Nothing => return Ok(Next::Nothing),
                 Choice::Unmodelled(score) => {
                     curve = Some(score);
-                    (compared.likely(&names), AS_GOOD * score.share)
+                    (compared.likely(&names), CRITERIA.fitted * score.share)
                 }
                 Choice::Named(scores) => (scores, 0.0),
             };
             // A fit is not worth its time where no signal has anything to gain. A share of the innovations says little of a share of
             // the error, since a nominal parameter may have taken the effect's place.
-            if scores.is_empty() || self.improvement(&found.extended, 1.0) < SMALLEST {
+            if scores.is_empty() || self.improvement(&found.extended, 1.0) < CRITERIA.improvement {
                 return Ok(curve.map_or(Next::Nothing, Next::Curve));
             }
-            let mut proposals = compared.proposals(&scores, Limits::USUAL.most);
+            let mut proposals = compared.proposals(&scores, MOST_TRIED);
             proposals.retain(|it| !refused.contains(&it.term));
             if !proposals.is_empty() {
                 progress(&format!("fitting {} effects", proposals.len()));
@@ -220,7 +218,7 @@ impl World<'_> {
         score: Score,
     ) -> Result<bool, String> {
         let improvement = self.improvement(&found.extended, score.share);
-        if found.unmodelled.len() == PLACES || improvement < SMALLEST {
+        if found.unmodelled.len() == PLACES || improvement < CRITERIA.improvement {
             return Ok(false);
         }
         let port = compared.feature(score.candidate).map(|(port, _)| &missing.setting.ports[port]);
@@ -265,13 +263,13 @@ impl World<'_> {
     ) -> Option<Unmodelled> {
         let best = location.ranked.first().filter(|_| compared.misses >= 1.0)?;
         let improvement = self.improvement(fitted, 2.0 * best.gain / compared.left);
-        (improvement >= SMALLEST).then(|| Unmodelled::remainder(missing, location, best.port))
+        (improvement >= CRITERIA.improvement).then(|| Unmodelled::remainder(missing, location, best.port))
     }
 
     /// Whether the fit of some signal would rise by what is worth reporting if its error were its noise alone.
     fn is_worth_a_look(&self, fitted: &Fitted) -> bool {
         let above = |(row, error): (usize, f64)| (error - self.floor[row]) / bent_rms(self.train, row);
-        self.roots(fitted).map(above).any(|it| it >= SMALLEST)
+        self.roots(fitted).map(above).any(|it| it >= CRITERIA.improvement)
     }
 
     /// By how much the fit of the worst signal would rise without a share of its error's power.

@@ -6,6 +6,7 @@ use std::ops::Range;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::confirm::worth;
+use crate::decision::criteria::CRITERIA;
 use crate::estimation::fit::{Handle, Normal};
 use crate::estimation::hypothesis::{Fitted, POINTS, Term, World};
 use crate::screening::TriedOut;
@@ -19,8 +20,6 @@ const ITS_OWN: f64 = 1e-6;
 const POINTS_OWN: f64 = 1e-3;
 /// Share of what an identified effect does on its own, below which columns beside it are another shape of it.
 const ANOTHER_SHAPE: f64 = 0.5;
-/// Share of what a column does beyond the other coordinates that a coordinate has to do, to be its twin.
-const TWIN: f64 = 0.95;
 
 /// Effects that are not in the model beside those that are.
 pub struct Assumed {
@@ -125,7 +124,7 @@ impl Beside<'_> {
         let Some(factor) = self.factor(&order, &norm) else { return false };
         let (together, alone) =
             (factor.l_dirty()[(own, own - 1)].powi(2), factor.l_dirty()[(own, own)].powi(2));
-        together + alone > POINTS_OWN && together > TWIN * (together + alone)
+        together + alone > POINTS_OWN && together > CRITERIA.decides * (together + alone)
     }
 
     /// By how much the sum of squares falls with some further columns, and how far the fit's coordinates move with them.

@@ -8,10 +8,10 @@
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal};
 
-/// Probability of a right decision from which an experiment decides.
-pub const DECIDES: f64 = 0.95;
+use crate::decision::criteria::CRITERIA;
+
 /// Growth of the error power from which one model is told from another: below, the diagnosis calls both as good.
-pub const EXCESS: f64 = crate::confirm::SAME - 1.0;
+pub const EXCESS: f64 = CRITERIA.same - 1.0;
 
 /// Distance d' that a probability of a right decision needs: Φ(d'/2).
 fn needed(probability: f64) -> f64 {
@@ -32,7 +32,7 @@ impl Separation {
     /// with which [`EXCESS`] just decides are no further evidence: no model is so right that its errors are all chance.
     pub fn of(squares: f64, independent: f64) -> Self {
         let excess = squares.max(0.0) / independent.max(1.0);
-        let believed = needed(DECIDES).powi(2) / EXCESS;
+        let believed = needed(CRITERIA.decides).powi(2) / EXCESS;
         Self { distance: (excess * independent.clamp(1.0, believed)).sqrt(), excess }
     }
 
@@ -43,7 +43,7 @@ impl Separation {
 
     /// Whether it is enough to decide.
     pub fn decides(self) -> bool {
-        self.probability() >= DECIDES
+        self.probability() >= CRITERIA.decides
     }
 
     /// The smaller one.

@@ -14,8 +14,6 @@ use crate::plant::{Plant, Signals};
 use super::features::{Group, RESONANCES, features};
 use super::selection::{Compared, Score};
 
-/// Smallest rise of a signal's fit that is worth telling of, whether it has a name or not.
-pub const SMALLEST: f64 = 0.015;
 /// Kurtosis beyond which a signal comes in bursts: ten percent of the time hold all of it.
 const BURSTS: f64 = 8.0;
 /// Share of its power that a line has to hold …

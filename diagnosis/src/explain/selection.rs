@@ -4,6 +4,7 @@ use nalgebra::DVector;
 
 use crate::catalogue::{Element, Scale, Table};
 use crate::confirm::has_no_name;
+use crate::decision::criteria::CRITERIA;
 use crate::estimation::fit::{Coordinate, Handle, Point};
 use crate::estimation::hypothesis::{Term, World};
 use crate::missing::Missing;
@@ -27,8 +28,8 @@ pub struct Score {
 
 impl Score {
     /// Whether the validation records show it, too.
-    fn is_confirmed(&self, limits: Limits) -> bool {
-        self.validated > 0.0 && self.validated >= limits.confirmed * self.share
+    fn is_confirmed(&self) -> bool {
+        self.validated > 0.0 && self.validated >= CRITERIA.confirmed * self.share
     }
 }
 
@@ -43,51 +44,29 @@ pub enum Choice {
     Unmodelled(Score),
 }
 
-/// What decides between names and features.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
-    /// Smallest share of what is missing that is worth an explanation.
-    pub smallest: f64,
-    /// Share of what free features explain that a law with a name has to explain, before it is fitted.
-    pub nearly: f64,
-    /// Share of what the best name explains from which another is tried, too.
-    pub rival: f64,
-    /// Share of what is explained of the estimation records that has to be explained of the validation records.
-    pub confirmed: f64,
-    /// Names that are tried at most.
-    pub most: usize,
-}
-
-impl Limits {
-    /// The numbers with their reasons: a twentieth is what background effects make; a law in a rough shape comes within a
-    /// third of a free curve through the same data; what explains half as much may be better once it is fitted; another
-    /// excitation may show a quarter of it.
-    pub const USUAL: Self = Self { smallest: 0.04, nearly: 0.65, rival: 0.5, confirmed: 0.25, most: 6 };
-}
-
-/// Largest magnitude of a missing force, in the root mean square of what would move the rig as it moves.
-const BEYOND: f64 = 10.0;
+/// Names that are tried at most.
+pub const MOST: usize = 6;
 
 /// Chooses by scores alone; `misses` is the innovations' mean square in units of the sensors' accuracy, `named` and `features`
 /// are in any order.
-pub fn choose(misses: f64, named: &[Score], features: &[Score], limits: Limits) -> Choice {
+pub fn choose(misses: f64, named: &[Score], features: &[Score]) -> Choice {
     if misses < 1.0 {
         return Choice::Nothing;
     }
     let best = |all: &[Score]| {
-        let holds = all.iter().filter(|it| it.is_confirmed(limits)).copied();
+        let holds = all.iter().filter(|it| it.is_confirmed()).copied();
         holds.max_by(|a, b| a.share.total_cmp(&b.share))
     };
     let (name, feature) = (best(named), best(features));
     let largest = [name, feature].into_iter().flatten().map(|it| it.share).fold(0.0, f64::max);
-    if largest < limits.smallest {
+    if largest < CRITERIA.background_share {
         return Choice::Nothing;
     }
     match (name, feature) {
-        (Some(name), feature) if name.share >= limits.nearly * feature.map_or(0.0, |it| it.share) => {
+        (Some(name), feature) if name.share >= CRITERIA.rough * feature.map_or(0.0, |it| it.share) => {
             let mut near: Vec<Score> = named
                 .iter()
-                .filter(|it| it.share >= limits.rival * name.share && it.is_confirmed(limits))
+                .filter(|it| it.share >= CRITERIA.rival * name.share && it.is_confirmed())
                 .copied()
                 .collect();
             near.sort_by(|a, b| b.share.total_cmp(&a.share));
@@ -246,7 +225,7 @@ fn is_possible(group: Group, amounts: &[f64], peaks: &[f64]) -> bool {
         Group::Resonance(_) => amounts[0] > 0.0,
         _ => false,
     };
-    !light && amounts.iter().zip(peaks).all(|(amount, peak)| amount.abs() * peak < BEYOND)
+    !light && amounts.iter().zip(peaks).all(|(amount, peak)| amount.abs() * peak < CRITERIA.largest)
 }
 
 /// What is left of other records with a candidate's amounts, nuisances being fitted there.
@@ -289,9 +268,8 @@ impl Compared {
 
     /// Whether a candidate without a name explains a relevant share of both data.
     pub fn holds(&self, candidate: usize) -> bool {
-        let limits = Limits::USUAL;
         let own = self.features.iter().find(|it| it.candidate == candidate);
-        own.is_some_and(|it| it.share >= limits.smallest && it.is_confirmed(limits))
+        own.is_some_and(|it| it.share >= CRITERIA.background_share && it.is_confirmed())
     }
 
     /// Names that explain anything of both data, the best first.
@@ -353,7 +331,7 @@ impl Compared {
             Kind::Feature { group: Group::Velocity, .. } => table.scale == Scale::VELOCITY,
             _ => false,
         };
-        let near = |it: &&Score| it.share >= Limits::USUAL.nearly * score.share;
+        let near = |it: &&Score| it.share >= CRITERIA.rough * score.share;
         self.features.iter().filter(near).find_map(|it| match self.candidates.list[it.candidate].kind {
             Kind::Named { term: term @ Term::Table(table), .. }
                 if Some(table.element) == element && over(table) =>
@@ -383,7 +361,7 @@ mod tests {
     fn a_name_that_explains_nearly_what_free_features_do_is_fitted_with_its_rivals() {
         let named = [score(0, 0.3, 0.2), score(1, 0.5, 0.4), score(2, 0.05, 0.01)];
         let features = [score(3, 0.6, 0.5)];
-        let Choice::Named(tried) = choose(2.0, &named, &features, Limits::USUAL) else { panic!("a name") };
+        let Choice::Named(tried) = choose(2.0, &named, &features) else { panic!("a name") };
         assert_eq!(tried.iter().map(|it| it.candidate).collect::<Vec<_>>(), [1, 0]);
     }
 
@@ -391,7 +369,7 @@ mod tests {
     fn what_no_name_explains_is_unmodelled() {
         let named = [score(0, 0.2, 0.2)];
         let features = [score(1, 0.6, 0.5), score(2, 0.7, -0.1)];
-        assert_eq!(choose(2.0, &named, &features, Limits::USUAL), Choice::Unmodelled(features[0]));
+        assert_eq!(choose(2.0, &named, &features), Choice::Unmodelled(features[0]));
     }
 
     #[test]
@@ -404,15 +382,12 @@ mod tests {
 
     #[test]
     fn what_is_within_the_sensors_accuracy_is_nothing() {
-        assert_eq!(choose(0.9, &[score(0, 0.9, 0.9)], &[], Limits::USUAL), Choice::Nothing);
+        assert_eq!(choose(0.9, &[score(0, 0.9, 0.9)], &[]), Choice::Nothing);
     }
 
     #[test]
     fn background_and_what_the_validation_records_deny_is_nothing() {
-        assert_eq!(
-            choose(2.0, &[score(0, 0.03, 0.03)], &[score(1, 0.02, 0.1)], Limits::USUAL),
-            Choice::Nothing
-        );
-        assert_eq!(choose(2.0, &[score(0, 0.5, -0.2)], &[], Limits::USUAL), Choice::Nothing);
+        assert_eq!(choose(2.0, &[score(0, 0.03, 0.03)], &[score(1, 0.02, 0.1)]), Choice::Nothing);
+        assert_eq!(choose(2.0, &[score(0, 0.5, -0.2)], &[]), Choice::Nothing);
     }
 }
