@@ -98,7 +98,9 @@ mod tests {
         let it = CRITERIA;
         assert!(it.by_far < it.majority && it.majority < it.bulk);
         assert!(it.rough < it.fitted && it.background_share < it.confirmed * it.rival);
-        assert!(it.certain < it.paired_t && it.paired_t < it.validation_t && it.validation_t < it.estimation_t);
+        assert!(
+            it.certain < it.paired_t && it.paired_t < it.validation_t && it.validation_t < it.estimation_t
+        );
         assert!(it.estimation_t < it.apart && it.same < it.near);
     }
 }
