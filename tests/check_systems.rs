@@ -35,9 +35,9 @@ fn each_rule_for_systems_finds_what_breaks_it() {
     let cases = [
         ("gone", with(DESCRIPTION, "Faulty%20one", "Gone"), "system.source", "made of `resources/Gone.fmu`"),
         ("no-fmu", replaced(FMU, b"nothing"), "system.source", "cannot be checked: it is no zip archive"),
-        ("fmu", of(&described("guid=\"{faulty}\"", "guid=\"\"")), "description.guid", "missing or empty"),
+        ("fmu", of(&described("guid=\"{faulty}\"", "guid=\"\"")), "description.guid", "the guid is empty"),
         ("exchange", of(&exchange), "system.implementation", "`first` is to be used by CoSimulation"),
-        ("no-name", component("name=\"\""), "system.name", "an element has no name"),
+        ("no-name", component("name=\"\""), "system.schema.value", "`` is no value for the attribute `name`"),
         ("two", component("name=\"first\""), "system.name", "two elements of the name `first`"),
         (
             "two-connectors",
@@ -54,8 +54,8 @@ fn each_rule_for_systems_finds_what_breaks_it() {
         (
             "no-kind",
             connector("<ssd:Connector name=\"offset\" kind=\"sensor\"/>"),
-            "system.connector",
-            "the kind \"sensor\", which SSP does not know",
+            "system.schema.value",
+            "`sensor` is no value for the attribute `kind` of <Connector>",
         ),
         (
             "kind",
@@ -166,7 +166,7 @@ fn there_is_nothing_to_find_in_systems_without_fault() {
     let done = answers[0]["report"]["done"].to_string();
     for part in [
         "resources/Faulty one.fmu: co-simulation: the same results after fmi2Reset",
-        "system: 12 connectors, 7 connections, 6 parameter values, 3 dictionary signals",
+        "system: schema, 12 connectors, 7 connections, 6 parameter values, 3 dictionary signals",
     ] {
         assert!(done.contains(part), "{part}: {done}");
     }
@@ -184,14 +184,16 @@ fn there_is_nothing_to_find_in_systems_without_fault() {
 fn the_schema_of_systems_is_heard() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("unknown.ssp");
-    // Known to the schema alone.
+    // Known to both.
     let ssp =
         with(DESCRIPTION, "<ssd:System name=\"faulty\">", "<ssd:System name=\"faulty\" colour=\"red\">");
     std::fs::write(&path, ssp.bytes()).unwrap();
     let python = strut::interpreter();
     let (code, answers) = check(&[path], &["--no-run", "--fmpy", python.to_str().unwrap()]);
     let found = problems(&answers[0]);
-    assert!(found.len() == 1 && found[0].contains("FMPy") && found[0].contains("colour"), "{found:?}");
+    let [own, theirs] = ["system.schema.attribute", "fmpy"]
+        .map(|rule| found.iter().filter(|it| it.starts_with(rule) && it.contains("colour")).count());
+    assert_eq!((own, theirs, found.len()), (1, 1, 2), "{found:?}");
     assert_eq!(code, 1);
 }
 

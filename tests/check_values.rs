@@ -11,6 +11,9 @@ fn each_rule_for_values_finds_what_breaks_it() {
     let first = "source=\"resources/first.ssv\"";
     let mapping = |from: &str, to: &str| with("resources/mapping.ssm", from, to);
     let entry = "<ssm:MappingEntry source=\"their.shift\" target=\"offset\"/>";
+    let mut latin = include_bytes!("check/first.ssv").to_vec();
+    let place = latin.windows(12).position(|it| it == b"name=\"first\"").unwrap();
+    latin[place + 6] = 0xe4;
     let cases = [
         (
             "no-values",
@@ -26,9 +29,9 @@ fn each_rule_for_values_finds_what_breaks_it() {
         ),
         (
             "latin-values",
-            replaced(VALUES, b"<ParameterSet name=\"\xe4\"/>"),
-            "system.parameters",
-            "`resources/first.ssv` is not encoded in UTF-8",
+            replaced(VALUES, &latin),
+            "system.encoding",
+            "resources/first.ssv is not encoded in UTF-8: line 2",
         ),
         (
             "other-values",
@@ -66,8 +69,8 @@ fn each_rule_for_values_finds_what_breaks_it() {
         (
             "no-number",
             value("<ssv:Real value=\"one\"/>"),
-            "system.parameter",
-            "given `one`, which is no value",
+            "system.schema.value",
+            "`one` is no value for the attribute `value` of <Real>",
         ),
         (
             "bounds",
@@ -146,14 +149,19 @@ fn each_rule_for_values_finds_what_breaks_it() {
         (
             "connector-number",
             inline("<ssv:Real value=\"one\"/>"),
-            "system.parameter",
-            "`inner.in` is given `one`",
+            "system.schema.value",
+            "`one` is no value for the attribute `value` of <Real>",
         ),
         (
             "connector-unit",
-            inline("<ssv:Real value=\"1\" unit=\"furlong\"/>"),
+            with(
+                DESCRIPTION,
+                "<ssv:Real value=\"0.25\"/></ssv:Parameter>\n            </ssv:Parameters>",
+                "<ssv:Real value=\"1\" unit=\"mm\"/></ssv:Parameter>\n            </ssv:Parameters><ssv:Units>\
+                 <ssc:Unit name=\"mm\"><ssc:BaseUnit m=\"1\" factor=\"0.001\"/></ssc:Unit></ssv:Units>",
+            ),
             "system.parameter",
-            "`inner.in` is given in \"furlong\", but declared in \"m\"",
+            "`inner.in` is given in \"mm\", but declared in \"m\"",
         ),
         (
             "calculated-connector",

@@ -3,12 +3,15 @@
 
 mod batches;
 mod check;
+mod check_mutations;
 mod check_systems;
 mod check_values;
 mod diagnosis;
 mod examples;
 mod fmus;
 mod masters;
+#[path = "check/mutations/mod.rs"]
+mod mutations;
 mod packages;
 mod platforms;
 #[path = "check/ssp.rs"]

@@ -13,8 +13,12 @@ use crate::cli::CheckArguments;
 use crate::failure::Failure;
 use crate::style::{ASIDE, ERROR, HEADING, HELP, NAME, WARNING};
 
-/// Checks the files. The exit code is 0 if nothing is found, 1 after problems, 2 if a file cannot be read.
+/// Checks the files, or prints the rules. The exit code is 0 if nothing is found, 1 after problems, 2 if a file cannot be read.
 pub fn check(arguments: &CheckArguments) -> ExitCode {
+    if arguments.rules {
+        let _ = anstream::stdout().write_all(strut_check::rules_page().as_bytes());
+        return ExitCode::SUCCESS;
+    }
     let program = match std::env::current_exe() {
         Ok(program) => vec![program, "probe".into()],
         Err(_) => vec!["build-fmu".into(), "probe".into()],
@@ -26,6 +30,7 @@ pub fn check(arguments: &CheckArguments) -> ExitCode {
             None => Fmpy::Found,
         },
         run: !arguments.no_run,
+        signs: arguments.signs,
         timeout: arguments.timeout,
         program,
         listener: None,
@@ -40,9 +45,10 @@ pub fn check(arguments: &CheckArguments) -> ExitCode {
                 let problems = report.findings.iter().filter(|finding| finding.level <= worst).count();
                 code = code.max(u8::from(problems > 0));
                 if arguments.json {
-                    let Report { about, done, skipped, .. } = report;
+                    let Report { about, done, skipped, signs, .. } = report;
                     line(&json!({
                         "file": name, "problems": problems, "about": about, "done": done, "skipped": skipped,
+                        "signs": signs,
                     }));
                 } else {
                     let _ = anstream::stdout().write_all(page(&name, &report).as_bytes());
@@ -87,6 +93,9 @@ fn page(name: &str, report: &Report) -> String {
     for finding in &report.findings {
         finding_text(&mut text, finding);
     }
+    for response in &report.signs {
+        let _ = writeln!(text, "{HELP}sign:{HELP:#} {response}");
+    }
     for (mark, lines) in [("checked", &report.done), ("skipped", &report.skipped)] {
         for line in lines {
             let _ = writeln!(text, "{ASIDE}{mark}: {line}{ASIDE:#}");
@@ -112,7 +121,7 @@ fn finding_text(text: &mut String, finding: &Finding) {
         Level::Warning => WARNING,
         Level::Note => HEADING,
     };
-    let (level, rule) = (finding.level, finding.rule);
+    let (level, rule) = (finding.level, finding.rule.name);
     let _ = writeln!(text, "{style}{level}[{rule}]{style:#}: {}", finding.message);
     if let Some(place) = &finding.place {
         let _ = writeln!(text, "  {ASIDE}--> {place}{ASIDE:#}");

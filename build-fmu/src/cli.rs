@@ -48,6 +48,7 @@ Examples:
   build-fmu check fmus/quanser-lqr.ssp          a system, and each FMU in it
   build-fmu check *.fmu --strict                several; notes on portability count too
   build-fmu check unknown.fmu --no-run          without running code of others
+  build-fmu check unknown.fmu --signs           which way its outputs go when an input is raised
   build-fmu check X.fmu --fmpy ~/venv/bin/python
                                                 with the validation of that Python's fmpy
 
@@ -152,16 +153,24 @@ pub struct DescribeArguments {
 #[derive(Args, Debug)]
 pub struct CheckArguments {
     /// FMUs and SSPs to check
-    #[arg(value_name = "FMU", required = true, value_hint = clap::ValueHint::FilePath)]
+    #[arg(value_name = "FMU", required_unless_present = "rules", value_hint = clap::ValueHint::FilePath)]
     pub files: Vec<PathBuf>,
 
-    /// Python with the package fmpy, for its validation and the schema [default: python3 in the path]
+    /// Print the rules, section by section of the standards, as a page in Markdown
+    #[arg(long, conflicts_with = "files")]
+    pub rules: bool,
+
+    /// Python with the package fmpy, for its validation [default: python3 in the path]
     #[arg(long, value_name = "PYTHON", value_hint = clap::ValueHint::ExecutablePath)]
     pub fmpy: Option<PathBuf>,
 
     /// Do without FMPy
     #[arg(long, conflicts_with = "fmpy")]
     pub no_fmpy: bool,
+
+    /// Raise each input, and tell which outputs rise and which fall: signs stand in no description
+    #[arg(long, conflicts_with = "no_run")]
+    pub signs: bool,
 
     /// Do not load the library, so that nothing of the FMU is run
     #[arg(long)]

@@ -8,12 +8,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+#ifdef FAULT_GLIBC
+#include <sys/random.h>
+#endif
+
 typedef void *Component;
 typedef unsigned int Reference;
 typedef int Status;
 enum { OK, WARNING, DISCARD, ERROR, FATAL };
 typedef void (*Logger)(void *, const char *, Status, const char *, const char *, ...);
-typedef struct { Logger logger; void *allocate, *free, *finished; void *environment; } Callbacks;
+typedef struct {
+    Logger logger;
+    void *(*allocate)(size_t, size_t);
+    void (*free)(void *);
+    void *finished, *environment;
+} Callbacks;
 typedef struct { int again, terminate, nominals, states, defined; double next; } EventInfo;
 typedef struct { double x, u, rate, offset, time; int stepping; } Values;
 typedef struct { Values values; Callbacks callbacks; } Model;
@@ -28,7 +37,11 @@ const char *fmi2GetVersion(void) { return "2"; }
 #else
 const char *fmi2GetVersion(void) { return "2.0"; }
 #endif
+#ifdef FAULT_TYPES
+const char *fmi2GetTypesPlatform(void) { return "mine"; }
+#else
 const char *fmi2GetTypesPlatform(void) { return "default"; }
+#endif
 
 static void fill(double *value, double with) { *value = with; }
 
@@ -46,10 +59,24 @@ Component fmi2Instantiate(const char *name, int kind, const char *guid, const ch
     fclose(file);
 #endif
     Model *model = calloc(1, sizeof *model);
+#ifdef FAULT_GLIBC
+    /* Came with glibc 2.25. */
+    char byte;
+    getrandom(&byte, 1, 0);
+#endif
     model->values = START;
     model->callbacks = *callbacks;
 #ifdef FAULT_START
     model->values.rate = 3.0;
+#endif
+#ifdef FAULT_LEAK
+    callbacks->allocate(3, 8);
+#endif
+#ifdef FAULT_FOREIGN
+    callbacks->free(model + 1);
+#endif
+#ifdef FAULT_LATIN
+    callbacks->logger(callbacks->environment, name, OK, "logAll", "K\xe4lte");
 #endif
 #ifdef FAULT_CATEGORY
     callbacks->logger(callbacks->environment, name, OK, NULL, "hello");
@@ -159,7 +186,15 @@ Status fmi2SetReal(Component c, const Reference *r, size_t n, const double *valu
 NONE(Integer, int)
 NONE(Boolean, int)
 typedef const char *String;
+#ifdef FAULT_TEXT
+Status fmi2GetString(Component c, const Reference *r, size_t n, String *v) {
+    for (size_t i = 0; i < n; i++) v[i] = NULL;
+    return OK;
+}
+Status fmi2SetString(Component c, const Reference *r, size_t n, const String *v) { return OK; }
+#else
 NONE(String, String)
+#endif
 
 Status fmi2GetFMUstate(Component c, void **state) {
     if (!*state) *state = malloc(sizeof(Values));
@@ -266,5 +301,9 @@ Status fmi2GetContinuousStates(Component c, double *x, size_t n) {
     return n == 1 ? (x[0] = ((Model *)c)->values.x, OK) : ERROR;
 }
 Status fmi2GetNominalsOfContinuousStates(Component c, double *x, size_t n) {
+#ifdef FAULT_NOMINALS
+    x[0] = 0.0;
+    return OK;
+#endif
     return n == 1 ? (x[0] = 1.0, OK) : ERROR;
 }

@@ -15,18 +15,19 @@ pub const SIGNALS: &str = "resources/signals.ssb";
 
 /// Two instances of the small FMU, one of them in a system within the system, with values from files and in place, and signals
 /// that both systems share.
-pub struct Ssp(Vec<(&'static str, Vec<u8>)>);
+pub struct Ssp(Vec<(String, Vec<u8>)>);
 
 pub fn faultless() -> Ssp {
     static BYTES: OnceLock<Vec<u8>> = OnceLock::new();
-    Ssp(vec![
+    let files: [(&str, Vec<u8>); 6] = [
         (DESCRIPTION, include_bytes!("SystemStructure.ssd").to_vec()),
         (FMU, BYTES.get_or_init(|| parts("").bytes()).clone()),
         (VALUES, include_bytes!("first.ssv").to_vec()),
         (SIGNALS, include_bytes!("signals.ssb").to_vec()),
         ("resources/mapped.ssv", include_bytes!("mapped.ssv").to_vec()),
         ("resources/mapping.ssm", include_bytes!("mapping.ssm").to_vec()),
-    ])
+    ];
+    Ssp(files.map(|(name, bytes)| (name.to_owned(), bytes)).into())
 }
 
 /// The system with another text in one of its files.
@@ -41,9 +42,7 @@ pub fn with(file: &str, from: &str, to: &str) -> Ssp {
 
 /// The system with other contents of one of its files.
 pub fn replaced(file: &str, contents: &[u8]) -> Ssp {
-    let mut ssp = faultless();
-    ssp.0.iter_mut().find(|(name, _)| *name == file).unwrap().1 = contents.to_vec();
-    ssp
+    faultless().and(file, contents)
 }
 
 /// The system without one of its files.
@@ -66,14 +65,27 @@ pub fn with_own(from: &str, to: &str) -> Ssp {
     fmu.files.push((file.into(), values.replace(from, to).into(), CompressionMethod::Deflated));
     let binding = "<ssd:ParameterBinding source=\"resources/first.ssv\"/>";
     let own = format!("{binding}<ssd:ParameterBinding source=\"{file}\" sourceBase=\"component\"/>");
-    let mut ssp = with(DESCRIPTION, binding, &own);
-    ssp.0.iter_mut().find(|(name, _)| *name == FMU).unwrap().1 = fmu.bytes();
-    ssp
+    let ssp = with(DESCRIPTION, binding, &own);
+    ssp.and(FMU, &fmu.bytes())
 }
 
 impl Ssp {
+    /// The system with a file more.
+    pub fn with_file(mut self, name: &str) -> Self {
+        self.0.push((name.into(), b"x".to_vec()));
+        self
+    }
+
+    /// The system with other contents of a file.
+    pub fn and(mut self, name: &str, contents: &[u8]) -> Self {
+        self.0.iter_mut().find(|(known, _)| known == name).unwrap().1 = contents.to_vec();
+        self
+    }
+
     pub fn bytes(&self) -> Vec<u8> {
-        archive(self.0.iter().map(|(name, bytes)| (*name, bytes.as_slice(), CompressionMethod::Deflated)))
+        archive(
+            self.0.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice(), CompressionMethod::Deflated)),
+        )
     }
 }
 

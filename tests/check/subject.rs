@@ -30,6 +30,11 @@ pub fn parts(fault: &str) -> Parts {
 }
 
 fn compiled(fault: &str) -> Vec<u8> {
+    library(fault, false)
+}
+
+/// The library with a fault; it may need another library, which is not there when it is loaded.
+pub fn library(fault: &str, needs_another: bool) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("Faulty.so");
     let source = strut::root().join("tests/check/faulty.c");
@@ -37,6 +42,12 @@ fn compiled(fault: &str) -> Vec<u8> {
     cc.args(["-shared", "-fPIC", "-O1", "-w", "-ffp-contract=off", "-o"]).arg(&out).arg(source).arg("-lm");
     if !fault.is_empty() {
         cc.arg(format!("-DFAULT_{fault}"));
+    }
+    if needs_another {
+        let (empty, other) = (folder.path().join("other.c"), folder.path().join("libother.so"));
+        std::fs::write(&empty, "int other;").unwrap();
+        strut::run(Command::new("cc").args(["-shared", "-fPIC", "-o"]).arg(&other).arg(&empty));
+        cc.arg("-Wl,--no-as-needed").arg(&other);
     }
     strut::run(&mut cc);
     std::fs::read(out).unwrap()
@@ -51,9 +62,21 @@ pub fn described(from: &str, to: &str) -> Parts {
 }
 
 impl Parts {
+    /// The same with another text in its description.
+    pub fn with(mut self, from: &str, to: &str) -> Self {
+        assert!(self.xml.contains(from), "{from}");
+        self.xml = self.xml.replacen(from, to, 1);
+        self
+    }
+
     /// The FMU.
     pub fn bytes(&self) -> Vec<u8> {
-        let description = ("modelDescription.xml", self.xml.as_bytes(), CompressionMethod::Deflated);
+        self.bytes_with(self.xml.as_bytes())
+    }
+
+    /// The FMU with a description that may be no text.
+    pub fn bytes_with(&self, xml: &[u8]) -> Vec<u8> {
+        let description = ("modelDescription.xml", xml, CompressionMethod::Deflated);
         let library = self.library.iter();
         let library =
             library.map(|it| ("binaries/linux64/Faulty.so", it.as_slice(), CompressionMethod::Deflated));
@@ -129,6 +152,11 @@ pub fn each_has_its_problem(cases: &[(&str, Vec<u8>, &str, &str)], ending: &str,
     for ((name, _, rule, message), answer) in cases.iter().zip(answers.as_array().unwrap()) {
         let found = problems(answer);
         assert!(found.iter().any(|problem| problem.contains(message)), "{name}: {found:#?}");
-        assert!(found.iter().all(|problem| problem.starts_with(&format!("{rule}: "))), "{name}: {found:#?}");
+        // Of its rule, or of a finer one.
+        let is_of = |problem: &String| {
+            let rest = problem.strip_prefix(*rule);
+            rest.is_some_and(|rest| rest.starts_with(": ") || rest.starts_with('.'))
+        };
+        assert!(found.iter().all(is_of), "{name}: {found:#?}");
     }
 }

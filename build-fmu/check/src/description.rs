@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use roxmltree::{Document, Node};
+use roxmltree::Node;
 
+use crate::declared::{Declared, declared};
 use crate::lines::Lines;
 use crate::unit::Unit;
 
@@ -14,6 +15,8 @@ pub struct Description {
     pub version: String,
     /// Identifier that the library has to know.
     pub guid: Option<String>,
+    /// When it was made, as it stands there.
+    pub date: Option<String>,
     /// Whether names are declared to be structured.
     pub structured: bool,
     /// Number of event indicators.
@@ -22,8 +25,10 @@ pub struct Description {
     pub interfaces: Vec<Interface>,
     /// The declared units.
     pub units: Vec<Unit>,
-    /// Declared types by name: element and unit.
-    pub types: BTreeMap<String, (String, Option<String>)>,
+    /// Declared types by name.
+    pub types: BTreeMap<String, SimpleType>,
+    /// The declared log categories.
+    pub categories: Vec<String>,
     /// All that is declared by a name, in the order of the document.
     pub declared: Vec<Declared>,
     /// Default experiment: start, stop, tolerance, step.
@@ -58,6 +63,8 @@ pub struct Interface {
     pub identifier: String,
     /// Flags and numbers as they stand there.
     attributes: BTreeMap<String, String>,
+    /// The files that are to be compiled.
+    pub sources: Vec<String>,
     /// Line of the element.
     pub line: u32,
 }
@@ -67,6 +74,30 @@ impl Interface {
     pub fn can(&self, capability: &str) -> bool {
         self.attributes.get(capability).is_some_and(|value| matches!(value.as_str(), "true" | "1"))
     }
+
+    /// A number that is declared, 0 if it is not.
+    pub fn number(&self, capability: &str) -> usize {
+        self.attributes.get(capability).and_then(|value| value.trim().parse().ok()).unwrap_or(0)
+    }
+}
+
+/// `<SimpleType>`.
+#[derive(Clone, Debug, Default)]
+pub struct SimpleType {
+    /// Name of the element: Real, Integer, Boolean, String, Enumeration; empty if there is none.
+    pub kind: String,
+    /// Unit.
+    pub unit: Option<String>,
+    /// Unit to be shown.
+    pub display_unit: Option<String>,
+    /// Smallest and largest legal value.
+    pub bounds: [Option<f64>; 2],
+    /// Typical magnitude.
+    pub nominal: Option<f64>,
+    /// Values of an enumeration's items.
+    pub items: Vec<i32>,
+    /// Line of the element.
+    pub line: u32,
 }
 
 /// `<DefaultExperiment>`.
@@ -105,16 +136,22 @@ pub struct Variable {
     pub start: Option<String>,
     /// Unit, its type's if it has none of its own.
     pub unit: Option<String>,
+    /// Unit to be shown, its own.
+    pub display_unit: Option<String>,
     /// Type.
     pub declared_type: Option<String>,
-    /// Smallest legal value.
+    /// Smallest legal value, its type's if it has none of its own.
     pub min: Option<f64>,
-    /// Largest legal value.
+    /// Largest legal value, likewise.
     pub max: Option<f64>,
-    /// Typical magnitude.
+    /// Typical magnitude, likewise.
     pub nominal: Option<f64>,
     /// Index of the variable that it is the derivative of.
     pub derivative: Option<usize>,
+    /// Whether events may set it anew, if that is told.
+    pub reinit: bool,
+    /// Whether it is told that it may be set more than once at an instant, or not.
+    pub multiple_set: bool,
     /// Line of the element.
     pub line: u32,
 }
@@ -141,8 +178,8 @@ pub struct Unknown {
     pub index: usize,
     /// Indices of what it depends on; none if that is not told.
     pub dependencies: Option<Vec<usize>>,
-    /// Number of dependencies' kinds, if they are given.
-    pub kinds: Option<usize>,
+    /// Dependencies' kinds, if they are given.
+    pub kinds: Option<Vec<String>>,
     /// Line of the element.
     pub line: u32,
 }
@@ -151,46 +188,48 @@ impl Description {
     /// Reads the document.
     ///
     /// # Errors
-    /// If it is no well-formed XML or no model description.
-    pub fn parse(text: &str) -> Result<Self, String> {
-        let document = Document::parse(text)
-            .map_err(|error| format!("modelDescription.xml is no well-formed XML: {error}"))?;
-        let root = document.root_element();
+    /// If it is no model description.
+    pub fn of(root: Node, lines: &Lines) -> Result<Self, String> {
         if root.tag_name().name() != "fmiModelDescription" {
             let found = root.tag_name().name();
             return Err(format!("modelDescription.xml is a `{found}` and no `fmiModelDescription`"));
         }
-        let lines = Lines::of(text);
         let line = |node: Node| lines.line(node);
         let child = |name: &str| root.children().find(|node| node.has_tag_name(name));
         let text = |node: Node, name: &str| node.attribute(name).map(str::to_owned);
         let mut description = Self {
             version: text(root, "fmiVersion").unwrap_or_default(),
             guid: text(root, "guid"),
+            date: text(root, "generationDateAndTime"),
             structured: root.attribute("variableNamingConvention") == Some("structured"),
             event_indicators: value(root, "numberOfEventIndicators").unwrap_or(0),
             ..Self::default()
         };
         for (name, kind) in [("CoSimulation", Kind::CoSimulation), ("ModelExchange", Kind::ModelExchange)] {
-            description.interfaces.extend(child(name).map(|node| Interface {
-                kind,
-                identifier: text(node, "modelIdentifier").unwrap_or_default(),
-                attributes: node.attributes().map(|it| (it.name().into(), it.value().into())).collect(),
-                line: line(node),
+            description.interfaces.extend(elements(root, name).map(|node| {
+                Interface {
+                    kind,
+                    sources: elements(node, "SourceFiles")
+                        .flat_map(|list| elements(list, "File"))
+                        .filter_map(|file| text(file, "name"))
+                        .collect(),
+                    identifier: text(node, "modelIdentifier").unwrap_or_default(),
+                    attributes: node.attributes().map(|it| (it.name().into(), it.value().into())).collect(),
+                    line: line(node),
+                }
             }));
         }
-        description.declared = declared(root, &lines);
+        description.declared = declared(root, lines);
         for unit in child("UnitDefinitions").into_iter().flat_map(|node| elements(node, "Unit")) {
             // What its numbers are the schema tells; the unit is declared all the same.
             let named = || Unit::named(unit.attribute("name").unwrap_or_default());
             description.units.push(Unit::parse(unit).unwrap_or_else(|_| named()));
         }
         for ty in child("TypeDefinitions").into_iter().flat_map(|node| elements(node, "SimpleType")) {
-            let kind = ty.children().find(Node::is_element);
-            let unit = kind.and_then(|kind| text(kind, "unit"));
-            let kind = kind.map_or_else(String::new, |kind| kind.tag_name().name().into());
-            description.types.insert(text(ty, "name").unwrap_or_default(), (kind, unit));
+            description.types.insert(text(ty, "name").unwrap_or_default(), simple_type(ty, line(ty)));
         }
+        let categories = child("LogCategories").into_iter().flat_map(|node| elements(node, "Category"));
+        description.categories = categories.filter_map(|node| text(node, "name")).collect();
         if let Some(node) = child("DefaultExperiment") {
             description.experiment = Experiment {
                 start: value(node, "startTime"),
@@ -218,6 +257,11 @@ impl Description {
         Ok(description)
     }
 
+    /// Whether it is FMI 1.0 or 3.0; a version that is none is for the schema.
+    pub fn is_of_another_version(&self) -> bool {
+        self.version.starts_with("1.") || self.version.starts_with("3.")
+    }
+
     /// The variable of an index, which counts from 1.
     pub fn variable(&self, index: usize) -> Option<&Variable> {
         self.variables.get(index.checked_sub(1)?)
@@ -234,59 +278,8 @@ impl Description {
     }
 }
 
-/// Something that is declared by a name, or a value, of which there may be one.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Declared {
-    /// What it is: `unit`, `type`.
-    pub what: &'static str,
-    /// In what: nothing, or the type or unit that it belongs to.
-    pub within: String,
-    /// Its name.
-    pub name: String,
-    /// Factor to another unit, if there is one.
-    pub factor: Option<String>,
-    /// Line of the element.
-    pub line: u32,
-}
-
-/// Units with their display units, types with their items (by name and by value), log categories.
-fn declared(root: Node, lines: &Lines) -> Vec<Declared> {
-    let mut all = Vec::new();
-    let mut add = |what, within: &str, node: Node, name: &str, factor: Option<&str>| {
-        all.push(Declared {
-            what,
-            within: within.into(),
-            name: name.into(),
-            factor: factor.map(str::to_owned),
-            line: lines.line(node),
-        });
-    };
-    let name = |node: Node| node.attribute("name").unwrap_or_default().to_owned();
-    let list = |list: &'static str, item: &'static str| {
-        let found = root.children().find(move |node| node.has_tag_name(list));
-        found.into_iter().flat_map(move |node| elements(node, item))
-    };
-    for unit in list("UnitDefinitions", "Unit") {
-        let base = unit.children().find(|node| node.has_tag_name("BaseUnit"));
-        add("unit", "", unit, &name(unit), base.and_then(|base| base.attribute("factor")));
-        for display in elements(unit, "DisplayUnit") {
-            add("display unit", &name(unit), display, &name(display), display.attribute("factor"));
-        }
-    }
-    for ty in list("TypeDefinitions", "SimpleType") {
-        add("type", "", ty, &name(ty), None);
-        for item in ty.children().filter(Node::is_element).flat_map(|kind| elements(kind, "Item")) {
-            add("item", &name(ty), item, &name(item), None);
-            add("item's value", &name(ty), item, item.attribute("value").unwrap_or_default().trim(), None);
-        }
-    }
-    for category in list("LogCategories", "Category") {
-        add("log category", "", category, &name(category), None);
-    }
-    all
-}
-
-fn elements<'a, 'input>(node: Node<'a, 'input>, name: &'a str) -> impl Iterator<Item = Node<'a, 'input>> {
+/// The children of a name.
+pub fn elements<'a, 'input>(node: Node<'a, 'input>, name: &'a str) -> impl Iterator<Item = Node<'a, 'input>> {
     node.children().filter(move |node| node.has_tag_name(name))
 }
 
@@ -294,13 +287,29 @@ fn value<T: std::str::FromStr>(node: Node, name: &str) -> Option<T> {
     node.attribute(name)?.trim().parse().ok()
 }
 
-fn variable(node: Node, line: u32, types: &BTreeMap<String, (String, Option<String>)>) -> Variable {
+fn simple_type(node: Node, line: u32) -> SimpleType {
+    let Some(kind) = node.children().find(Node::is_element) else {
+        return SimpleType { line, ..SimpleType::default() };
+    };
+    SimpleType {
+        kind: kind.tag_name().name().into(),
+        unit: kind.attribute("unit").map(str::to_owned),
+        display_unit: kind.attribute("displayUnit").map(str::to_owned),
+        bounds: [value(kind, "min"), value(kind, "max")],
+        nominal: value(kind, "nominal"),
+        items: elements(kind, "Item").filter_map(|item| value(item, "value")).collect(),
+        line,
+    }
+}
+
+fn variable(node: Node, line: u32, types: &BTreeMap<String, SimpleType>) -> Variable {
     let text = |name: &str| node.attribute(name).map(str::to_owned);
     const KINDS: [&str; 5] = ["Real", "Integer", "Boolean", "String", "Enumeration"];
     let kind = node.children().find(|child| KINDS.contains(&child.tag_name().name()));
     let declared_type = kind.and_then(|kind| kind.attribute("declaredType")).map(str::to_owned);
-    let inherited = declared_type.as_ref().and_then(|name| types.get(name)?.1.clone());
+    let ty = declared_type.as_ref().and_then(|name| types.get(name));
     let number = |name: &str| kind.and_then(|kind| value(kind, name));
+    let own = |name: &str| kind.and_then(|kind| kind.attribute(name)).map(str::to_owned);
     Variable {
         name: text("name").unwrap_or_default(),
         reference: value(node, "valueReference"),
@@ -309,13 +318,16 @@ fn variable(node: Node, line: u32, types: &BTreeMap<String, (String, Option<Stri
         variability: text("variability").unwrap_or_else(|| "continuous".into()),
         initial: text("initial"),
         kind: kind.map_or_else(String::new, |kind| kind.tag_name().name().into()),
-        start: kind.and_then(|kind| kind.attribute("start")).map(str::to_owned),
-        unit: kind.and_then(|kind| kind.attribute("unit")).map(str::to_owned).or(inherited),
+        start: own("start"),
+        unit: own("unit").or_else(|| ty?.unit.clone()),
+        display_unit: own("displayUnit"),
+        min: number("min").or_else(|| ty?.bounds[0]),
+        max: number("max").or_else(|| ty?.bounds[1]),
+        nominal: number("nominal").or_else(|| ty?.nominal),
         declared_type,
-        min: number("min"),
-        max: number("max"),
-        nominal: number("nominal"),
         derivative: kind.and_then(|kind| value(kind, "derivative")),
+        reinit: own("reinit").is_some(),
+        multiple_set: text("canHandleMultipleSetPerTimeInstant").is_some(),
         line,
     }
 }
@@ -325,7 +337,7 @@ fn unknown(node: Node, line: u32) -> Unknown {
     Unknown {
         index: value(node, "index").unwrap_or(0),
         dependencies: list("dependencies").map(|items| items.map(|item| item.parse().unwrap_or(0)).collect()),
-        kinds: list("dependenciesKind").map(Iterator::count),
+        kinds: list("dependenciesKind").map(|items| items.map(str::to_owned).collect()),
         line,
     }
 }

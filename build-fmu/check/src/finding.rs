@@ -6,6 +6,9 @@ use std::rc::Rc;
 
 use serde::Serialize;
 
+use crate::behaviour::Response;
+use crate::rules::Rule;
+
 /// How bad a finding is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -33,8 +36,9 @@ impl Display for Level {
 pub struct Finding {
     /// How bad it is.
     pub level: Level,
-    /// Name of the rule: `structure.outputs`.
-    pub rule: &'static str,
+    /// The rule that is broken.
+    #[serde(flatten)]
+    pub rule: &'static Rule,
     /// What is wrong: a sentence without a full stop.
     pub message: String,
     /// File in the archive, and the line if it is a text.
@@ -45,17 +49,17 @@ pub struct Finding {
 
 impl Finding {
     /// An error.
-    pub fn error(rule: &'static str, message: impl Into<String>) -> Self {
+    pub fn error(rule: &'static Rule, message: impl Into<String>) -> Self {
         Self { level: Level::Error, rule, message: message.into(), place: None, help: Vec::new() }
     }
 
     /// A warning.
-    pub fn warning(rule: &'static str, message: impl Into<String>) -> Self {
+    pub fn warning(rule: &'static Rule, message: impl Into<String>) -> Self {
         Self { level: Level::Warning, ..Self::error(rule, message) }
     }
 
     /// A note.
-    pub fn note(rule: &'static str, message: impl Into<String>) -> Self {
+    pub fn note(rule: &'static Rule, message: impl Into<String>) -> Self {
         Self { level: Level::Note, ..Self::error(rule, message) }
     }
 
@@ -108,6 +112,8 @@ pub struct Report {
     pub done: Vec<String>,
     /// What was not done, and why.
     pub skipped: Vec<String>,
+    /// Which way outputs go when an input is raised.
+    pub signs: Vec<Response>,
     /// Who hears of findings at once.
     #[serde(skip)]
     pub(crate) listener: Option<Listener>,

@@ -1,4 +1,4 @@
-//! FMPy's validation, with the schema of the standard, in a Python of the user's.
+//! FMPy's validation, in a Python of the user's.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -6,6 +6,7 @@ use std::process::Command;
 use serde::Deserialize;
 
 use crate::finding::{Finding, Report};
+use crate::rules::practice;
 
 /// Prints version and problems. FMPy warns on stdout about some files: the answer is the last line.
 const FMU: &str = "\
@@ -62,7 +63,7 @@ pub fn validate(file: &Path, what: What, fmpy: &Fmpy, report: &mut Report) -> Re
         Fmpy::In(python) => vec![python.clone()],
         Fmpy::Found => vec![PathBuf::from("python3"), PathBuf::from("python")],
         Fmpy::Without => {
-            report.skipped.push("FMPy's validation and the schema: not wanted".into());
+            report.skipped.push("FMPy's validation: not wanted".into());
             return Ok(false);
         }
     };
@@ -77,9 +78,9 @@ pub fn validate(file: &Path, what: What, fmpy: &Fmpy, report: &mut Report) -> Re
                     let text = text.join(" ");
                     let text = text.trim_end_matches('.');
                     let message = format!("FMPy {} finds: {text}", answer.version);
-                    report.findings.push(Finding::error("fmpy", message));
+                    report.findings.push(Finding::error(practice::FMPY, message));
                 }
-                report.done.push(format!("validation of FMPy {}, with the schema", answer.version));
+                report.done.push(format!("validation of FMPy {}", answer.version));
                 return Ok(true);
             }
             Err(error) if matches!(fmpy, Fmpy::In(_)) => return Err(error),
@@ -89,7 +90,7 @@ pub fn validate(file: &Path, what: What, fmpy: &Fmpy, report: &mut Report) -> Re
         }
     }
     report.skipped.push(format!(
-        "FMPy's validation and the schema: {why}; run `pip install fmpy lxml`, or name a Python that has it with --fmpy"
+        "FMPy's validation: {why}; run `pip install fmpy lxml`, or name a Python that has it with --fmpy"
     ));
     Ok(false)
 }

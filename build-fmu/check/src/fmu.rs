@@ -2,10 +2,15 @@
 
 use std::path::Path;
 
+use roxmltree::Document;
+
 use crate::description::{Description, Kind};
-use crate::finding::{Report, count};
+use crate::finding::{Finding, Report, count};
+use crate::lines::Lines;
 use crate::package::Package;
-use crate::{Options, behaviour, fmpy, libraries, probe, structure, variables};
+use crate::rules::fmi;
+use crate::text::{self, Standard};
+use crate::{Options, behaviour, fmpy, head, libraries, probe, schema, structure, variables};
 
 /// The file that an FMU must have.
 pub const FILE: &str = "modelDescription.xml";
@@ -15,11 +20,11 @@ pub const FILE: &str = "modelDescription.xml";
 /// # Errors
 /// If it cannot be read, or there is nothing to check it by.
 pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Report, String> {
-    let description = description(package)?;
+    let (description, found) = description(package)?;
     let mut report = Report::new(options.listener.as_ref());
-    report.findings = package.findings();
+    report.findings = package.findings(Standard::Fmi, file);
     report.about = about(&description);
-    if description.version != "2.0" {
+    if description.is_of_another_version() {
         let version = &description.version;
         report.skipped.push(format!("the rules for FMI 2.0 and running it: this is FMI {version}"));
         return if fmpy::validate(file, fmpy::What::Fmu, &options.fmpy, &mut report)? {
@@ -30,11 +35,13 @@ pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Re
             ))
         };
     }
+    report.findings.extend(found);
+    report.findings.extend(head::findings(&description));
     report.findings.extend(variables::findings(&description));
     report.findings.extend(structure::findings(&description));
     report.tell();
     report.done.push(format!(
-        "description: {}, model structure, units, start values",
+        "description: schema, {}, model structure, units, start values",
         count(description.variables.len(), "variable")
     ));
     let (found, platforms) = libraries::findings(package, &description)?;
@@ -54,7 +61,7 @@ pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Re
         }
         let unpacked = behaviour::Unpacked { plain: &plain, odd: &odd };
         let probe = probe::Probe { program: options.program.clone(), timeout: options.timeout };
-        behaviour::run(&description, &unpacked, &probe, &mut report)?;
+        behaviour::run(&description, &unpacked, &probe, options.signs, &mut report)?;
     } else {
         report.skipped.push("running it: not wanted".into());
     }
@@ -62,14 +69,35 @@ pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Re
     Ok(report)
 }
 
-/// The description of an FMU.
+/// The description of an FMU, and what is wrong with its encoding and by the schema.
 ///
 /// # Errors
 /// If it is missing or cannot be read.
-pub fn description(package: &mut Package) -> Result<Description, String> {
-    let text = package.text(FILE)?.ok_or_else(|| format!("there is no {FILE} at the root of the archive"))?;
-    Description::parse(&text)
+pub fn description(package: &mut Package) -> Result<(Description, Vec<Finding>), String> {
+    let bytes =
+        package.read(FILE)?.ok_or_else(|| format!("there is no {FILE} at the root of the archive"))?;
+    let (text, mut findings) = text::decoded(&bytes, Standard::Fmi, FILE);
+    let document =
+        Document::parse(&text).map_err(|error| format!("{FILE} is no well-formed XML: {error}"))?;
+    let (root, lines) = (document.root_element(), Lines::of(&text));
+    let description = Description::of(root, &lines)?;
+    if !description.is_of_another_version() {
+        findings.extend(schema::validate(root, &schema::fmi::ROOT, &RULES, FILE, &lines));
+    }
+    Ok((description, findings))
 }
+
+/// What the sentences of the schema are.
+const RULES: schema::Rules = schema::Rules {
+    element: fmi::SCHEMA_ELEMENT,
+    order: fmi::SCHEMA_ORDER,
+    missing: fmi::SCHEMA_MISSING,
+    attribute: fmi::SCHEMA_ATTRIBUTE,
+    required: fmi::SCHEMA_REQUIRED,
+    value: fmi::SCHEMA_VALUE,
+    text: fmi::SCHEMA_TEXT,
+    finite: Some(fmi::FINITE),
+};
 
 fn about(description: &Description) -> Vec<String> {
     let kinds: Vec<&str> = description
@@ -84,7 +112,7 @@ fn about(description: &Description) -> Vec<String> {
     let mut about =
         vec![format!("FMI {} {}", description.version, kinds.join(" and ")).trim_end().to_owned()];
     // Other versions declare their variables in other ways.
-    if description.version == "2.0" {
+    if !description.is_of_another_version() {
         about.push(format!("{}, {}", count(of("input"), "input"), count(of("output"), "output")));
     }
     about

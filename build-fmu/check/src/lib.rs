@@ -4,19 +4,26 @@
 //! processes of their own, so that a crash is a finding and not an end. What is found is said in plain
 //! sentences, with what to do.
 
+mod aliases;
 mod behaviour;
+mod declared;
+mod derivatives;
 mod description;
 mod finding;
 mod fmpy;
 mod fmu;
 pub mod functions;
+mod head;
 mod libraries;
 mod lines;
 mod names;
 mod package;
 mod probe;
+mod rules;
+mod schema;
 mod structure;
 mod system;
+mod text;
 pub mod unit;
 mod variables;
 
@@ -24,9 +31,11 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+pub use behaviour::Response;
 pub use finding::{Finding, Level, Listener, Report};
 pub use fmpy::Fmpy;
 pub use probe::probe;
+pub use rules::{Rule, page as rules_page};
 
 use package::Package;
 
@@ -37,6 +46,8 @@ pub struct Options {
     pub fmpy: Fmpy,
     /// Whether the library is run.
     pub run: bool,
+    /// Whether it is told which way outputs go when an input is raised.
+    pub signs: bool,
     /// How long each run may take.
     pub timeout: Duration,
     /// The program that calls [`probe`], with its arguments before the folder.

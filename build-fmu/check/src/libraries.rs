@@ -8,6 +8,7 @@ use crate::description::{Description, Kind};
 use crate::finding::{Finding, names};
 use crate::functions;
 use crate::package::Package;
+use crate::rules::{fmi, practice};
 
 /// The folder of `binaries/` for the machine that this runs on; none if FMI has no name for it.
 pub const HOST: Option<&str> = if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
@@ -59,11 +60,11 @@ pub fn findings(
     let sources = package.files().any(|file| file.starts_with("sources/"));
     if platforms.is_empty() {
         findings.push(if sources {
-            Finding::note("binary.platform", "there is no library, only source code")
+            Finding::note(practice::PLATFORM, "there is no library, only source code")
                 .help("most importers do not compile; bring libraries for win64 and linux64 too")
         } else {
             Finding::error(
-                "binary.platform",
+                fmi::IMPLEMENTATION,
                 "there is neither a library nor source code, so that nothing can be run",
             )
         });
@@ -72,9 +73,26 @@ pub fn findings(
             ["win64", "linux64"].into_iter().filter(|platform| !platforms.contains_key(*platform)).collect();
         if !missing.is_empty() {
             let message = format!("there is no library for {}", names(&missing));
-            findings.push(Finding::note("binary.platform", message).help(
+            findings.push(Finding::note(practice::PLATFORM, message).help(
                 "most users of FMI tools are on Windows, most clusters on Linux: one FMU can carry both",
             ));
+        }
+    }
+    for interface in &description.interfaces {
+        let missing: Vec<&str> = interface
+            .sources
+            .iter()
+            .filter(|source| !package.files().any(|file| file.strip_prefix("sources/") == Some(source)))
+            .map(String::as_str)
+            .collect();
+        if !missing.is_empty() {
+            let message = format!("<SourceFiles> names what is not in sources/: {}", names(&missing));
+            // Who keeps the source code to himself often leaves the list in.
+            findings.push(if sources {
+                Finding::error(fmi::SOURCES, message).line(interface.line)
+            } else {
+                Finding::warning(fmi::SOURCES, message).line(interface.line).help("leave <SourceFiles> out")
+            });
         }
     }
     let mut interfaces: BTreeMap<&str, Vec<Kind>> = BTreeMap::new();
@@ -87,8 +105,17 @@ pub fn findings(
             match package.read(&path)? {
                 Some(bytes) => findings.extend(library(platform, &path, &bytes, kinds, files)),
                 None => {
-                    let finding = Finding::error("binary.name", format!("there is no `{path}`"))
-                        .help("the library must be named after the modelIdentifier");
+                    // The file systems of Windows and macOS find it all the same.
+                    let alike =
+                        |file: &String| format!("binaries/{platform}/{file}").eq_ignore_ascii_case(&path);
+                    let found = !platform.contains("linux") && files.iter().any(alike);
+                    let message = format!("there is no `{path}`");
+                    let finding = if found {
+                        Finding::warning(fmi::BINARY_NAME, message)
+                    } else {
+                        Finding::error(fmi::BINARY_NAME, message)
+                    };
+                    let finding = finding.help("the library must be named after the modelIdentifier");
                     let known = files.iter().any(|file| file.ends_with(ending(platform)));
                     findings.push(if known {
                         finding.help(format!("`binaries/{platform}` has {}", names(files)))
@@ -106,7 +133,7 @@ fn library(platform: &str, path: &str, bytes: &[u8], kinds: &[Kind], beside: &[S
     let binary = match Binary::parse(bytes) {
         Ok(binary) => binary,
         Err(error) => {
-            return vec![Finding::error("binary.format", format!("`{path}` cannot be read: {error}"))];
+            return vec![Finding::error(practice::BINARY_READ, format!("`{path}` cannot be read: {error}"))];
         }
     };
     let mut findings = Vec::new();
@@ -115,13 +142,13 @@ fn library(platform: &str, path: &str, bytes: &[u8], kinds: &[Kind], beside: &[S
     if let Some(other) = other {
         let message = format!("the library is one for {other}");
         let help = format!("it belongs into `binaries/{other}`");
-        findings.push(Finding::error("binary.format", message).at(path).help(help));
+        findings.push(Finding::error(practice::BINARY_PLATFORM, message).at(path).help(help));
     }
     let lacks = binary.lacks(functions::of(kinds));
     if !lacks.is_empty() {
         let message = format!("the library does not export {}", names(&lacks));
         findings.push(
-            Finding::error("binary.functions", message)
+            Finding::error(fmi::FUNCTIONS, message)
                 .at(path)
                 .help("FMI 2.0 wants every function, also those of capabilities that are not there: importers load them all")
                 .help("a function of a missing capability returns fmi2Error"),
@@ -129,7 +156,7 @@ fn library(platform: &str, path: &str, bytes: &[u8], kinds: &[Kind], beside: &[S
     }
     if let Some(oldest) = binary.glibc.filter(|version| *version > OLD_ENOUGH) {
         let message = format!("the library loads only where glibc is {oldest} or newer");
-        findings.push(Finding::note("binary.glibc", message).at(path).help(format!(
+        findings.push(Finding::note(practice::GLIBC, message).at(path).help(format!(
             "link it against an old glibc ({OLD_ENOUGH} runs everywhere), e.g. with zig or in a manylinux container"
         )));
     }
@@ -140,9 +167,9 @@ fn library(platform: &str, path: &str, bytes: &[u8], kinds: &[Kind], beside: &[S
         // The compiler's own is part of nearly every installation.
         let common = unusual.iter().all(|name| name.starts_with("libgcc_s") || name.starts_with("libstdc++"));
         let finding = if common {
-            Finding::note("binary.libraries", message)
+            Finding::note(practice::LIBRARIES, message)
         } else {
-            Finding::warning("binary.libraries", message)
+            Finding::warning(practice::LIBRARIES, message)
         };
         findings.push(
             finding

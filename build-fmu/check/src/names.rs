@@ -51,9 +51,28 @@ fn part(text: &str) -> Option<&str> {
     indices.split(',').all(number).then_some(after)
 }
 
+/// An element of an array: the array's name, and the element's indices.
+pub fn place_in_array(name: &str) -> Option<(String, Vec<u32>)> {
+    let (front, rest) = name.rsplit_once('[')?;
+    let (indices, back) = rest.split_once(']')?;
+    let indices: Option<Vec<u32>> = indices.split(',').map(|index| index.trim().parse().ok()).collect();
+    // What stands behind the indices is a part of a record, of which each element has one.
+    Some((format!("{front}[]{back}"), indices.filter(|_| back.is_empty() || back == ")")?))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn elements_of_arrays_have_their_place() {
+        assert_eq!(place_in_array("a.b[1,2]"), Some(("a.b[]".into(), vec![1, 2])));
+        assert_eq!(place_in_array("der(x[3])"), Some(("der(x[])".into(), vec![3])));
+        assert_eq!(
+            (place_in_array("x[1].y"), place_in_array("x"), place_in_array("x[i]")),
+            (None, None, None)
+        );
+    }
 
     #[test]
     fn structured_names_are_told_from_others() {

@@ -1,9 +1,10 @@
 //! Rules for the model structure: what is listed, in which order, and what depends on what.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use crate::description::{Description, Kind, Unknown, Variable};
 use crate::finding::{Finding, names};
+use crate::rules::{Rule, fmi, practice};
 
 /// What is wrong with it.
 pub fn findings(description: &Description) -> Vec<Finding> {
@@ -13,11 +14,26 @@ pub fn findings(description: &Description) -> Vec<Finding> {
         ("InitialUnknowns", &description.initial_unknowns),
     ];
     let mut findings = Vec::new();
+    let states: HashSet<usize> = description
+        .derivatives
+        .iter()
+        .filter_map(|unknown| description.variable(unknown.index)?.derivative)
+        .collect();
     for (name, list) in lists {
         findings.extend(entries(description, name, list));
+        for unknown in list {
+            findings.extend(of_unknown(description, name, unknown, &states));
+        }
     }
     let outputs = |variable: &Variable| variable.causality == "output";
-    findings.extend(same_set(description, "Outputs", &description.outputs, &outputs, "causality=\"output\""));
+    let list = List { name: "Outputs", missing: fmi::OUTPUTS_MISSING, other: fmi::OUTPUTS_OTHER };
+    findings.extend(same_set(
+        description,
+        &list,
+        &description.outputs,
+        [&outputs, &outputs],
+        "causality=\"output\"",
+    ));
     findings.extend(derivatives(description));
     findings.extend(initial_unknowns(description));
     findings.extend(dependencies(description));
@@ -30,45 +46,110 @@ fn entries(description: &Description, list: &str, unknowns: &[Unknown]) -> Vec<F
     let mut seen = BTreeSet::new();
     let last = description.variables.len();
     for unknown in unknowns {
-        let error = |message: String| Finding::error("structure.entry", message).line(unknown.line);
+        let error = |rule: &'static Rule, message: String| Finding::error(rule, message).line(unknown.line);
         let index = unknown.index;
         let Some(variable) = description.variable(index) else {
             let help = format!("indices count the variables, from 1 to {last}; they are no value references");
-            findings
-                .push(error(format!("{list} lists the variable {index}, which there is none of")).help(help));
+            let message = format!("{list} lists the variable {index}, which there is none of");
+            findings.push(error(fmi::ENTRY_INDEX, message).help(help));
             continue;
         };
         let name = &variable.name;
         if !seen.insert(index) {
-            findings.push(error(format!("{list} lists `{name}` twice")));
-        }
-        if let Some(wrong) = unknown.dependencies.iter().flatten().find(|index| !(1..=last).contains(*index))
-        {
-            let message = format!("`{name}` in {list} depends on variable {wrong}, which there is none of");
-            findings.push(error(message).help(format!("indices count the variables, from 1 to {last}")));
-        }
-        let number = unknown.dependencies.as_ref().map(Vec::len);
-        if unknown.kinds.is_some_and(|kinds| Some(kinds) != number) {
-            findings.push(
-                error(format!("`{name}` in {list} has not as many dependenciesKind as dependencies"))
-                    .help("give one kind for each dependency, or leave dependenciesKind out"),
-            );
+            findings.push(error(fmi::ENTRY_TWICE, format!("{list} lists `{name}` twice")));
         }
     }
     findings
 }
 
-/// A list has exactly those variables that it must.
-fn same_set(
+/// What an unknown depends on, and how.
+fn of_unknown(
     description: &Description,
     list: &str,
+    unknown: &Unknown,
+    states: &HashSet<usize>,
+) -> Option<Finding> {
+    let variable = description.variable(unknown.index)?;
+    let (name, last) = (&variable.name, description.variables.len());
+    let wrong = |rule: &'static Rule, message: String| Some(Finding::error(rule, message).line(unknown.line));
+    let initially = list == "InitialUnknowns";
+    if let Some(kinds) = &unknown.kinds {
+        if Some(kinds.len()) != unknown.dependencies.as_ref().map(Vec::len) {
+            let message = format!("`{name}` in {list} has not as many dependenciesKind as dependencies");
+            let help = "give one kind for each dependency, or leave dependenciesKind out";
+            return wrong(fmi::KINDS_NUMBER, message).map(|finding| finding.help(help));
+        }
+        if variable.kind != "Real" && kinds.iter().any(|kind| kind != "dependent") {
+            let message =
+                format!("`{name}` in {list} is {}, and has other kinds than dependent", variable.kind);
+            return wrong(fmi::KINDS_REAL, message);
+        }
+        let initial = ["dependent", "constant"];
+        if let Some(kind) = kinds.iter().find(|kind| initially && !initial.contains(&kind.as_str())) {
+            let message = format!("`{name}` in {list} has the dependenciesKind {kind}");
+            let help = "at the initialisation there are only dependent and constant";
+            return wrong(fmi::KINDS_INITIAL, message).map(|finding| finding.help(help));
+        }
+    }
+    let dependencies = unknown.dependencies.as_ref()?;
+    if let Some(wrong_index) = dependencies.iter().find(|index| !(1..=last).contains(*index)) {
+        let message = format!("`{name}` in {list} depends on variable {wrong_index}, which there is none of");
+        let help = format!("indices count the variables, from 1 to {last}");
+        return wrong(fmi::DEPENDENCIES_INDEX, message).map(|finding| finding.help(help));
+    }
+    if let Some(pair) = dependencies.windows(2).find(|pair| pair[0] >= pair[1]) {
+        let message = format!("the dependencies of `{name}` in {list} have {} before {}", pair[0], pair[1]);
+        let help = "they are ordered by index, and each stands there once";
+        return wrong(fmi::DEPENDENCIES_ORDER, message).map(|finding| finding.help(help));
+    }
+    let known = |index: &&usize| {
+        let Some(variable) = description.variable(**index) else { return true };
+        // What FMI does not know at all is for the schema.
+        let given =
+            !matches!(variable.causality.as_str(), "parameter" | "calculatedParameter" | "output" | "local");
+        let exact = initially && variable.effective_initial() == Some("exact");
+        let state = !initially && (states.contains(*index) || is_tunable(variable));
+        given || exact || state
+    };
+    let unknowns: Vec<&str> = dependencies
+        .iter()
+        .filter(|index| !known(index))
+        .filter_map(|index| Some(description.variable(*index)?.name.as_str()))
+        .collect();
+    if unknowns.is_empty() {
+        return None;
+    }
+    let message = format!("`{name}` in {list} depends on {}, which are no knowns", names(&unknowns));
+    let help = if initially {
+        "knowns are inputs, the independent variable, and what is initialised exactly"
+    } else {
+        "knowns are inputs, states, and the independent variable"
+    };
+    wrong(fmi::DEPENDENCIES_KNOWN, message).map(|finding| finding.help(help))
+}
+
+/// The function that the standard gives for outputs and derivatives has tunable parameters in it, too.
+fn is_tunable(variable: &Variable) -> bool {
+    variable.causality == "parameter" && variable.variability == "tunable"
+}
+
+/// A list of the model structure, and what is wrong with one that has too few or too many.
+struct List {
+    name: &'static str,
+    missing: &'static Rule,
+    other: &'static Rule,
+}
+
+/// A list has all variables that it must have, and none that it may not.
+fn same_set(
+    description: &Description,
+    List { name: list, missing: lacks, other }: &List,
     unknowns: &[Unknown],
-    wanted: &dyn Fn(&Variable) -> bool,
+    [wanted, allowed]: [&dyn Fn(&Variable) -> bool; 2],
     which: &str,
 ) -> Vec<Finding> {
     let listed: BTreeSet<usize> = unknowns.iter().map(|unknown| unknown.index).collect();
     let mut findings = Vec::new();
-    let rule = if list == "Outputs" { "structure.outputs" } else { "structure.initial" };
     let variables = || (1..).zip(&description.variables);
     let missing: Vec<(usize, &str)> = variables()
         .filter(|(index, variable)| wanted(variable) && !listed.contains(index))
@@ -78,20 +159,20 @@ fn same_set(
         let only: Vec<&str> = missing.iter().map(|(_, name)| *name).collect();
         let (first, line) = (missing[0].0, description.variables[missing[0].0 - 1].line);
         findings.push(
-            Finding::error(rule, format!("ModelStructure/{list} lacks {}", names(&only))).line(line).help(
+            Finding::error(lacks, format!("ModelStructure/{list} lacks {}", names(&only))).line(line).help(
                 format!("it lists every variable with {which}; add <Unknown index=\"{first}\"/> and so on"),
             ),
         );
     }
     let superfluous: Vec<&str> = variables()
-        .filter(|(index, variable)| !wanted(variable) && listed.contains(index))
+        .filter(|(index, variable)| !allowed(variable) && listed.contains(index))
         .map(|(_, variable)| variable.name.as_str())
         .collect();
     if !superfluous.is_empty() {
         let message =
             format!("ModelStructure/{list} lists {}, which do not belong there", names(&superfluous));
         findings.push(
-            Finding::error(rule, message).help(format!("it lists the variables with {which} and no others")),
+            Finding::error(other, message).help(format!("it lists the variables with {which} and no others")),
         );
     }
     findings
@@ -105,12 +186,13 @@ fn derivatives(description: &Description) -> Vec<Finding> {
             let message =
                 format!("Derivatives lists `{}`, which is no derivative of a variable", variable.name);
             findings.push(
-                Finding::error("structure.derivatives", message)
+                Finding::error(fmi::DERIVATIVES_ATTRIBUTE, message)
                     .line(unknown.line)
                     .help("give the variable the attribute derivative=\"index of the state\""),
             );
         }
     }
+    findings.extend(states(description));
     // A state may go by several names (aliases), and its derivative too: one of each is enough.
     let state = |variable: &Variable| description.variable(variable.derivative?)?.reference;
     let listed_states: BTreeSet<u32> =
@@ -124,14 +206,38 @@ fn derivatives(description: &Description) -> Vec<Finding> {
     if !missing.is_empty() && description.interface(Kind::ModelExchange).is_some() {
         let message = format!("ModelStructure/Derivatives lacks {}", names(&missing));
         findings.push(
-            Finding::warning("structure.derivatives", message)
+            Finding::warning(practice::DERIVATIVES_MISSING, message)
                 .help("importers take the number and order of the states from this list; leave out only what is no state"),
         );
     }
     findings
 }
 
-/// FMI 2.0.4, section 2.2.8: outputs and states with their derivatives that are calculated, calculated
+/// Each state stands there once, and is one that can be a state.
+fn states(description: &Description) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    // By what a state goes by: its reference.
+    let mut seen: HashMap<u32, &str> = HashMap::new();
+    for unknown in &description.derivatives {
+        let derivative = description.variable(unknown.index);
+        let state = derivative.and_then(|it| description.variable(it.derivative?));
+        let (Some(derivative), Some(state)) = (derivative, state) else { continue };
+        let (name, of) = (&derivative.name, &state.name);
+        if !matches!(state.causality.as_str(), "local" | "output") {
+            let message = format!("`{of}` is a state, but its causality is \"{}\"", state.causality);
+            let help = "a state is a local variable or an output";
+            findings.push(Finding::error(fmi::DERIVATIVES_STATE, message).line(state.line).help(help));
+        }
+        let Some(reference) = state.reference else { continue };
+        if let Some(first) = seen.insert(reference, name).filter(|first| *first != name.as_str()) {
+            let message = format!("`{first}` and `{name}` are both listed as the derivative of `{of}`");
+            findings.push(Finding::error(fmi::DERIVATIVES_TWICE, message).line(unknown.line));
+        }
+    }
+    findings
+}
+
+/// FMI 2.0.5, section 2.2.8: outputs and states with their derivatives that are calculated, calculated
 /// parameters; by index.
 fn initial_unknowns(description: &Description) -> Vec<Finding> {
     let mut states = BTreeSet::new();
@@ -144,20 +250,27 @@ fn initial_unknowns(description: &Description) -> Vec<Finding> {
         .filter_map(|index| description.variable(*index))
         .map(|variable| variable.line)
         .collect();
-    let wanted = |variable: &Variable| {
+    let of = |variable: &Variable, states: bool| {
         let calculated = matches!(variable.effective_initial(), Some("calculated" | "approx"));
-        let role = variable.causality == "output" || lines.contains(&variable.line);
+        let role = variable.causality == "output" || (states && lines.contains(&variable.line));
         variable.causality == "calculatedParameter" || (role && calculated)
     };
+    // Without directional derivatives, co-simulation passes over <Derivatives>: its states may be listed, or not.
+    let integrated = description.interfaces.iter().any(|interface| {
+        interface.kind == Kind::ModelExchange || interface.can("providesDirectionalDerivative")
+    });
+    let wanted = |variable: &Variable| of(variable, integrated);
+    let allowed = |variable: &Variable| of(variable, true);
     let which = "causality=\"calculatedParameter\", and the outputs, states and derivatives that are calculated or approx";
     let list = &description.initial_unknowns;
-    let mut findings = same_set(description, "InitialUnknowns", list, &wanted, which);
+    let named = List { name: "InitialUnknowns", missing: fmi::INITIAL_MISSING, other: fmi::INITIAL_OTHER };
+    let mut findings = same_set(description, &named, list, [&wanted, &allowed], which);
     if let Some(pair) = list.windows(2).find(|pair| pair[0].index > pair[1].index) {
         let (first, second) = (pair[0].index, pair[1].index);
         let message =
             format!("ModelStructure/InitialUnknowns is not in order: {first} stands before {second}");
         findings.push(
-            Finding::error("structure.order", message).line(pair[1].line).help("sort the list by the index"),
+            Finding::error(fmi::INITIAL_ORDER, message).line(pair[1].line).help("sort the list by the index"),
         );
     }
     findings
@@ -175,7 +288,7 @@ fn dependencies(description: &Description) -> Vec<Finding> {
     if inputs && !silent.is_empty() {
         let message = format!("what it depends on is not told for {}", names(&silent));
         findings.push(
-            Finding::warning("structure.dependencies", message)
+            Finding::warning(practice::DEPENDENCIES, message)
                 .line(description.outputs[0].line)
                 .help("tools then take each output to depend on every input, and find algebraic loops that are none")
                 .help("give `dependencies`; an empty list says that an output depends on no input"),

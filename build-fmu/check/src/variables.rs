@@ -1,10 +1,12 @@
-//! Rules for the head of the description and for each variable.
+//! Rules for each variable: its name, its role, its start value, its type and unit.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 
-use crate::description::{Declared, Description, Variable};
+use crate::description::{Description, Variable};
 use crate::finding::{Finding, names};
-use crate::names::is_structured;
+use crate::names::{is_structured, place_in_array};
+use crate::rules::{Rule, fmi, practice};
+use crate::{aliases, derivatives};
 
 /// Legal combinations of causality, variability and initial (FMI 2.0.4, section 2.2.7, the two tables).
 const LEGAL: &[(&str, &[&str], &[&str])] = &[
@@ -19,86 +21,24 @@ const LEGAL: &[(&str, &[&str], &[&str])] = &[
     ("independent", &["continuous"], &[]),
 ];
 
-/// What is wrong outside of the model structure.
+/// What the schema knows of `variability`.
+const VARIABILITIES: [&str; 5] = ["constant", "fixed", "tunable", "discrete", "continuous"];
+/// And of `initial`.
+const INITIALS: [&str; 3] = ["exact", "approx", "calculated"];
+
+/// What is wrong with the variables.
 pub fn findings(description: &Description) -> Vec<Finding> {
-    let mut findings = head(description);
-    findings.extend(declarations(description));
-    findings.extend(unique_names(description));
+    let mut findings = unique_names(description);
     let units: HashSet<&str> = description.units.iter().map(|unit| unit.symbol.as_str()).collect();
     for variable in &description.variables {
         findings.extend(roles(variable));
         findings.extend(start(variable));
         findings.extend(type_and_unit(variable, description, &units));
-        if let Some(index) = variable.derivative {
-            findings.extend(derivative(variable, description.variable(index), index));
-        }
     }
-    findings.extend(references(description));
+    findings.extend(aliases::findings(description));
+    findings.extend(derivatives::findings(description));
+    findings.extend(arrays(description));
     findings.extend(together(description));
-    findings
-}
-
-fn head(description: &Description) -> Vec<Finding> {
-    let mut findings = Vec::new();
-    if description.guid.as_deref().unwrap_or_default().trim().is_empty() {
-        findings.push(
-            Finding::error("description.guid", "the guid is missing or empty").help(
-                "without it nothing tells a library and a description apart that do not belong together",
-            ),
-        );
-    }
-    if description.interfaces.is_empty() {
-        let message = "there is neither <CoSimulation> nor <ModelExchange>, so that no tool can run this";
-        findings.push(Finding::error("description.interfaces", message));
-    }
-    for interface in &description.interfaces {
-        let name = &interface.identifier;
-        let plain = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-        if name.is_empty() || !plain || name.starts_with(|c: char| c.is_ascii_digit()) {
-            findings.push(
-                Finding::error("description.identifier", format!("the modelIdentifier `{name}` is no identifier of C"))
-                    .line(interface.line)
-                    .help("use letters, digits and `_`: it is the library's file name and part of its functions' names"),
-            );
-        }
-    }
-    let experiment = description.experiment;
-    if let (start, Some(stop)) = (experiment.start.unwrap_or(0.0), experiment.stop)
-        && stop <= start
-    {
-        let message =
-            format!("the default experiment stops at {stop} s, which is not after its start at {start} s");
-        findings.push(Finding::warning("description.experiment", message).line(experiment.line));
-    }
-    for (name, value) in [("stepSize", experiment.step), ("tolerance", experiment.tolerance)] {
-        if let Some(value) = value.filter(|value| *value <= 0.0) {
-            let message = format!("the default experiment's {name} is {value}, but must be positive");
-            findings.push(Finding::error("description.experiment", message).line(experiment.line));
-        }
-    }
-    findings
-}
-
-/// What is declared by a name is declared once, and a factor is one that can be divided by.
-fn declarations(description: &Description) -> Vec<Finding> {
-    let mut findings = Vec::new();
-    let mut seen: HashMap<(&str, &str, &str), u32> = HashMap::new();
-    for Declared { what, within, name, factor, line } in &description.declared {
-        let within_it = if within.is_empty() { String::new() } else { format!(" of `{within}`") };
-        if let Some(first) = seen.insert((what, within, name), *line) {
-            let message = format!("the {what} `{name}`{within_it} is declared twice; first in line {first}");
-            findings.push(Finding::error("description.twice", message).line(*line));
-        }
-        let number = factor.as_ref().map(|text| text.trim().parse::<f64>());
-        if let (Some(Ok(number)), Some(text)) = (number, factor)
-            && !(number.is_finite() && number != 0.0)
-        {
-            let message = format!(
-                "the {what} `{name}`{within_it} has the factor {text}, by which nothing can be converted"
-            );
-            findings.push(Finding::error("variables.unit", message).line(*line));
-        }
-    }
     findings
 }
 
@@ -111,17 +51,17 @@ fn unique_names(description: &Description) -> Vec<Finding> {
         if let Some(first) = seen.insert(name, variable.line) {
             let message =
                 format!("there are two variables of the name `{name}`; the other is in line {first}");
-            findings.push(Finding::error("variables.name", message).line(variable.line));
+            findings.push(Finding::error(fmi::NAME_TWICE, message).line(variable.line));
         } else if let Some(other) = lower.insert(name.to_lowercase(), name) {
             let message = format!("`{name}` and `{other}` differ only in upper and lower case");
             let help = "legal, but tools that map names to files, tables or code without case mix them up";
-            findings.push(Finding::warning("variables.name", message).line(variable.line).help(help));
+            findings.push(Finding::warning(practice::NAME_CASE, message).line(variable.line).help(help));
         }
         if name.is_empty() {
-            findings.push(Finding::error("variables.name", "a variable has no name").line(variable.line));
+            findings.push(Finding::error(fmi::NAME_EMPTY, "a variable has no name").line(variable.line));
         } else if description.structured && !is_structured(name) {
             let message = format!("`{name}` is no structured name, which this description says it has");
-            findings.push(Finding::error("variables.name", message).line(variable.line).help(
+            findings.push(Finding::error(fmi::NAME_STRUCTURED, message).line(variable.line).help(
                 "write names like body.position[2] or der(body.position), quote other characters with '…', or declare \
                  variableNamingConvention=\"flat\"",
             ));
@@ -133,13 +73,12 @@ fn unique_names(description: &Description) -> Vec<Finding> {
 fn roles(variable: &Variable) -> Vec<Finding> {
     let Variable { name, causality, variability, line, .. } = variable;
     let mut findings = Vec::new();
-    let mut error = |message: String, help: &str| {
-        findings.push(Finding::error("variables.causality", message).line(*line).help(help));
+    let mut error = |rule: &'static Rule, message: String, help: &str| {
+        findings.push(Finding::error(rule, message).line(*line).help(help));
     };
     let rows: Vec<_> = LEGAL.iter().filter(|(legal, ..)| legal == causality).collect();
-    if rows.is_empty() {
-        let known = "it is one of parameter, calculatedParameter, input, output, local, independent";
-        error(format!("`{name}` has the causality \"{causality}\", which FMI 2.0 does not know"), known);
+    // What FMI does not know at all is for the schema.
+    if rows.is_empty() || !VARIABILITIES.contains(&variability.as_str()) {
         return findings;
     }
     let Some((_, _, initials)) = rows.iter().find(|(_, legal, _)| legal.contains(&variability.as_str()))
@@ -147,24 +86,26 @@ fn roles(variable: &Variable) -> Vec<Finding> {
         let legal: Vec<&str> = rows.iter().flat_map(|(_, legal, _)| *legal).copied().collect();
         let defaulted = "variability is \"continuous\" where it is not given";
         let help = format!("with this causality it is {}; {defaulted}", legal.join(" or "));
-        error(format!("`{name}` is {}, but its variability is \"{variability}\"", article(causality)), &help);
+        let message = format!("`{name}` is {}, but its variability is \"{variability}\"", article(causality));
+        error(fmi::VARIABILITY, message, &help);
         return findings;
     };
     if variable.kind != "Real" && !variable.kind.is_empty() && variability == "continuous" {
         let message = format!("`{name}` is of type {} and cannot be continuous", variable.kind);
-        error(message, "give it variability=\"discrete\"");
+        error(fmi::CONTINUOUS, message, "give it variability=\"discrete\"");
     }
     match variable.initial.as_deref() {
         Some(initial) if initials.is_empty() => {
             let message = format!("`{name}` is {} and cannot have initial=\"{initial}\"", article(causality));
-            error(message, "leave `initial` out: the value is given from outside");
+            error(fmi::INITIAL, message, "leave `initial` out: the value is given from outside");
         }
-        Some(initial) if !initials.contains(&initial) => {
+        Some(initial) if !initials.contains(&initial) && INITIALS.contains(&initial) => {
             let message = format!(
                 "`{name}` is {}, {variability}, and cannot have initial=\"{initial}\"",
                 article(causality)
             );
-            error(message, &format!("the standard's table allows {} here", initials.join(" or ")));
+            let help = format!("the standard's table allows {} here", initials.join(" or "));
+            error(fmi::INITIAL, message, &help);
         }
         _ => {}
     }
@@ -191,68 +132,43 @@ fn start(variable: &Variable) -> Vec<Finding> {
                 _ => format!("initial is \"{}\"", variable.effective_initial().unwrap_or_default()),
             };
             let message = format!("`{name}` has no start value, which it must have since {why}");
-            findings.push(Finding::error("variables.start", message).line(*line));
+            findings.push(Finding::error(fmi::START_MISSING, message).line(*line));
         }
         Some(_) if variable.effective_initial() == Some("calculated") => {
             let message = format!("`{name}` has a start value although it is calculated");
             findings.push(
-                Finding::error("variables.start", message)
+                Finding::error(fmi::START_SUPERFLUOUS, message)
                     .line(*line)
                     .help("leave `start` out, or give initial=\"exact\" or \"approx\""),
             );
         }
         Some(_) if variable.causality == "independent" => {
             let message = format!("`{name}` is independent and cannot have a start value");
-            findings.push(Finding::error("variables.start", message).line(*line));
+            findings.push(Finding::error(fmi::START_SUPERFLUOUS, message).line(*line));
         }
         _ => {}
     }
     let text = variable.start.as_deref().map(str::trim);
-    let readable = text.is_none_or(|text| is_value(&variable.kind, text));
-    if !readable {
-        let value = text.unwrap_or_default();
-        let message =
-            format!("`{name}` starts at `{value}`, which is no value of the type {}", variable.kind);
-        findings.push(Finding::error("variables.start", message).line(*line));
-    }
     let (min, max) = (variable.min.unwrap_or(f64::NEG_INFINITY), variable.max.unwrap_or(f64::INFINITY));
     if min > max {
         let message = format!("`{name}` has a min of {min} above its max of {max}");
-        findings.push(Finding::error("variables.bounds", message).line(*line));
+        findings.push(Finding::error(fmi::BOUNDS, message).line(*line));
     } else if let Some(value) = text.and_then(|text| text.parse::<f64>().ok())
         && !(min..=max).contains(&value)
     {
         let message = format!("`{name}` starts at {value}, outside of its bounds from {min} to {max}");
-        findings.push(Finding::error("variables.bounds", message).line(*line));
+        findings.push(Finding::error(fmi::BOUNDS_START, message).line(*line));
     }
     if variable.nominal == Some(0.0) {
         let message = format!("`{name}` has the nominal value 0, by which solvers divide");
-        findings.push(Finding::error("variables.nominal", message).line(*line));
+        findings.push(Finding::error(practice::NOMINAL, message).line(*line));
     }
     findings
-}
-
-/// Whether a text is a value of a type.
-pub fn is_value(kind: &str, text: &str) -> bool {
-    match kind {
-        "Real" => text.trim().parse::<f64>().is_ok_and(f64::is_finite),
-        "Integer" | "Enumeration" => text.trim().parse::<i32>().is_ok(),
-        "Boolean" => matches!(text.trim(), "true" | "false" | "0" | "1"),
-        _ => true,
-    }
 }
 
 fn type_and_unit(variable: &Variable, description: &Description, units: &HashSet<&str>) -> Vec<Finding> {
     let Variable { name, line, .. } = variable;
     let mut findings = Vec::new();
-    if variable.kind.is_empty() {
-        let message = format!("`{name}` has no type: Real, Integer, Boolean, String or Enumeration");
-        findings.push(Finding::error("variables.type", message).line(*line));
-    }
-    if variable.reference.is_none() {
-        let message = format!("`{name}` has no valueReference, a number from 0 to 4294967295");
-        findings.push(Finding::error("variables.reference", message).line(*line));
-    }
     if let Some(ty) = &variable.declared_type {
         match description.types.get(ty) {
             None => {
@@ -262,29 +178,38 @@ fn type_and_unit(variable: &Variable, description: &Description, units: &HashSet
                     let like = |other: &str| strsim::jaro_winkler(ty, other);
                     like(a).total_cmp(&like(b))
                 });
-                let finding = Finding::error("variables.type", message).line(*line);
+                let finding = Finding::error(fmi::TYPE_DECLARED, message).line(*line);
                 findings.push(match close {
                     Some(close) => finding.help(format!("is `{close}` meant?")),
                     None => finding,
                 });
             }
-            Some((kind, _)) if *kind != variable.kind => {
+            Some(declared) if declared.kind != variable.kind => {
+                let kind = &declared.kind;
                 let message = format!("`{name}` is {}, but its type `{ty}` is {kind}", variable.kind);
-                findings.push(Finding::error("variables.type", message).line(*line));
+                findings.push(Finding::error(fmi::TYPE_KIND, message).line(*line));
             }
-            Some(_) => {}
+            Some(declared) => {
+                let start = variable.start.as_deref().and_then(|text| text.trim().parse::<i32>().ok());
+                if let Some(start) =
+                    start.filter(|it| variable.kind == "Enumeration" && !declared.items.contains(it))
+                {
+                    let message = format!("`{name}` starts at {start}, which is no item of its type `{ty}`");
+                    findings.push(Finding::error(fmi::ENUMERATION_ITEM, message).line(*line));
+                }
+            }
         }
-    } else if variable.kind == "Enumeration" {
-        let message =
-            format!("`{name}` is an Enumeration without `declaredType`, so that its items have no names");
-        findings.push(Finding::error("variables.type", message).line(*line));
+    }
+    if let (Some(shown), None) = (&variable.display_unit, &variable.unit) {
+        let message = format!("`{name}` has the displayUnit `{shown}`, but no unit");
+        findings.push(Finding::error(fmi::DISPLAY_UNIT, message).line(*line));
     }
     if let Some(unit) = &variable.unit
         && !units.contains(unit.as_str())
     {
         let message = format!("the unit `{unit}` of `{name}` is not declared in <UnitDefinitions>");
         findings.push(
-            Finding::error("variables.unit", message)
+            Finding::error(fmi::UNIT_DECLARED, message)
                 .line(*line)
                 .help("declare it with its <BaseUnit>, or a tool cannot convert it"),
         );
@@ -292,58 +217,22 @@ fn type_and_unit(variable: &Variable, description: &Description, units: &HashSet
     findings
 }
 
-fn derivative(variable: &Variable, state: Option<&Variable>, index: usize) -> Option<Finding> {
-    let name = &variable.name;
-    let finding = |message: String| Some(Finding::error("variables.derivative", message).line(variable.line));
-    match state {
-        None => finding(format!("`{name}` is the derivative of variable {index}, which there is none of")),
-        Some(state) if std::ptr::eq(state, variable) => {
-            finding(format!("`{name}` is the derivative of itself"))
-        }
-        Some(_) if variable.kind != "Real" || variable.variability != "continuous" => {
-            finding(format!("`{name}` is a derivative, but no continuous Real"))
-        }
-        Some(state) if state.kind != "Real" || state.variability != "continuous" => finding(format!(
-            "`{name}` is the derivative of `{}`, which is no continuous Real and cannot be a state",
-            state.name
-        )),
-        Some(_) => None,
-    }
-}
-
-/// Variables of one reference are aliases: one value under several names.
-fn references(description: &Description) -> Vec<Finding> {
-    let mut findings = Vec::new();
-    let mut sets: BTreeMap<(&str, u32), Vec<&Variable>> = BTreeMap::new();
-    for variable in &description.variables {
-        if let Some(reference) = variable.reference {
-            // An enumeration is read and written as an integer.
-            let kind = if variable.kind == "Enumeration" { "Integer" } else { &variable.kind };
-            sets.entry((kind, reference)).or_default().push(variable);
+/// The elements of an array stand one after another, those of the last index first.
+fn arrays(description: &Description) -> Option<Finding> {
+    // Where each array's last element stands, and its indices.
+    let mut last: HashMap<String, (usize, Vec<u32>)> = HashMap::new();
+    for (place, variable) in description.variables.iter().enumerate().filter(|_| description.structured) {
+        let Some((array, indices)) = place_in_array(&variable.name) else { continue };
+        let before = last.insert(array, (place, indices.clone()));
+        let Some((before, previous)) = before.filter(|(_, previous)| *previous != indices) else { continue };
+        if before + 1 != place || previous > indices {
+            let message = format!("the elements of an array are not in order: `{}`", variable.name);
+            let help = "they stand one after another, as [1,1], [1,2], [2,1]; or the names are \"flat\"";
+            // One is enough: what is sorted otherwise is so throughout.
+            return Some(Finding::warning(fmi::NAME_ARRAY, message).line(variable.line).help(help));
         }
     }
-    for ((_, reference), set) in sets.into_iter().filter(|(_, set)| set.len() > 1) {
-        let list: Vec<&str> = set.iter().map(|variable| variable.name.as_str()).collect();
-        let line = set[1].line;
-        let of = |wanted: &[&str]| set.iter().filter(|it| wanted.contains(&it.causality.as_str())).count();
-        if set.iter().any(|variable| variable.unit != set[0].unit) {
-            let message = format!("{} share the reference {reference}, but not the unit", names(&list));
-            findings.push(Finding::error("variables.reference", message).line(line));
-        }
-        let constant = set.iter().all(|variable| variable.variability == "constant");
-        let starts = set.iter().filter(|variable| variable.start.is_some()).count();
-        if of(&["parameter", "input"]) > 1 || (starts > 1 && !constant) {
-            let message = format!(
-                "{} share the reference {reference}, but more than one of them is set from outside or has a start \
-                 value",
-                names(&list)
-            );
-            findings.push(Finding::error("variables.reference", message).line(line).help(
-                "give each its own reference, or let one be the alias of the other, without a start value",
-            ));
-        }
-    }
-    findings
+    None
 }
 
 /// What concerns many variables is said once.
@@ -359,7 +248,7 @@ fn together(description: &Description) -> Vec<Finding> {
     let without = listed(&|variable| variable.unit.is_none());
     if !without.is_empty() {
         let message = format!("no unit is given for {}", names(&without));
-        findings.push(Finding::note("variables.unit.missing", message).help(
+        findings.push(Finding::note(practice::UNIT_MISSING, message).help(
             "with units, tools find a metre that is connected to a millimetre; write \"1\" for a pure number",
         ));
     }
@@ -367,7 +256,7 @@ fn together(description: &Description) -> Vec<Finding> {
     if pure.len() > 1 && pure.len() == reals.len() {
         let message = format!("every real variable has the unit \"1\": {}", names(&pure));
         findings.push(
-            Finding::note("variables.unit.missing", message)
+            Finding::note(practice::UNIT_MISSING, message)
                 .help("\"1\" says that a number has no unit; if it has one, give it"),
         );
     }
@@ -380,7 +269,7 @@ fn together(description: &Description) -> Vec<Finding> {
         .collect();
     if !silent.is_empty() {
         let message = format!("no description is given for {}", names(&silent));
-        findings.push(Finding::note("variables.description", message));
+        findings.push(Finding::note(practice::DESCRIPTION, message));
     }
     let times: Vec<&str> = description
         .variables
@@ -388,9 +277,14 @@ fn together(description: &Description) -> Vec<Finding> {
         .filter(|variable| variable.causality == "independent")
         .map(|variable| variable.name.as_str())
         .collect();
+    let other = |variable: &&Variable| variable.causality == "independent" && variable.kind != "Real";
+    if let Some(time) = description.variables.iter().find(other) {
+        let message = format!("the independent variable `{}` is no Real", time.name);
+        findings.push(Finding::error(fmi::INDEPENDENT_ONE, message).line(time.line));
+    }
     if times.len() > 1 {
         let message = format!("there is more than one independent variable: {}", names(&times));
-        findings.push(Finding::error("variables.causality", message));
+        findings.push(Finding::error(fmi::INDEPENDENT_ONE, message));
     }
     findings
 }

@@ -1,13 +1,15 @@
 //! Rules for what single calls answer.
 
 use super::Bench;
-use super::subject::{number, read, reals};
+use super::subject::{number, plain, read, reals};
 use crate::description::Variable;
 use crate::finding::{Finding, Report, count, names};
-use crate::probe::{Act, Ending, Outcome, Run};
+use crate::probe::{Act, Ending, Log, Memory, Outcome, Run};
+use crate::rules::{Rule, fmi, practice};
 
 impl Bench<'_> {
-    /// The first run goes no further than the initialisation, and compares what is described.
+    /// The first run goes no further than the initialisation, and compares what is described. While it is initialised,
+    /// only outputs and initial unknowns may be read, so the values are read directly after.
     pub(super) fn start_values(&self, report: &mut Report) -> Result<Run, String> {
         let exact = |variable: &Variable| {
             let set = matches!(variable.causality.as_str(), "parameter" | "input");
@@ -18,6 +20,7 @@ impl Bench<'_> {
             .unzip();
         let mut acts = self.subject.fresh(self.unpacked.plain);
         acts.extend(self.subject.begin());
+        acts.push(plain("fmi2ExitInitializationMode"));
         acts.push((Act::Reals(references), false));
         let run = self.obey(acts)?;
         let Some(outcome) = run.answers.outcomes.last().filter(|outcome| outcome.is_fine()) else {
@@ -37,27 +40,62 @@ impl Bench<'_> {
             );
             let help =
                 "description and library are of different builds, or values are read before they are set";
-            report.findings.push(Finding::error("run.start", message).line(variable.line).help(help));
+            report.findings.push(Finding::error(fmi::START_KEPT, message).line(variable.line).help(help));
         }
         Ok(run)
     }
 
+    /// What the library says of itself and logs.
     pub(super) fn words(&self, run: &Run) -> Vec<Finding> {
         let mut findings = Vec::new();
-        let mut wrong = |function: &str, found: &Option<String>, wanted: &str| {
+        let mut wrong = |rule: &'static Rule, function: &str, found: &Option<String>, wanted: &str| {
             if let Some(found) = found.as_ref().filter(|found| *found != wanted) {
                 let message = format!("{function} returns \"{found}\", but must return \"{wanted}\"");
-                findings.push(Finding::error("run.version", message).at(&self.subject.library));
+                findings.push(Finding::error(rule, message).at(&self.subject.library));
             }
         };
-        wrong("fmi2GetVersion", &run.answers.version, "2.0");
-        wrong("fmi2GetTypesPlatform", &run.answers.types, "default");
-        let log = &run.answers.log;
-        if log.null_category || log.null_text {
-            let what = if log.null_category { "category" } else { "text or name" };
-            let message = format!("the library logs messages whose {what} is null");
-            let help = "masters build a string of it, and some crash; give one of the declared categories";
-            findings.push(Finding::warning("run.logger", message).at(&self.subject.library).help(help));
+        wrong(fmi::VERSION, "fmi2GetVersion", &run.answers.version, "2.0");
+        wrong(fmi::TYPES_PLATFORM, "fmi2GetTypesPlatform", &run.answers.types, "default");
+        findings.extend(self.log(&run.answers.log));
+        findings
+    }
+
+    fn log(&self, log: &Log) -> Vec<Finding> {
+        let mut findings = Vec::new();
+        let library = &self.subject.library;
+        if log.null_text || log.invalid_text {
+            let what = if log.null_text { "name or text is null" } else { "text is not encoded in UTF-8" };
+            let message = format!("the library logs messages whose {what}");
+            findings.push(Finding::warning(fmi::LOG_TEXT, message).at(library));
+        }
+        let declared = &self.subject.description.categories;
+        let help = "masters build a string of it, and some crash; give one of the declared categories";
+        if log.null_category {
+            let message = "the library logs messages whose category is null";
+            // Without categories, the standard wants a null.
+            findings.push(if declared.is_empty() {
+                Finding::note(fmi::LOG_CATEGORY, message)
+                    .at(library)
+                    .help("declare <LogCategories>")
+                    .help(help)
+            } else {
+                Finding::warning(fmi::LOG_CATEGORY, message).at(library).help(help)
+            });
+        }
+        let others: Vec<&str> = log
+            .categories
+            .iter()
+            .map(String::as_str)
+            .filter(|name| !declared.iter().any(|it| it == name))
+            .collect();
+        if !others.is_empty() {
+            let message =
+                format!("messages are logged in categories that are not declared: {}", names(&others));
+            findings.push(
+                Finding::note(fmi::LOG_CATEGORY, message).at(library).help(
+                    "declare them in <LogCategories>: importers show and choose what is declared there",
+                ),
+            );
         }
         findings
     }
@@ -81,24 +119,121 @@ impl Bench<'_> {
             let message = format!(
                 "`{name}` is no finite number at {time} s, with inputs at or near their start values"
             );
-            findings.push(Finding::error("run.finite", message).at(&self.subject.library));
+            findings.push(Finding::error(practice::FINITE, message).at(&self.subject.library));
         }
         if outcomes.iter().any(|outcome| outcome.texts.contains(&None)) {
-            findings.push(Finding::error("run.text", "fmi2GetString gives a null").at(&self.subject.library));
+            let message = "fmi2GetString gives a null, or a text that is not encoded in UTF-8";
+            findings.push(Finding::error(fmi::TEXT_VALUE, message).at(&self.subject.library));
         }
         findings
+    }
+
+    /// What is got from the importer's memory goes back to it.
+    pub(super) fn memory(&self, run: &Run) -> Vec<Finding> {
+        let Memory { allocated, left, bytes, foreign } = run.answers.memory;
+        let mut findings = Vec::new();
+        let library = &self.subject.library;
+        if self.subject.interface.can("canNotUseMemoryManagementFunctions") && allocated + foreign > 0 {
+            let message =
+                "allocateMemory or freeMemory is called, although canNotUseMemoryManagementFunctions is true";
+            let help = "importers may give null pointers for them";
+            return vec![Finding::error(fmi::MEMORY_OWN, message).at(library).help(help)];
+        }
+        if foreign > 0 {
+            let message = format!(
+                "freeMemory is given {}",
+                count(foreign, "pointer that allocateMemory has not given")
+            );
+            let help = "or one that is freed already: importers with an allocator of their own crash";
+            findings.push(Finding::error(fmi::MEMORY_FOREIGN, message).at(library).help(help));
+        }
+        if left > 0 && run.ending == Ending::Answered && run.failure().is_none() {
+            let message = format!(
+                "{} of {allocated} from allocateMemory ({bytes} bytes) are not freed when all instances and states are",
+                count(left, "block")
+            );
+            findings.push(
+                Finding::error(fmi::MEMORY_FREED, message).at(library).help(
+                    "an importer that makes many instances, as an optimisation does, runs out of memory",
+                ),
+            );
+        }
+        findings
+    }
+
+    /// Derivatives of inputs and outputs, up to the order that is promised.
+    pub(super) fn slopes(&self, report: &mut Report) -> Result<(), String> {
+        let subject = &self.subject;
+        let of = |role: &'static str| {
+            let wanted = move |it: &Variable| it.causality == role && it.variability == "continuous";
+            reals(subject.description, &wanted).map(|(reference, _)| reference).collect::<Vec<u32>>()
+        };
+        let (inputs, outputs) = (of("input"), of("output"));
+        if subject.interface.can("canInterpolateInputs") && !inputs.is_empty() {
+            let mut acts = subject.fresh(self.unpacked.plain);
+            acts.extend(subject.initialize());
+            acts.extend(subject.excite(0, 1.0));
+            acts.push((Act::InputDerivatives(inputs), true));
+            acts.push(subject.advance(subject.time(0)));
+            acts.extend(subject.reads());
+            let run = self.obey(acts)?;
+            let what = "setting derivatives of inputs, which canInterpolateInputs promises";
+            self.ran(fmi::INPUT_DERIVATIVES, what, &run, report);
+        }
+        let promised = subject.interface.number("maxOutputDerivativeOrder");
+        // A promise of thousands is tried as far as anyone asks.
+        let orders = 1..=i32::try_from(promised.min(5)).unwrap_or(0);
+        if outputs.is_empty() || orders.is_empty() {
+            return Ok(());
+        }
+        let mut acts = subject.fresh(self.unpacked.plain);
+        acts.extend(subject.initialize());
+        acts.extend(subject.steps(0..2, 1.0));
+        acts.extend(orders.clone().map(|order| (Act::OutputDerivatives(outputs.clone(), order), true)));
+        let run = self.obey(acts)?;
+        let what = format!("reading derivatives of outputs up to order {promised}, which is promised");
+        if self.ran(fmi::OUTPUT_DERIVATIVES, &what, &run, report) {
+            let last = run.answers.outcomes.iter().rev().take(orders.count());
+            if last.flat_map(Outcome::values).any(|value| !value.is_finite()) {
+                let message = "a derivative of an output is no finite number";
+                report.findings.push(Finding::error(fmi::OUTPUT_DERIVATIVES, message).at(&subject.library));
+            }
+        }
+        Ok(())
+    }
+
+    /// Nominal values of states, by which importers scale their tolerance.
+    pub(super) fn nominals(&self, report: &mut Report) -> Result<(), String> {
+        let states = self.subject.description.derivatives.len();
+        if states == 0 {
+            return Ok(());
+        }
+        let mut acts = self.subject.fresh(self.unpacked.plain);
+        acts.extend(self.subject.initialize());
+        acts.push((Act::Nominals(states), true));
+        let run = self.obey(acts)?;
+        if self.ran(fmi::NOMINALS, "reading nominal values of states", &run, report)
+            && let Some(value) =
+                run.answers.outcomes.last().and_then(|it| it.values().find(|it| it.is_nan() || *it <= 0.0))
+        {
+            let message = format!("fmi2GetNominalsOfContinuousStates gives {value}, which must be positive");
+            report.findings.push(Finding::error(fmi::NOMINALS, message).at(&self.subject.library));
+        }
+        Ok(())
     }
 
     pub(super) fn guid(&self, report: &mut Report) -> Result<(), String> {
         let (act, _) = self.subject.instantiate(self.unpacked.plain, "{00000000-no-such-guid}", false);
         let run = self.obey(vec![(act, false)])?;
         if run.ending != Ending::Answered {
-            self.ran("run.guid", "an instantiation with a wrong GUID", &run, report);
+            self.ran(fmi::GUID_CHECKED, "an instantiation with a wrong GUID", &run, report);
         } else if run.answers.outcomes.first().is_some_and(Outcome::is_fine) {
             let message = "fmi2Instantiate accepts a wrong GUID";
             let help = "it should log an error and return null: with it, a library and a description that do not belong \
                 together run, with values mixed up";
-            report.findings.push(Finding::warning("run.guid", message).at(&self.subject.library).help(help));
+            report
+                .findings
+                .push(Finding::warning(fmi::GUID_CHECKED, message).at(&self.subject.library).help(help));
         } else {
             report.done.push("a wrong GUID is refused".into());
         }
@@ -119,7 +254,7 @@ impl Bench<'_> {
         let run = self.obey(acts)?;
         let what = "reading a value reference that does not exist";
         if run.ending != Ending::Answered {
-            self.ran("run.reference", what, &run, report);
+            self.ran(fmi::REFERENCE_UNKNOWN, what, &run, report);
         } else if run.answers.outcomes.last().is_some_and(Outcome::is_fine) {
             let message = format!(
                 "fmi2GetReal returns fmi2OK for the value reference {unknown}, which there is none of"
@@ -127,7 +262,7 @@ impl Bench<'_> {
             let help = "it should return fmi2Error, so that a mistake in a master is found";
             report
                 .findings
-                .push(Finding::warning("run.reference", message).at(&self.subject.library).help(help));
+                .push(Finding::warning(fmi::REFERENCE_UNKNOWN, message).at(&self.subject.library).help(help));
         }
         Ok(())
     }
@@ -152,7 +287,7 @@ impl Bench<'_> {
             acts.push((Act::SetReals(references, values), true));
             acts.extend(subject.steps(2..4, 1.0));
             let run = self.obey(acts)?;
-            self.ran("run.tunable", "setting tunable parameters between steps", &run, report);
+            self.ran(fmi::TUNABLE, "setting tunable parameters between steps", &run, report);
         }
         let (references, values) = of("fixed");
         if !references.is_empty() {
@@ -162,7 +297,7 @@ impl Bench<'_> {
             if run.ending == Ending::Answered && run.answers.outcomes.last().is_some_and(Outcome::is_fine) {
                 let message = "fixed parameters can be set between steps, without a word";
                 report.findings.push(
-                    Finding::note("run.fixed", message)
+                    Finding::note(fmi::FIXED, message)
                         .at(&subject.library)
                         .help("a user believes that they take effect: refuse them, or declare them tunable"),
                 );
@@ -189,11 +324,11 @@ impl Bench<'_> {
         acts.extend(subject.steps(0..2, 1.0));
         acts.extend(inputs.iter().map(|input| (Act::Directional(outputs.clone(), *input), true)));
         let run = self.obey(acts)?;
-        if self.ran("run.directional", "asking for directional derivatives", &run, report) {
+        if self.ran(fmi::DIRECTIONAL, "asking for directional derivatives", &run, report) {
             let derivatives = run.answers.outcomes.iter().rev().take(inputs.len());
             if derivatives.flat_map(Outcome::values).any(|value| !value.is_finite()) {
                 let message = "a directional derivative is no finite number";
-                report.findings.push(Finding::error("run.directional", message).at(&subject.library));
+                report.findings.push(Finding::error(fmi::DIRECTIONAL, message).at(&subject.library));
             }
             report.done.push(format!(
                 "{}: directional derivatives to {}",

@@ -2,16 +2,19 @@
 
 mod answers;
 mod lives;
+mod signs;
 mod subject;
 
 use std::path::Path;
 
+pub use signs::Response;
 use subject::{STEPS, Subject, plain, read};
 
 use crate::description::{Description, Kind};
 use crate::finding::{Finding, Report};
 use crate::libraries;
-use crate::probe::{ABSENT, Act, Ending, Outcome, Probe, RESTLESS, Run};
+use crate::probe::{ABSENT, Act, Ending, Probe, RESTLESS, Run};
+use crate::rules::{Rule, fmi, practice};
 
 /// Folders that an FMU is unpacked to.
 pub struct Unpacked<'a> {
@@ -21,7 +24,7 @@ pub struct Unpacked<'a> {
     pub odd: &'a Path,
 }
 
-/// Runs each interface for which there is a library.
+/// Runs each interface for which there is a library; tells which way outputs go, if that is asked for.
 ///
 /// # Errors
 /// If processes cannot be started.
@@ -29,6 +32,7 @@ pub fn run(
     description: &Description,
     unpacked: &Unpacked,
     probe: &Probe,
+    signs: bool,
     report: &mut Report,
 ) -> Result<(), String> {
     let mut first = true;
@@ -46,6 +50,9 @@ pub fn run(
         let subject = Subject::new(description, interface, library);
         let bench = Bench { subject, unpacked, probe };
         bench.check(first, report)?;
+        if signs {
+            bench.signs(report)?;
+        }
         first = false;
     }
     Ok(())
@@ -66,7 +73,7 @@ impl Bench<'_> {
         let run = self.start_values(report)?;
         if let Some(error) = &run.answers.unloadable {
             report.findings.push(
-                Finding::error("run.load", format!("the library cannot be loaded here: {error}"))
+                Finding::error(practice::LOAD, format!("the library cannot be loaded here: {error}"))
                     .at(&subject.library)
                     .help("link statically what is missing, or bring it along beside the library"),
             );
@@ -74,11 +81,12 @@ impl Bench<'_> {
         }
         let reference = self.obey(self.whole(self.unpacked.plain, true))?;
         report.findings.extend(self.words(&reference));
-        if !self.ran("run.simulate", &format!("a run of {what}"), &reference, report) {
+        if !self.ran(fmi::SIMULATION, &format!("a run of {what}"), &reference, report) {
             report.skipped.push(format!("further runs of {what}, since the first does not succeed"));
             return Ok(());
         }
         report.findings.extend(self.numbers(&reference));
+        report.findings.extend(self.memory(&reference));
         report.tell();
         report.done.push(format!("{what}: {STEPS} steps of {} s", subject.step));
         if everything {
@@ -91,7 +99,7 @@ impl Bench<'_> {
         if read(&again) != read(&reference) {
             let message = format!("two runs of {what} with the same inputs differ");
             let help = "something is not initialised, or depends on the clock or on addresses";
-            report.findings.push(Finding::warning("run.repeat", message).help(help));
+            report.findings.push(Finding::warning(practice::REPEAT, message).help(help));
             report
                 .skipped
                 .push("comparing runs after a reset or a saved state, since equal runs differ".into());
@@ -111,6 +119,11 @@ impl Bench<'_> {
             self.clock(report)?;
             report.tell();
             self.parameters(report)?;
+            report.tell();
+            self.slopes(report)?;
+            report.tell();
+        } else {
+            self.nominals(report)?;
             report.tell();
         }
         Ok(())
@@ -139,7 +152,7 @@ impl Bench<'_> {
     }
 
     /// Whether a run went through; what went wrong is reported.
-    fn ran(&self, rule: &'static str, what: &str, run: &Run, report: &mut Report) -> bool {
+    fn ran(&self, rule: &'static Rule, what: &str, run: &Run, report: &mut Report) -> bool {
         let message = match (&run.ending, run.failure()) {
             (Ending::Crashed { function, how }, _) => {
                 format!("the library crashes in {function} during {what}: {how}")
@@ -172,30 +185,6 @@ impl Bench<'_> {
         }
         report.findings.push(finding);
         false
-    }
-
-    fn same(
-        &self,
-        rule: &'static str,
-        when: &str,
-        found: &[&Outcome],
-        wanted: &[&Outcome],
-        report: &mut Report,
-        help: &[&str],
-    ) {
-        let width = self.subject.width().max(1);
-        match found.iter().zip(wanted).position(|(found, wanted)| found != wanted) {
-            None if found.len() == wanted.len() => {
-                report.done.push(format!("{}: the same results {when}, bit for bit", self.what()));
-            }
-            place => {
-                let step = place.unwrap_or(found.len().min(wanted.len())) / width;
-                let message =
-                    format!("{when}, the outputs are others than in a plain run, first in row {step}");
-                let finding = Finding::error(rule, message).at(&self.subject.library);
-                report.findings.push(help.iter().fold(finding, |finding, help| finding.help(*help)));
-            }
-        }
     }
 }
 

@@ -1,14 +1,17 @@
-//! A library of FMI 2.0 behind functions without `unsafe`: the only place where there is any.
+//! A library of FMI 2.0 behind functions without `unsafe`: here and in [`memory`] is all of it.
 //!
 //! What the library does with its memory is beyond anyone's control. That is why it is loaded in a process
 //! of its own.
 
 #![allow(unsafe_code)]
 
+use std::collections::BTreeSet;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::path::Path;
 use std::ptr::null_mut;
 use std::sync::Mutex;
+
+use super::memory;
 
 /// What a call came to: fmi2OK is 0, fmi2Error 3, fmi2Fatal 4.
 pub type Status = c_int;
@@ -51,9 +54,19 @@ pub struct Log {
     pub null_category: bool,
     /// A message came without text or name.
     pub null_text: bool,
+    /// A text was not encoded in UTF-8.
+    pub invalid_text: bool,
+    /// The first categories.
+    pub categories: BTreeSet<String>,
 }
 
-static LOG: Mutex<Log> = Mutex::new(Log { messages: Vec::new(), null_category: false, null_text: false });
+static LOG: Mutex<Log> = Mutex::new(Log {
+    messages: Vec::new(),
+    null_category: false,
+    null_text: false,
+    invalid_text: false,
+    categories: BTreeSet::new(),
+});
 
 /// What has been logged until now.
 pub fn logged() -> Log {
@@ -70,11 +83,23 @@ unsafe extern "C" fn log(
     let Ok(mut log) = LOG.lock() else { return };
     log.null_category |= category.is_null();
     log.null_text |= message.is_null() || name.is_null();
-    if !message.is_null() && status > 0 && log.messages.len() < 5 {
-        // SAFETY: a message is a C string while the logger runs, by the standard.
-        let text = unsafe { CStr::from_ptr(message) }.to_string_lossy();
-        log.messages.push(text.chars().take(300).collect());
+    // SAFETY: both are C strings while the logger runs, by the standard.
+    let text = |text: *const c_char| (!text.is_null()).then(|| unsafe { CStr::from_ptr(text) });
+    if let Some(category) = text(category).filter(|_| log.categories.len() < 20) {
+        log.categories.insert(category.to_string_lossy().into_owned());
     }
+    if let Some(message) = text(message) {
+        log.invalid_text |= message.to_str().is_err();
+        if status > 0 && log.messages.len() < 5 {
+            let shown = message.to_string_lossy().chars().take(300).collect();
+            log.messages.push(shown);
+        }
+    }
+}
+
+/// An error with what the system says of it.
+fn words(error: &libloading::Error) -> String {
+    std::error::Error::source(error).map_or_else(|| error.to_string(), |source| format!("{error}: {source}"))
 }
 
 /// A loaded library.
@@ -122,12 +147,12 @@ impl Library {
         let library = unsafe { libloading::Library::new(path) };
         let callbacks = Box::new(Callbacks {
             logger: log,
-            allocate: libc::calloc,
-            free: libc::free,
+            allocate: memory::allocate,
+            free: memory::free,
             step_finished: None,
             environment: null_mut(),
         });
-        Ok(Self { library: library.map_err(|error| error.to_string())?, callbacks })
+        Ok(Self { library: library.map_err(|error| words(&error))?, callbacks })
     }
 
     /// The library's word on a version or platform; none if the function is not there or says nothing.
@@ -247,7 +272,7 @@ impl Library {
         )
     }
 
-    /// `fmi2GetString`: a text that is null is told as such.
+    /// `fmi2GetString`: a text that is null, or not encoded in UTF-8, is none.
     pub fn texts(&self, instance: Instance, references: &[u32], values: &mut Vec<Option<String>>) -> Status {
         let mut pointers: Vec<*const c_char> = vec![std::ptr::null(); references.len()];
         let status = call!(
@@ -262,7 +287,8 @@ impl Library {
         if (0..=1).contains(&status) {
             values.extend(pointers.into_iter().map(|text| {
                 // SAFETY: what is not null is a C string until the next call, by the standard.
-                (!text.is_null()).then(|| unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned())
+                let text = (!text.is_null()).then(|| unsafe { CStr::from_ptr(text) })?;
+                text.to_str().ok().map(str::to_owned)
             }));
         }
         status
@@ -279,6 +305,43 @@ impl Library {
             references.as_ptr(),
             count,
             values.as_ptr()
+        )
+    }
+
+    /// `fmi2SetRealInputDerivatives`: first derivatives of zero, which leave a run as it is.
+    pub fn set_input_derivatives(&self, instance: Instance, references: &[u32]) -> Status {
+        let (orders, values) = (vec![1; references.len()], vec![0.0; references.len()]);
+        call!(
+            self.library,
+            "fmi2SetRealInputDerivatives",
+            instance,
+            (*const u32, usize, *const c_int, *const f64),
+            references.as_ptr(),
+            references.len(),
+            orders.as_ptr(),
+            values.as_ptr()
+        )
+    }
+
+    /// `fmi2GetRealOutputDerivatives` of one order.
+    pub fn output_derivatives(
+        &self,
+        instance: Instance,
+        references: &[u32],
+        order: c_int,
+        values: &mut [f64],
+    ) -> Status {
+        let count = references.len().min(values.len());
+        let orders = vec![order; count];
+        call!(
+            self.library,
+            "fmi2GetRealOutputDerivatives",
+            instance,
+            (*const u32, usize, *const c_int, *mut f64),
+            references.as_ptr(),
+            count,
+            orders.as_ptr(),
+            values.as_mut_ptr()
         )
     }
 

@@ -1,6 +1,7 @@
 //! What another process does with a library, act by act, and what came of it.
 
 mod library;
+mod memory;
 mod process;
 
 use std::collections::BTreeMap;
@@ -14,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::description::Kind;
 pub use library::{ABSENT, Log};
 use library::{Instance, Library, Saved};
+pub use memory::Memory;
 pub use process::{Ending, Probe, Run};
 
 /// One thing to do. Instances and states have numbers.
@@ -49,6 +51,12 @@ pub enum Act {
     Serialize(usize, usize),
     /// Directional derivative of some unknowns towards a known.
     Directional(Vec<u32>, u32),
+    /// `fmi2SetRealInputDerivatives`: the first derivatives of inputs, all zero.
+    InputDerivatives(Vec<u32>),
+    /// `fmi2GetRealOutputDerivatives` of an order.
+    OutputDerivatives(Vec<u32>, i32),
+    /// `fmi2GetNominalsOfContinuousStates` of that many states.
+    Nominals(usize),
     /// Makes discrete states new until they stay.
     DiscreteStates,
     /// An explicit Euler step of that many states and event indicators, with events.
@@ -90,6 +98,8 @@ pub struct Answers {
     pub outcomes: Vec<Outcome>,
     /// What was logged.
     pub log: Log,
+    /// What became of the importer's memory.
+    pub memory: Memory,
 }
 
 impl Outcome {
@@ -182,6 +192,7 @@ fn obey(orders: &Orders, folder: &Path) -> Answers {
         }
     }
     answers.log = library::logged();
+    answers.memory = memory::memory();
     calling.tell("the end of the process");
     answers
 }
@@ -206,6 +217,9 @@ impl Act {
             Self::FreeState(_) => "fmi2FreeFMUstate",
             Self::Serialize(..) => "fmi2SerializeFMUstate and fmi2DeSerializeFMUstate",
             Self::Directional(..) => "fmi2GetDirectionalDerivative",
+            Self::InputDerivatives(_) => "fmi2SetRealInputDerivatives",
+            Self::OutputDerivatives(..) => "fmi2GetRealOutputDerivatives",
+            Self::Nominals(_) => "fmi2GetNominalsOfContinuousStates",
             Self::DiscreteStates => "fmi2NewDiscreteStates",
             Self::Euler { .. } => "the functions of a step of model exchange",
         }
@@ -285,6 +299,15 @@ impl Stage<'_> {
             Act::Directional(unknowns, known) => {
                 reals = vec![0.0; unknowns.len()];
                 library.directional(instance, unknowns, *known, &mut reals)
+            }
+            Act::InputDerivatives(references) => library.set_input_derivatives(instance, references),
+            Act::OutputDerivatives(references, order) => {
+                reals = vec![0.0; references.len()];
+                library.output_derivatives(instance, references, *order, &mut reals)
+            }
+            Act::Nominals(states) => {
+                reals = vec![0.0; *states];
+                library.array(act.function(), instance, &mut reals)
             }
             Act::DiscreteStates => discrete_states(library, instance),
             Act::Euler { states, indicators, time, size } => {

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::structure::{Connection, Connector, Content, Element, End};
 use super::{System, at};
 use crate::finding::Finding;
+use crate::rules::ssp;
 use crate::unit::Fit;
 
 /// An end of a connection, found.
@@ -61,7 +62,7 @@ impl System {
                     (start, end) => {
                         let missing = [start.err(), end.err()].into_iter().flatten();
                         findings.extend(missing.map(|message| {
-                            Finding::error("system.connection", message).at(at(connection.line))
+                            Finding::error(ssp::CONNECTION_END, message).at(at(connection.line))
                         }));
                         continue;
                     }
@@ -84,7 +85,7 @@ impl System {
                         if let Some(first) = first {
                             let message = format!("{what}; the other connection is in line {first}");
                             findings.push(
-                                Finding::error("system.twice", message)
+                                Finding::error(ssp::CONNECTION_TWICE, message)
                                     .at(at(connection.line))
                                     .help("let a component add the signals up, or leave one of them out"),
                             );
@@ -94,7 +95,7 @@ impl System {
                     }
                     Err(message) => {
                         findings.push(
-                            Finding::error("system.connection", message).at(at(connection.line)).help(
+                            Finding::error(ssp::CONNECTION_KINDS, message).at(at(connection.line)).help(
                                 "connect an output with an input, or a system's connector with one of the same kind \
                                  within it",
                             ),
@@ -109,18 +110,22 @@ impl System {
     fn types(&self, connection: &Connection, source: &Found, sink: &Found) -> Option<Finding> {
         let from = self.type_at(source.element, source.connector)?;
         let to = self.type_at(sink.element, sink.connector)?;
-        if from == to || connection.transformed {
+        if let Some(transformation) = &connection.transformation {
+            return transformable(transformation, [&from, &to])
+                .map(|finding| finding.at(at(connection.line)));
+        }
+        if from == to {
             return None;
         }
         let (source, sink) = (source.shown(), sink.shown());
         let message = format!("the connection `{source}` -> `{sink}` leads from {from} to {to}");
-        Some(Finding::error("system.type", message).at(at(connection.line)).help(
+        Some(Finding::error(ssp::CONNECTION_TYPE, message).at(at(connection.line)).help(
             "connect variables of the same type, or tell how the one becomes the other by a transformation",
         ))
     }
 
     fn units(&self, connection: &Connection, source: &Found, sink: &Found) -> Option<Finding> {
-        let Connection { unconverted, transformed, .. } = connection;
+        let Connection { unconverted, transformation, .. } = connection;
         let from = self.unit_at(source.element, source.connector)?;
         let to = self.unit_at(sink.element, sink.connector)?;
         let leads = format!(
@@ -130,11 +135,11 @@ impl System {
             from.symbol,
             to.symbol
         );
-        let finding = match (from.fit(&to, 0), unconverted, transformed) {
+        let finding = match (from.fit(&to, 0), unconverted, transformation.is_some()) {
             // It is said what becomes of the signal, or that nothing is to.
             (Fit::Same, ..) | (_, true, _) => return None,
             (Fit::Linear { .. }, false, true) => Finding::warning(
-                "system.unit",
+                ssp::CONNECTION_UNIT,
                 format!(
                     "{leads} by a transformation of its own, which tools apply after converting the units"
                 ),
@@ -143,21 +148,37 @@ impl System {
             (_, false, true) => return None,
             (Fit::Linear { factor, offset }, false, false) => {
                 let way = format!("<ssc:LinearTransformation factor=\"{factor:?}\" offset=\"{offset:?}\"/>");
-                Finding::warning("system.unit", format!("{leads}, which not every tool converts"))
+                Finding::warning(ssp::CONNECTION_UNIT, format!("{leads}, which not every tool converts"))
                     .help(format!("write {way} into it, with suppressUnitConversion=\"true\""))
             }
             (Fit::Unknown, false, false) => {
                 let message = format!("{leads}, and nothing tells how these units compare");
-                Finding::warning("system.unit", message)
+                Finding::warning(ssp::CONNECTION_UNIT, message)
                     .help("declare both by their base units, or tell the factor by a transformation")
             }
             (Fit::Derivative | Fit::Integral | Fit::Different, false, false) => {
-                Finding::error("system.unit", leads)
+                Finding::error(ssp::CONNECTION_UNIT, leads)
                     .help("connect variables of the same unit, or tell the factor by a transformation")
             }
         };
         Some(finding.at(at(connection.line)))
     }
+}
+
+/// What is wrong if a transformation is not one for the types of what it is applied to.
+pub(super) fn transformable(transformation: &str, types: [&str; 2]) -> Option<Finding> {
+    let fine: &[&str] = match transformation {
+        "LinearTransformation" => &["Real"],
+        "BooleanMappingTransformation" => &["Boolean"],
+        "IntegerMappingTransformation" => &["Integer", "Enumeration"],
+        "EnumerationMappingTransformation" => &["Enumeration"],
+        // The schema knows no others.
+        _ => return None,
+    };
+    let other = types.into_iter().find(|it| !fine.contains(it))?;
+    let message = format!("a {transformation} is applied to the type {other}");
+    let help = format!("it is for {}", fine.join(" and "));
+    Some(Finding::error(ssp::TRANSFORMATION, message).help(help))
 }
 
 /// The connector at an end.

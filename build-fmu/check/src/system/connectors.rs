@@ -3,6 +3,7 @@
 use super::structure::{Connector, Content, Element};
 use super::{System, at, found};
 use crate::finding::Finding;
+use crate::rules::{Rule, ssp};
 use crate::unit::{Fit, Unit};
 
 const KINDS: [&str; 5] = ["input", "output", "parameter", "calculatedParameter", "inout"];
@@ -22,33 +23,32 @@ impl System {
     fn connector(&self, element: &Element, connector: &Connector) -> Option<Finding> {
         let Connector { name, kind, line, .. } = connector;
         let shown = element.of(name);
-        let wrong = |message: String| Finding::error("system.connector", message).at(at(*line));
+        let wrong = |rule: &'static Rule, message: String| Finding::error(rule, message).at(at(*line));
+        // What SSP does not know at all is for the schema.
         if !KINDS.contains(&kind.as_str()) {
-            let known = KINDS.join(", ");
-            return Some(
-                wrong(format!("`{shown}` is of the kind \"{kind}\", which SSP does not know"))
-                    .help(format!("it is one of {known}")),
-            );
+            return None;
         }
         if let Content::Dictionary(_) = element.content {
             return self.connector_of_signal(element, connector);
         }
         let description = self.description(element)?;
         let Some(variable) = self.variable(element, name) else {
-            let finding = wrong(format!("`{shown}` is no variable of its FMU"));
+            let finding = wrong(ssp::CONNECTOR_VARIABLE, format!("`{shown}` is no variable of its FMU"));
             return Some(meant(finding, name, description.variables.iter().map(|it| it.name.as_str())));
         };
         let causality = &variable.causality;
-        if kind != "inout" && kind != causality {
-            return Some(wrong(format!(
+        if kind != causality {
+            let message = format!(
                 "`{shown}` is of the kind \"{kind}\", but its variable has the causality \"{causality}\""
-            )));
+            );
+            return Some(wrong(ssp::CONNECTOR_KIND, message));
         }
         if let Some(of_type) = &connector.of_type
             && !is_of(of_type, &variable.kind)
         {
             let given = &variable.kind;
-            return Some(wrong(format!("`{shown}` is of type {of_type}, but its variable is {given}")));
+            let message = format!("`{shown}` is of type {of_type}, but its variable is {given}");
+            return Some(wrong(ssp::CONNECTOR_TYPE, message));
         }
         let (own, theirs) = (self.own_unit(connector)?, self.unit_of(element, variable)?);
         // Where an FMU counts in numbers without a unit, the connector tells what they are.
@@ -57,7 +57,7 @@ impl System {
         }
         let (own, theirs) = (own.symbol, theirs.symbol);
         let message = format!("`{shown}` has the unit \"{own}\", but its variable has \"{theirs}\"");
-        Some(wrong(message).help("give the variable's unit, or none"))
+        Some(wrong(ssp::CONNECTOR_UNIT, message).help("give the variable's unit, or none"))
     }
 
     pub(super) fn own_unit(&self, connector: &Connector) -> Option<Unit> {

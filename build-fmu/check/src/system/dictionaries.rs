@@ -9,6 +9,7 @@ use super::structure::{Connector, Content, Element, FILE};
 use super::{System, at, found};
 use crate::finding::{Finding, Report, repeated};
 use crate::package::Package;
+use crate::rules::{Rule, ssp};
 use crate::unit::{Fit, Unit};
 
 /// The dictionaries of all systems, and who refers to them.
@@ -44,7 +45,7 @@ impl System {
             if scope.iter().any(|(name, _)| *name == declared.name) {
                 let message =
                     format!("{} has two signal dictionaries of the name `{}`", system.shown(), declared.name);
-                report.findings.push(Finding::error("system.name", message).at(at(declared.line)));
+                report.findings.push(Finding::error(ssp::DICTIONARY_TWICE, message).at(at(declared.line)));
                 continue;
             }
             scope.push((&declared.name, read.known.len()));
@@ -64,7 +65,7 @@ impl System {
                 "{} refers to the signal dictionary `{name}`, which there is none of in the systems around it",
                 element.shown()
             );
-            let finding = Finding::error("system.dictionary", message).at(at(element.line));
+            let finding = Finding::error(ssp::REFERENCE, message).at(at(element.line));
             report.findings.push(meant(finding, name, scope.iter().map(|(known, _)| *known)));
         }
     }
@@ -81,9 +82,10 @@ impl System {
             report.skipped.push(format!("the signal dictionary `{name}`, which is of the type {media}"));
             return None;
         }
+        let mut found = Vec::new();
         let mut wrong = |finding: Finding| report.findings.push(finding);
         let one_of_both = |message: &str| {
-            Finding::error("system.dictionary", format!("the signal dictionary `{name}` {message}"))
+            Finding::error(ssp::DICTIONARY, format!("the signal dictionary `{name}` {message}"))
                 .at(at(*line))
                 .help("give the source of a file, or the signals in place")
         };
@@ -98,9 +100,9 @@ impl System {
             }
             (None, Some(inline)) => (inline.clone(), FILE.to_owned()),
             (Some(source), None) => {
-                let rule = "system.dictionary";
+                let rule = ssp::DICTIONARY;
                 let wanted = Wanted { rule, what: "signals", source, within: None, line: *line };
-                match self.document(&wanted, package, Dictionary::parse) {
+                match self.document(&wanted, package, Dictionary::parse, &mut found) {
                     Ok(read) => read?,
                     Err(finding) => {
                         wrong(finding);
@@ -109,12 +111,13 @@ impl System {
                 }
             }
         };
+        found.into_iter().for_each(&mut wrong);
         let names = dictionary.signals.iter().map(|signal| signal.name.as_str());
         for (signal, again) in dictionary.signals.iter().zip(repeated(names)) {
             if again {
                 let message =
                     format!("the dictionary `{name}` has two signals of the name `{}`", signal.name);
-                wrong(Finding::error("system.name", message).at(format!("{file}:{}", signal.line)));
+                wrong(Finding::error(ssp::SIGNAL_TWICE, message).at(format!("{file}:{}", signal.line)));
             }
         }
         Some(dictionary)
@@ -148,16 +151,18 @@ impl System {
         let dictionary = self.dictionary(element)?;
         let Connector { name, line, .. } = connector;
         let shown = element.of(name);
-        let wrong = |message: String| Finding::error("system.connector", message).at(at(*line));
+        let wrong = |rule: &'static Rule, message: String| Finding::error(rule, message).at(at(*line));
         let Some(signal) = self.signal(element, name) else {
             let (_, of) = self.referred(element)?;
-            let finding = wrong(format!("`{shown}` is no signal of the dictionary `{of}`"));
+            let finding =
+                wrong(ssp::CONNECTOR_VARIABLE, format!("`{shown}` is no signal of the dictionary `{of}`"));
             return Some(meant(finding, name, dictionary.signals.iter().map(|it| it.name.as_str())));
         };
         if let (Some(own), Some(theirs)) = (&connector.of_type, &signal.of_type)
             && own != theirs
         {
-            return Some(wrong(format!("`{shown}` is of type {own}, but its signal is {theirs}")));
+            let message = format!("`{shown}` is of type {own}, but its signal is {theirs}");
+            return Some(wrong(ssp::CONNECTOR_TYPE, message));
         }
         let (own, theirs) = (self.own_unit(connector)?, self.unit_of_signal(element, name)?);
         if own.fit(&theirs, 0) == Fit::Same {
@@ -165,6 +170,6 @@ impl System {
         }
         let (own, theirs) = (own.symbol, theirs.symbol);
         let message = format!("`{shown}` has the unit \"{own}\", but its signal has \"{theirs}\"");
-        Some(wrong(message).help("give the signal's unit, or none"))
+        Some(wrong(ssp::CONNECTOR_UNIT, message).help("give the signal's unit, or none"))
     }
 }

@@ -4,11 +4,12 @@ use super::structure::{Content, Element};
 use super::{System, at, file_of};
 use crate::finding::Finding;
 use crate::package::Package;
+use crate::rules::Rule;
 
 /// What a file is asked for, and by whom.
 pub struct Wanted<'a> {
     /// The rule that it breaks if it is not there.
-    pub rule: &'static str,
+    pub rule: &'static Rule,
     /// What is in it: `values`.
     pub what: &'static str,
     /// Its URI.
@@ -20,19 +21,20 @@ pub struct Wanted<'a> {
 }
 
 impl System {
-    /// Reads a file; also tells its name. None of a component that cannot be looked into, which is told elsewhere.
+    /// Reads a file, and tells what is wrong with it by itself; also tells its name. None of a component that cannot be looked into, which is told elsewhere.
     pub(super) fn document<T>(
         &self,
         wanted: &Wanted,
         package: &mut Package,
-        parse: impl Fn(&[u8]) -> Result<T, String>,
+        parse: impl Fn(&[u8], &str) -> Result<(T, Vec<Finding>), String>,
+        findings: &mut Vec<Finding>,
     ) -> Result<Option<(T, String)>, Finding> {
         let Wanted { rule, what, source, within, line } = *wanted;
         let wrong = |message: String| Finding::error(rule, message).at(at(line));
         let Some(element) = within else {
             let file = file_of(source, package)
                 .ok_or_else(|| wrong(format!("{what} are in `{source}`, which the archive does not have")))?;
-            return parsed(package, &file, &file, parse).map(Some).map_err(wrong);
+            return parsed(package, &file, &file, parse, findings).map(Some).map_err(wrong);
         };
         let component = match &element.content {
             Content::Component { source, .. } => source,
@@ -47,7 +49,7 @@ impl System {
         let Ok(Some(mut inner)) = package.inner(fmu) else { return Ok(None) };
         let file = file_of(source, &inner)
             .ok_or_else(|| wrong(format!("{what} are in `{source}` of `{fmu}`, which does not have it")))?;
-        parsed(&mut inner, &file, &format!("{fmu}/{file}"), parse).map(Some).map_err(wrong)
+        parsed(&mut inner, &file, &format!("{fmu}/{file}"), parse, findings).map(Some).map_err(wrong)
     }
 }
 
@@ -55,9 +57,11 @@ fn parsed<T>(
     package: &mut Package,
     file: &str,
     shown: &str,
-    parse: impl Fn(&[u8]) -> Result<T, String>,
+    parse: impl Fn(&[u8], &str) -> Result<(T, Vec<Finding>), String>,
+    findings: &mut Vec<Finding>,
 ) -> Result<(T, String), String> {
     let bytes = package.read(file)?.unwrap_or_default();
-    let document = parse(&bytes).map_err(|why| format!("`{shown}` {why}"))?;
+    let (document, found) = parse(&bytes, shown).map_err(|why| format!("`{shown}` {why}"))?;
+    findings.extend(found);
     Ok((document, shown.to_owned()))
 }

@@ -4,6 +4,7 @@ mod connections;
 mod connectors;
 mod dictionaries;
 mod documents;
+mod files;
 mod parameters;
 mod signals;
 mod structure;
@@ -15,8 +16,10 @@ use std::path::Path;
 use crate::description::{Description, Kind, Variable};
 use crate::finding::{Finding, Report, count, repeated};
 use crate::package::Package;
+use crate::rules::{Rule, ssp};
+use crate::text::Standard;
 use crate::unit::Unit;
-use crate::{Options, fmpy, fmu};
+use crate::{Options, Response, fmpy, fmu};
 use dictionaries::Dictionaries;
 use structure::{Content, Element, Structure};
 
@@ -38,10 +41,11 @@ struct System {
 /// # Errors
 /// If its description cannot be read.
 pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Report, String> {
-    let text = package.text(FILE)?.ok_or_else(|| format!("there is no {FILE}"))?;
-    let structure = Structure::parse(&text)?;
+    let bytes = package.read(FILE)?.ok_or_else(|| format!("there is no {FILE}"))?;
+    let (structure, found) = Structure::parse(&bytes)?;
     let mut report = Report::new(options.listener.as_ref());
-    report.findings = package.findings();
+    report.findings = package.findings(Standard::Ssp, file);
+    report.findings.extend(found);
     let (files, fmus, mut dictionaries) = (BTreeMap::new(), BTreeMap::new(), Dictionaries::default());
     let mut system = System { structure, files, fmus, dictionaries: Dictionaries::default() };
     system.components(package, options, &mut report)?;
@@ -54,7 +58,7 @@ pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Re
     report.tell();
     let values = system.parameters(package, &mut report);
     report.done.push(format!(
-        "system: {}, {}, {}, {}",
+        "system: schema, {}, {}, {}, {}",
         count(system.structure.root.all().iter().map(|it| it.connectors.len()).sum(), "connector"),
         count(system.number_of_connections(), "connection"),
         count(values, "parameter value"),
@@ -64,9 +68,7 @@ pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Re
         fmpy::validate(file, fmpy::What::System, &options.fmpy, &mut report)?;
     } else {
         let version = &system.structure.version;
-        report
-            .skipped
-            .push(format!("FMPy's validation and the schema: they are for SSP 1.0, this is {version}"));
+        report.skipped.push(format!("FMPy's validation: it is for SSP 1.0, this is {version}"));
     }
     Ok(report)
 }
@@ -132,7 +134,7 @@ impl System {
             let Some(file) = file_of(source, package) else {
                 let message =
                     format!("{} is made of `{source}`, which the archive does not have", element.shown());
-                report.findings.push(Finding::error("system.source", message).at(at(element.line)).help(
+                report.findings.push(Finding::error(ssp::SOURCE, message).at(at(element.line)).help(
                     "give a path from the description's folder on, like resources/Rig.fmu, and put the file there",
                 ));
                 continue;
@@ -158,26 +160,24 @@ impl System {
     /// Names that are missing or not alone.
     fn names(&self) -> Vec<Finding> {
         let mut findings = Vec::new();
-        let mut wrong = |message: String, line: u32| {
-            findings.push(Finding::error("system.name", message).at(at(line)));
+        let mut wrong = |rule: &'static Rule, message: String, line: u32| {
+            findings.push(Finding::error(rule, message).at(at(line)));
         };
         for element in self.structure.root.all() {
-            if element.name.is_empty() {
-                wrong("an element has no name".into(), element.line);
-            }
             let names = element.connectors.iter().map(|connector| connector.name.as_str());
             for (connector, again) in element.connectors.iter().zip(repeated(names)) {
                 if again {
                     let message =
                         format!("{} has two connectors of the name `{}`", element.shown(), connector.name);
-                    wrong(message, connector.line);
+                    wrong(ssp::CONNECTOR_TWICE, message, connector.line);
                 }
             }
             let Content::System { elements, .. } = &element.content else { continue };
             let names = elements.iter().map(|inner| inner.name.as_str());
             for (inner, again) in elements.iter().zip(repeated(names)) {
                 if again {
-                    wrong(format!("there are two elements of the name `{}`", inner.path), inner.line);
+                    let message = format!("there are two elements of the name `{}`", inner.path);
+                    wrong(ssp::NAME_TWICE, message, inner.line);
                 }
             }
         }
@@ -214,10 +214,10 @@ fn component(file: &str, path: &Path, options: &Options, report: &mut Report) ->
     let within = |line: &String| format!("{file}: {line}");
     // The caller reports its findings, with the file's name.
     let options = &Options { listener: None, ..options.clone() };
-    let opened = Package::open(path).and_then(|mut inner| Ok((fmu::description(&mut inner)?, inner)));
+    let opened = Package::open(path).and_then(|mut inner| Ok((fmu::description(&mut inner)?.0, inner)));
     let told = opened.and_then(|(description, mut inner)| match fmu::check(path, &mut inner, options) {
         // Without FMPy there is nothing to check other versions by, which is no fault of theirs.
-        Err(why) if description.version != "2.0" => {
+        Err(why) if description.is_of_another_version() => {
             Ok((description, Report { skipped: vec![why], ..Report::default() }))
         }
         told => Ok((description, told?)),
@@ -231,11 +231,14 @@ fn component(file: &str, path: &Path, options: &Options, report: &mut Report) ->
             }));
             report.done.extend(told.done.iter().map(within));
             report.skipped.extend(told.skipped.iter().map(within));
-            (description.version == "2.0").then_some(description)
+            report
+                .signs
+                .extend(told.signs.into_iter().map(|it| Response { component: Some(file.to_owned()), ..it }));
+            (!description.is_of_another_version()).then_some(description)
         }
         Err(error) => {
             let message = format!("it cannot be checked: {error}");
-            report.findings.push(Finding::error("system.source", message).at(file));
+            report.findings.push(Finding::error(ssp::SOURCE, message).at(file));
             None
         }
     }
@@ -252,7 +255,7 @@ fn implemented(element: &Element, wanted: &str, description: &Description) -> Op
         return None;
     }
     let message = format!("{} is to be used by {wanted}, which its FMU does not have", element.shown());
-    Some(Finding::error("system.implementation", message).at(at(element.line)))
+    Some(Finding::error(ssp::IMPLEMENTATION, message).at(at(element.line)))
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use super::connections::transformable;
 use super::connectors::is_of;
 use super::documents::Wanted;
 use super::structure::{Binding, Connector, Content, Element, FILE};
@@ -10,8 +11,8 @@ use super::{System, at, found};
 use crate::description::Variable;
 use crate::finding::{Finding, Report, names, repeated};
 use crate::package::Package;
+use crate::rules::{Rule, practice, ssp};
 use crate::unit::{Fit, Unit};
-use crate::variables::is_value;
 
 /// The kind of files that parameter sets are in.
 const MEDIA: &str = "application/x-ssp-parameter-set";
@@ -59,7 +60,7 @@ impl System {
         package: &mut Package,
     ) -> Result<(Vec<Finding>, usize), Finding> {
         let wanted = |source, within: bool| Wanted {
-            rule: "system.parameters",
+            rule: ssp::VALUES_READ,
             what: "values",
             source,
             within: within.then_some(element),
@@ -67,17 +68,19 @@ impl System {
         };
         let one_of_both = |message: &str| {
             let message = format!("a parameter binding of {} {message}", element.shown());
-            let finding = Finding::error("system.parameters", message).at(at(binding.line));
+            let finding = Finding::error(ssp::VALUES_BOTH, message).at(at(binding.line));
             Err(finding.help("give the source of a file, or the values in place"))
         };
+        let mut findings = Vec::new();
         let read;
         let (values, file) = match (&binding.inline, &binding.source) {
             (Some(_), Some(_)) => return one_of_both("has a file and values in place"),
             (None, None) => return one_of_both("has neither a file nor values in place"),
             (Some(values), None) => (values, FILE.to_owned()),
             (None, Some(source)) => {
-                let document = self.document(&wanted(source, binding.within), package, Values::parse)?;
-                let Some((values, file)) = document else { return Ok((Vec::new(), 0)) };
+                let document =
+                    self.document(&wanted(source, binding.within), package, Values::parse, &mut findings)?;
+                let Some((values, file)) = document else { return Ok((findings, 0)) };
                 read = values;
                 (&read, file)
             }
@@ -85,31 +88,31 @@ impl System {
         let mapped;
         let mapping = match &binding.mapping {
             Some(Mapping { source: Some(source), within, .. }) => {
-                let document = self.document(&wanted(source, *within), package, Mapping::parse)?;
-                let Some(document) = document else { return Ok((Vec::new(), 0)) };
+                let document =
+                    self.document(&wanted(source, *within), package, Mapping::parse, &mut findings)?;
+                let Some(document) = document else { return Ok((findings, 0)) };
                 mapped = document;
                 Some((&mapped.0, mapped.1.as_str()))
             }
             inline => inline.as_ref().map(|mapping| (mapping, FILE)),
         };
-        let mut findings = Vec::new();
         let mut missing: Vec<String> = Vec::new();
         let given = values.parameters.iter().map(|parameter| parameter.name.as_str());
         for (parameter, again) in values.parameters.iter().zip(repeated(given)) {
             let place = format!("{file}:{}", parameter.line);
             if again {
                 let message = format!("there are two values for `{}` in one set", parameter.name);
-                findings.push(Finding::error("system.parameter", message).at(&place));
+                findings.push(Finding::error(ssp::VALUE_TWICE, message).at(&place));
             }
             let name = format!("{}{}", binding.prefix, parameter.name);
-            let targets: Vec<(&str, bool)> = match mapping {
-                None => vec![(&name, false)],
+            let targets: Vec<(&str, Option<&str>)> = match mapping {
+                None => vec![(&name, None)],
                 Some((mapping, _)) => {
                     let entries = mapping.entries.iter().filter(|entry| entry.source == name);
-                    entries.map(|entry| (entry.target.as_str(), entry.transformed)).collect()
+                    entries.map(|entry| (entry.target.as_str(), entry.transformation.as_deref())).collect()
                 }
             };
-            for (target, transformed) in targets {
+            for (target, transformation) in targets {
                 let wrong = match self.target(element, target) {
                     Target::Other => None,
                     Target::Missing => {
@@ -117,10 +120,10 @@ impl System {
                         None
                     }
                     Target::Connector(owner, connector) => {
-                        self.value_of_connector(owner, connector, parameter, values, transformed)
+                        self.value_of_connector(owner, connector, parameter, values, transformation)
                     }
                     Target::Variable(owner, variable) => {
-                        self.value(owner, variable, parameter, values, transformed)
+                        self.value(owner, variable, parameter, values, transformation)
                     }
                 };
                 findings.extend(wrong.map(|finding| finding.at(&place)));
@@ -132,7 +135,7 @@ impl System {
         if !missing.is_empty() {
             let message = format!("values are given for what is not there: {}", names(&missing));
             findings.push(
-                Finding::warning("system.parameter", message)
+                Finding::warning(practice::PARAMETER_THERE, message)
                     .at(file)
                     .help("tools pass over such values without a word: correct the names, or leave them out"),
             );
@@ -167,20 +170,20 @@ impl System {
         variable: &Variable,
         parameter: &Parameter,
         values: &Values,
-        transformed: bool,
+        transformation: Option<&str>,
     ) -> Option<Finding> {
         let name = owner.of(&variable.name);
-        let wrong = |message: String| Some(Finding::error("system.parameter", message));
+        let wrong = |rule: &'static Rule, message: String| Some(Finding::error(rule, message));
         let initial = matches!(variable.effective_initial(), Some("exact" | "approx"));
         if variable.causality != "input" && (!initial || variable.variability == "constant") {
-            return wrong(format!("`{name}` is calculated and takes no value"));
-        }
-        if transformed {
-            return None;
+            return wrong(ssp::VALUE_TAKEN, format!("`{name}` is calculated and takes no value"));
         }
         let Parameter { kind, value, .. } = parameter;
+        if let Some(transformation) = transformation {
+            return transformable(transformation, [kind, &variable.kind]);
+        }
         if !is_of(kind, &variable.kind) {
-            return wrong(format!("`{name}` is {} and is given a {kind}", variable.kind));
+            return wrong(ssp::VALUE_TYPE, format!("`{name}` is {} and is given a {kind}", variable.kind));
         }
         let wanted = self.unit_of(owner, variable);
         if let Some(finding) = written(&name, parameter, values, wanted) {
@@ -188,7 +191,10 @@ impl System {
         }
         let (min, max) = (variable.min.unwrap_or(f64::NEG_INFINITY), variable.max.unwrap_or(f64::INFINITY));
         let number = value.trim().parse::<f64>().ok().filter(|value| !(min..=max).contains(value))?;
-        wrong(format!("`{name}` is given {number}, outside of its bounds from {min} to {max}"))
+        wrong(
+            ssp::VALUE_BOUNDS,
+            format!("`{name}` is given {number}, outside of its bounds from {min} to {max}"),
+        )
     }
 
     /// What is wrong with a value for a connector of a system.
@@ -198,21 +204,21 @@ impl System {
         connector: &Connector,
         parameter: &Parameter,
         values: &Values,
-        transformed: bool,
+        transformation: Option<&str>,
     ) -> Option<Finding> {
         let name = owner.of(&connector.name);
-        let wrong = |message: String| Some(Finding::error("system.parameter", message));
+        let wrong = |rule: &'static Rule, message: String| Some(Finding::error(rule, message));
         if matches!(connector.kind.as_str(), "output" | "calculatedParameter") {
-            return wrong(format!("`{name}` is calculated and takes no value"));
-        }
-        if transformed {
-            return None;
+            return wrong(ssp::VALUE_TAKEN, format!("`{name}` is calculated and takes no value"));
         }
         let kind = &parameter.kind;
+        if transformation.is_some() {
+            return None;
+        }
         if let Some(of_type) = self.type_at(owner, connector)
             && !is_of(kind, &of_type)
         {
-            return wrong(format!("`{name}` is {of_type} and is given a {kind}"));
+            return wrong(ssp::VALUE_TYPE, format!("`{name}` is {of_type} and is given a {kind}"));
         }
         written(&name, parameter, values, self.unit_at(owner, connector))
     }
@@ -220,22 +226,17 @@ impl System {
 
 /// What is wrong with how a value is written: it is one of its type, and in the unit that is wanted.
 fn written(name: &str, parameter: &Parameter, values: &Values, wanted: Option<Unit>) -> Option<Finding> {
-    let wrong = |message: String| Some(Finding::error("system.parameter", message));
-    let Parameter { kind, value, .. } = parameter;
-    // An item of an enumeration is given by its name.
-    if kind != "Enumeration" && !is_value(kind, value) {
-        return wrong(format!("`{name}` is given `{value}`, which is no value of the type {kind}"));
-    }
+    let wrong = |rule: &'static Rule, message: String| Some(Finding::error(rule, message));
     let given = parameter.unit.as_deref().map(|symbol| found(&values.units, symbol));
     let (given, wanted) = (given?, wanted?);
     let message = format!("`{name}` is given in \"{}\", but declared in \"{}\"", given.symbol, wanted.symbol);
     match given.fit(&wanted, 0) {
         Fit::Same => None,
         Fit::Linear { .. } | Fit::Unknown => Some(
-            Finding::warning("system.parameter", message)
+            Finding::warning(ssp::VALUE_UNIT, message)
                 .help("give it in the variable's unit: not every tool converts"),
         ),
-        Fit::Derivative | Fit::Integral | Fit::Different => wrong(message),
+        Fit::Derivative | Fit::Integral | Fit::Different => wrong(ssp::VALUE_UNIT, message),
     }
 }
 
@@ -252,7 +253,7 @@ fn entries(
     for (entry, again) in mapping.entries.iter().zip(repeated(targets)) {
         if again {
             let message = format!("two entries of a mapping give to `{}`", element.of(&entry.target));
-            findings.push(Finding::error("system.parameter", message).at(format!("{file}:{}", entry.line)));
+            findings.push(Finding::error(ssp::TARGET_TWICE, message).at(format!("{file}:{}", entry.line)));
         }
     }
     let known: HashSet<&str> = values.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
@@ -263,7 +264,7 @@ fn entries(
     if !missing.is_empty() {
         let message = format!("a mapping takes from what its set does not give: {}", names(&missing));
         findings.push(
-            Finding::warning("system.parameter", message)
+            Finding::warning(practice::PARAMETER_THERE, message)
                 .at(file)
                 .help("tools pass over such entries without a word: correct the names, or leave them out"),
         );

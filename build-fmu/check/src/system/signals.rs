@@ -2,9 +2,11 @@
 
 use roxmltree::Node;
 
+use super::files;
 use super::structure::{child, children, source_of, text_of, type_and_unit, units};
-use super::values::document;
+use crate::finding::Finding;
 use crate::lines::Lines;
+use crate::schema;
 use crate::unit::Unit;
 
 /// `<SignalDictionary>` of a system: the name of a dictionary, and where its signals stand.
@@ -65,8 +67,8 @@ impl Dictionary {
     ///
     /// # Errors
     /// If it is no well-formed XML or no signal dictionary.
-    pub fn parse(bytes: &[u8]) -> Result<Self, String> {
-        document(bytes, "SignalDictionary", Self::of)
+    pub fn parse(bytes: &[u8], file: &str) -> Result<(Self, Vec<Finding>), String> {
+        files::read(bytes, &schema::ssp::DICTIONARY, file, Self::of)
     }
 
     fn of(node: Node, lines: &Lines) -> Self {

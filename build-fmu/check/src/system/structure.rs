@@ -1,10 +1,13 @@
 //! The description of a system (SSP 1.0), read as it is: what is wrong with it is for the rules to find.
 
-use roxmltree::{Document, Node};
+use roxmltree::Node;
 
+use super::files;
 use super::signals::Declared;
 use super::values::{Mapping, Values};
+use crate::finding::Finding;
 use crate::lines::Lines;
+use crate::schema;
 use crate::unit::Unit;
 
 /// The file that an SSP must have.
@@ -85,8 +88,8 @@ pub struct Connection {
     pub ends: [End; 2],
     /// Whether units are not to be converted.
     pub unconverted: bool,
-    /// Whether the signal is transformed on the way.
-    pub transformed: bool,
+    /// The element of how the signal is transformed on the way, if it is.
+    pub transformation: Option<String>,
     /// Line of the element.
     pub line: u32,
 }
@@ -120,24 +123,21 @@ pub struct Binding {
 }
 
 impl Structure {
-    /// Reads the document.
+    /// Reads the file; also tells what is wrong with it by itself.
     ///
     /// # Errors
     /// If it is no well-formed XML or describes no system.
-    pub fn parse(text: &str) -> Result<Self, String> {
-        let document =
-            Document::parse(text).map_err(|error| format!("{FILE} is no well-formed XML: {error}"))?;
-        let root = document.root_element();
-        let found = root.tag_name().name();
-        if found != "SystemStructureDescription" {
-            return Err(format!("{FILE} is a `{found}` and no `SystemStructureDescription`"));
-        }
-        let system = child(root, "System").ok_or_else(|| format!("{FILE} has no <System>"))?;
-        Ok(Self {
-            version: text_of(root, "version"),
-            root: element(system, "", &Lines::of(text)),
-            units: units(root),
-        })
+    pub fn parse(bytes: &[u8]) -> Result<(Self, Vec<Finding>), String> {
+        let read = |root: Node, lines: &Lines| -> Option<Self> {
+            Some(Self {
+                version: text_of(root, "version"),
+                root: element(child(root, "System")?, "", lines),
+                units: units(root),
+            })
+        };
+        let (structure, findings) = files::read(bytes, &schema::ssp::DESCRIPTION, FILE, read)
+            .map_err(|error| format!("{FILE} {error}"))?;
+        Ok((structure.ok_or_else(|| format!("{FILE} has no <System>"))?, findings))
     }
 }
 
@@ -239,6 +239,12 @@ fn element(node: Node, around: &str, lines: &Lines) -> Element {
     }
 }
 
+/// The element of a transformation, if there is one.
+pub fn transformation(node: Node) -> Option<String> {
+    let mut names = node.children().map(|child| child.tag_name().name());
+    names.find(|name| name.ends_with("Transformation")).map(str::to_owned)
+}
+
 fn connector(node: Node, lines: &Lines) -> Connector {
     let (of_type, unit) = type_and_unit(node);
     Connector {
@@ -266,7 +272,7 @@ fn connection(node: Node, lines: &Lines) -> Connection {
     Connection {
         ends: [end("startElement", "startConnector"), end("endElement", "endConnector")],
         unconverted: is_true(node, "suppressUnitConversion"),
-        transformed: node.children().any(|child| child.tag_name().name().ends_with("Transformation")),
+        transformation: transformation(node),
         line: lines.line(node),
     }
 }

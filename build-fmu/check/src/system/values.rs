@@ -1,9 +1,12 @@
 //! Parameter sets (SSV) and mappings of their names (SSM), read as they are.
 
-use roxmltree::{Document, Node};
+use roxmltree::Node;
 
-use super::structure::{child, children, is_within, source_of, text_of, units};
+use super::files;
+use super::structure::{child, children, is_within, source_of, text_of, transformation, units};
+use crate::finding::Finding;
 use crate::lines::Lines;
+use crate::schema;
 use crate::unit::Unit;
 
 /// `<ParameterSet>`.
@@ -48,8 +51,8 @@ pub struct Entry {
     pub source: String,
     /// Name of what it is given to.
     pub target: String,
-    /// Whether the value is transformed on the way.
-    pub transformed: bool,
+    /// The element of how the value is transformed on the way, if it is.
+    pub transformation: Option<String>,
     /// Line of the element.
     pub line: u32,
 }
@@ -59,8 +62,8 @@ impl Values {
     ///
     /// # Errors
     /// If it is no well-formed XML or no parameter set.
-    pub fn parse(bytes: &[u8]) -> Result<Self, String> {
-        document(bytes, "ParameterSet", Self::of)
+    pub fn parse(bytes: &[u8], file: &str) -> Result<(Self, Vec<Finding>), String> {
+        files::read(bytes, &schema::ssp::PARAMETER_SET, file, Self::of)
     }
 
     /// Reads an element.
@@ -75,8 +78,8 @@ impl Mapping {
     ///
     /// # Errors
     /// If it is no well-formed XML or no mapping.
-    pub fn parse(bytes: &[u8]) -> Result<Self, String> {
-        document(bytes, "ParameterMapping", Self::of)
+    pub fn parse(bytes: &[u8], file: &str) -> Result<(Self, Vec<Finding>), String> {
+        files::read(bytes, &schema::ssp::MAPPING, file, Self::of)
     }
 
     /// Reads an element: a mapping, or what holds one or names its file.
@@ -85,7 +88,7 @@ impl Mapping {
         let entry = |node: Node| Entry {
             source: text_of(node, "source"),
             target: text_of(node, "target"),
-            transformed: node.children().any(|child| child.tag_name().name().ends_with("Transformation")),
+            transformation: transformation(node),
             line: lines.line(node),
         };
         Self {
@@ -93,22 +96,6 @@ impl Mapping {
             within: is_within(node),
             entries: children(inner, "MappingEntry").map(entry).collect(),
         }
-    }
-}
-
-/// Reads a file with a root element of some name.
-///
-/// # Errors
-/// If it is no well-formed XML, or the root is another.
-pub fn document<T>(bytes: &[u8], wanted: &str, read: impl Fn(Node, &Lines) -> T) -> Result<T, String> {
-    let text = std::str::from_utf8(bytes).map_err(|_| "is not encoded in UTF-8".to_owned())?;
-    // A mark of the byte order is no part of the text.
-    let text = text.trim_start_matches('\u{feff}');
-    let document = Document::parse(text).map_err(|error| format!("is no well-formed XML: {error}"))?;
-    let root = document.root_element();
-    match root.tag_name().name() {
-        found if found == wanted => Ok(read(root, &Lines::of(text))),
-        found => Err(format!("is a `{found}` and no `{wanted}`")),
     }
 }
 

@@ -1,0 +1,92 @@
+//! `build-fmu check` of good FMUs and systems with one fault each: every rule that is checked finds its mutations, and nothing is
+//! found in what is not mutated.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use crate::mutations::{Case, archives, descriptions, fmus, libraries, systems};
+use crate::subject::{check, problems};
+
+/// Rules whose findings are for a machine, or a program, that is not at hand in each run.
+const ELSEWHERE: [&str; 1] = ["fmpy"];
+
+/// Names of all that was found, notes too.
+fn found(answer: &serde_json::Value) -> BTreeSet<String> {
+    let findings = answer["report"]["findings"].as_array().unwrap_or_else(|| panic!("{answer}"));
+    findings.iter().map(|finding| finding["rule"].as_str().unwrap().to_owned()).collect()
+}
+
+/// Writes all into a folder and checks them in one run of the program.
+fn each_is_found(cases: &[Case], options: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    let files: Vec<PathBuf> = (0..)
+        .zip(cases)
+        .map(|(index, case)| {
+            let path = folder.path().join(format!("{index}.{}", case.ending));
+            std::fs::write(&path, &case.bytes).unwrap();
+            path
+        })
+        .collect();
+    let (_, answers) = check(&files, &[&["--no-fmpy"], options].concat());
+    let missed: Vec<String> = cases
+        .iter()
+        .zip(answers.as_array().unwrap())
+        .filter(|(case, answer)| !found(answer).contains(case.rule))
+        .map(|(case, answer)| format!("{}: {} is not among {:?}", case.what, case.rule, found(answer)))
+        .collect();
+    assert!(missed.is_empty(), "{} of {} are missed: {missed:#?}", missed.len(), cases.len());
+}
+
+#[test]
+fn mutated_descriptions_and_archives_are_found() {
+    let cases: Vec<Case> =
+        [fmus::all(), descriptions::all(), archives::all()].into_iter().flatten().collect();
+    assert!(cases.len() >= 150, "{}", cases.len());
+    each_is_found(&cases, &["--no-run"]);
+}
+
+#[test]
+fn mutated_systems_are_found() {
+    each_is_found(&systems::all(), &["--no-run"]);
+}
+
+#[test]
+fn mutated_libraries_are_found() {
+    each_is_found(&libraries::all(), &["--timeout", "5"]);
+}
+
+#[test]
+fn nothing_is_found_in_what_is_not_mutated() {
+    let folder = tempfile::tempdir().unwrap();
+    let good = [fmus::good(), descriptions::good(), systems::good()];
+    let files: Vec<PathBuf> = (0..)
+        .zip(&good)
+        .map(|(index, case)| {
+            let path = folder.path().join(format!("{index}.{}", case.ending));
+            std::fs::write(&path, &case.bytes).unwrap();
+            path
+        })
+        .collect();
+    let (code, answers) = check(&files, &["--no-fmpy"]);
+    for answer in answers.as_array().unwrap() {
+        assert_eq!(problems(answer), Vec::<String>::new());
+    }
+    assert_eq!(code, 0);
+}
+
+/// The list of rules is that of the program: one without a mutation would be a promise without a proof.
+#[test]
+fn each_rule_that_is_checked_has_a_mutation() {
+    let page = std::fs::read_to_string(strut::root().join("docs/check-rules.md")).unwrap();
+    let named = page.lines().filter_map(|line| line.strip_suffix("` |")?.rsplit_once("| `"));
+    let checked: BTreeSet<&str> = named.map(|(_, name)| name).collect();
+    let all: Vec<Case> =
+        [fmus::all(), descriptions::all(), archives::all(), systems::all(), libraries::all()]
+            .into_iter()
+            .flatten()
+            .collect();
+    let proven: BTreeSet<&str> = all.iter().map(|case| case.rule).chain(ELSEWHERE).collect();
+    let without: Vec<&&str> = checked.difference(&proven).collect();
+    let unknown: Vec<&&str> = proven.difference(&checked).collect();
+    assert!(checked.len() > 100 && without.is_empty() && unknown.is_empty(), "{without:?} {unknown:?}");
+}
