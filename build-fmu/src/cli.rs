@@ -180,7 +180,7 @@ pub struct CheckArguments {
     #[arg(long)]
     pub strict: bool,
 
-    /// Seconds that each run may take
+    /// Seconds that each call of the library may take
     #[arg(long, value_name = "SECONDS", default_value = "30", value_parser = seconds)]
     pub timeout: Duration,
 

@@ -48,7 +48,7 @@ pub struct Options {
     pub run: bool,
     /// Whether it is told which way outputs go when an input is raised.
     pub signs: bool,
-    /// How long each run may take.
+    /// How long each call of a library may take.
     pub timeout: Duration,
     /// The program that calls [`probe`], with its arguments before the folder.
     pub program: Vec<PathBuf>,

@@ -82,7 +82,10 @@ pub fn findings(
         let missing: Vec<&str> = interface
             .sources
             .iter()
-            .filter(|source| !package.files().any(|file| file.strip_prefix("sources/") == Some(source)))
+            .filter(|source| {
+                let plain = source.trim_start_matches("./");
+                !package.files().any(|file| file.strip_prefix("sources/") == Some(plain))
+            })
             .map(String::as_str)
             .collect();
         if !missing.is_empty() {

@@ -147,7 +147,8 @@ impl Bench<'_> {
                     "the solver begins anew; keep what it remembers, and runs are repeated bit for bit";
                 Finding::note(rule, message).help(help)
             }
-            Some(apart) if apart <= STEPS_ADD_UP * tolerance => {
+            // Beside another instance, no solver begins anew.
+            Some(apart) if apart <= STEPS_ADD_UP * tolerance && rule != fmi::INSTANCES => {
                 let message = format!("{}, more than the tolerance of {tolerance:.0e}", differ(apart));
                 Finding::warning(rule, message).help(help)
             }

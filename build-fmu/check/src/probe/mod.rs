@@ -177,13 +177,9 @@ fn obey(orders: &Orders, folder: &Path) -> Answers {
         ..Answers::default()
     };
     let mut stage = Stage { library: &library, instances: Vec::new(), current: 0, states: BTreeMap::new() };
-    let mut last = String::new();
     for (act, must) in &orders.acts {
-        let name = act.function();
-        if name != last {
-            calling.tell(name);
-            last = name.into();
-        }
+        // Each call is told, so that who waits sees it go on.
+        calling.tell(act.function());
         let outcome = stage.perform(act);
         let ends = outcome.status == 4 || (*must && !outcome.is_fine());
         answers.outcomes.push(outcome);

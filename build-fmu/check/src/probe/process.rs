@@ -1,7 +1,7 @@
 //! The other process: started, waited for, and its end understood.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
@@ -12,7 +12,7 @@ use super::{ANSWERS, Act, Answers, CALLING, ORDERS, Orders};
 pub struct Probe {
     /// The program that [`probe`](super::probe) is run by, and its arguments before the folder.
     pub program: Vec<PathBuf>,
-    /// How long a process may take.
+    /// How long a call may take.
     pub timeout: Duration,
 }
 
@@ -70,7 +70,7 @@ impl Probe {
             .current_dir(folder.path())
             .spawn()
             .map_err(failed)?;
-        let status = wait(&mut child, self.timeout).map_err(failed)?;
+        let status = wait(&mut child, self.timeout, &folder.path().join(CALLING)).map_err(failed)?;
         let function = fs::read_to_string(folder.path().join(CALLING)).unwrap_or_default();
         let function = function.trim_end().to_owned();
         let answers = fs::read(folder.path().join(ANSWERS)).ok();
@@ -84,13 +84,22 @@ impl Probe {
     }
 }
 
-/// The status at the end; none if there was no end in time.
-fn wait(child: &mut Child, timeout: Duration) -> std::io::Result<Option<ExitStatus>> {
-    let end = Instant::now() + timeout;
+/// How many times the timeout a process may take that goes on from call to call.
+const SLOW: u32 = 10;
+
+/// The status at the end; none if a call took too long, or all of them together. Who is slow does not hang: the time begins anew
+/// with each call, which is told in a file.
+fn wait(child: &mut Child, timeout: Duration, calling: &Path) -> std::io::Result<Option<ExitStatus>> {
+    let begin = Instant::now();
+    let (mut end, mut last) = (begin + timeout, None);
     let mut pause = Duration::from_millis(1);
     loop {
         if let Some(status) = child.try_wait()? {
             return Ok(Some(status));
+        }
+        let told = fs::metadata(calling).and_then(|it| it.modified()).ok();
+        if told != last {
+            (end, last) = ((Instant::now() + timeout).min(begin + SLOW * timeout), told);
         }
         if Instant::now() >= end {
             child.kill()?;
