@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use crate::mutations::{Case, archives, descriptions, fmus, libraries, systems};
+use crate::mutations::{Case, archives, descriptions, documents, fmus, libraries, systems};
 use crate::subject::{check, problems};
 
 /// Rules whose findings are for a machine, or a program, that is not at hand in each run.
@@ -72,6 +72,40 @@ fn nothing_is_found_in_what_is_not_mutated() {
         assert_eq!(problems(answer), Vec::<String>::new());
     }
     assert_eq!(code, 0);
+}
+
+/// What is spoilt at random is found if, and only if, the standards' own schemas find it.
+#[test]
+fn the_schemas_are_those_of_the_standards() {
+    let folder = tempfile::tempdir().unwrap();
+    let [texts, files] = ["texts", "files"].map(|name| folder.path().join(name));
+    std::fs::create_dir(&texts).unwrap();
+    std::fs::create_dir(&files).unwrap();
+    let documents = documents();
+    let mut paths = Vec::new();
+    for (index, (ending, text, bytes)) in documents.iter().enumerate() {
+        std::fs::write(texts.join(format!("{index}.{ending}")), text).unwrap();
+        paths.push(files.join(format!("{index}.{}", if *ending == "xml" { "fmu" } else { "ssp" })));
+        std::fs::write(&paths[index], bytes).unwrap();
+    }
+    let said = strut::python("tests/check/schema.py", [&texts]);
+    let valid: serde_json::Value = serde_json::from_str(&said).unwrap();
+    let (_, answers) = check(&paths, &["--no-run", "--no-fmpy"]);
+    let mut counts = [0, 0];
+    for (index, ((ending, text, _), answer)) in documents.iter().zip(answers.as_array().unwrap()).enumerate()
+    {
+        let theirs = valid[format!("{index}.{ending}")].as_bool().unwrap();
+        // That numbers are numbers, and that SSP is 1.0, is not for the schema.
+        let ours = answer.get("unreadable").is_none()
+            && !found(answer).iter().any(|rule| rule.contains("schema.") && rule != "schema.finite");
+        assert_eq!(ours, theirs, "{:?}\n{text}", found_or_unreadable(answer));
+        counts[usize::from(theirs)] += 1;
+    }
+    assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
+}
+
+fn found_or_unreadable(answer: &serde_json::Value) -> String {
+    answer.get("unreadable").map_or_else(|| format!("{:?}", problems(answer)), ToString::to_string)
 }
 
 /// The list of rules is that of the program: one without a mutation would be a promise without a proof.

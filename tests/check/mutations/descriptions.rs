@@ -31,6 +31,16 @@ fn rich() -> Parts {
     parts
 }
 
+/// Its description.
+pub fn xml() -> String {
+    rich().xml
+}
+
+/// The FMU with another description.
+pub fn of(xml: &str) -> Vec<u8> {
+    rich().bytes_with(xml.as_bytes())
+}
+
 pub fn good() -> Case {
     Case::fmu("small", "", rich().bytes())
 }

@@ -30,3 +30,24 @@ impl Case {
         Self { what: what.into(), rule, ending: "ssp", bytes }
     }
 }
+
+/// Descriptions, good and bad, for a comparison with the standards' own schemas: ending, text, and the file that it is in.
+pub fn documents() -> Vec<(&'static str, String, Vec<u8>)> {
+    let mut documents = Vec::new();
+    let description = descriptions::xml();
+    for text in schema::random(&description, &["Tool"], 400) {
+        let bytes = descriptions::of(&text);
+        documents.push(("xml", text, bytes));
+    }
+    // Values in place are checked by their own schema, which that of the description does not ask.
+    for (file, ending, text) in [
+        (crate::ssp::DESCRIPTION, "ssd", include_str!("../SystemStructure.ssd")),
+        (crate::ssp::VALUES, "ssv", include_str!("../first.ssv")),
+    ] {
+        for text in schema::random(text, &["ParameterValues"], 200) {
+            let bytes = crate::ssp::replaced(file, text.as_bytes()).bytes();
+            documents.push((ending, text, bytes));
+        }
+    }
+    documents
+}

@@ -112,3 +112,43 @@ fn path(node: Node) -> String {
     names.reverse();
     names.join("/")
 }
+
+/// Texts that are spoilt at random, or are still good: names, values and places of the text itself, put elsewhere. What is in open
+/// elements is left alone.
+pub fn random(text: &str, open: &[&str], number: usize) -> Vec<String> {
+    let document = Document::parse(text).unwrap();
+    let elements = document.root_element().descendants().filter(Node::is_element).skip(1);
+    let nodes: Vec<Node> = elements.filter(|node| !node.ancestors().skip(1).any(|it| is(it, open))).collect();
+    let attributes: Vec<_> = nodes.iter().flat_map(Node::attributes).collect();
+    // Numbers that are the same in each run (Numerical Recipes' generator).
+    let mut state = 1_u64;
+    let mut below = |count: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % count
+    };
+    let put = |range: Range<usize>, new: &str| format!("{}{new}{}", &text[..range.start], &text[range.end..]);
+    let mut texts = Vec::new();
+    while texts.len() < number {
+        let (node, other) = (nodes[below(nodes.len())], nodes[below(nodes.len())]);
+        let (attribute, another) =
+            (&attributes[below(attributes.len())], &attributes[below(attributes.len())]);
+        let whole = &text[node.range()];
+        texts.push(match below(7) {
+            0 => put(node.range(), ""),
+            1 => put(node.range(), &format!("{whole}{whole}")),
+            2 => put(node.range(), &text[other.range()]),
+            3 => put(node.range(), &format!("{whole}{}", &text[other.range()])),
+            4 => put(attribute.range(), ""),
+            5 => put(attribute.range_value(), another.value()),
+            // An attribute that is there already would be no XML.
+            _ if node.attribute(another.name()).is_none() => {
+                let start = node.range().start + 1;
+                let end = start + text[start..].find([' ', '>', '/', '\n']).unwrap();
+                put(end..end, &format!(" {}=\"{}\"", another.name(), another.value()))
+            }
+            _ => continue,
+        });
+    }
+    texts.retain(|text| Document::parse(text).is_ok());
+    texts
+}
