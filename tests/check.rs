@@ -179,74 +179,6 @@ fn each_rule_finds_what_breaks_it() {
     );
 }
 
-/// Each kind of declaration, made twice, and each number that nothing can be converted by.
-#[test]
-fn each_kind_of_declaration_is_made_once() {
-    let unit = "<Unit name=\"m\"><BaseUnit m=\"1\"/></Unit>";
-    let kind = "<SimpleType name=\"Kind\"><Enumeration><Item name=\"One\" value=\"1\"/><Item name=\"Two\" value=\"2\"/>\
-                </Enumeration></SimpleType>";
-    let display = "<DisplayUnit name=\"mm\" factor=\"1000\"/>";
-    let displayed = unit.replace("</Unit>", &format!("{display}{display}</Unit>"));
-    let categories = "<LogCategories><Category name=\"logAll\"/><Category name=\"logAll\"/></LogCategories><DefaultExperiment";
-    let twice = |text: &str| described(text, &format!("{text}{text}"));
-    let mut cases = vec![
-        (
-            "unit",
-            twice(unit),
-            "description.twice",
-            "the unit `m` is declared twice; first in line 6".to_owned(),
-        ),
-        ("type", twice(kind), "description.twice", "the type `Kind` is declared twice".into()),
-        (
-            "item",
-            described("name=\"Two\"", "name=\"One\""),
-            "description.twice",
-            "the item `One` of `Kind` is declared twice".into(),
-        ),
-        (
-            "value",
-            described("value=\"2\"", "value=\"1\""),
-            "description.twice",
-            "the item's value `1` of `Kind` is declared twice".into(),
-        ),
-        (
-            "display",
-            described(unit, &displayed),
-            "description.twice",
-            "the display unit `mm` of `m` is declared twice".into(),
-        ),
-        (
-            "category",
-            described("<DefaultExperiment", categories),
-            "description.twice",
-            "the log category `logAll` is declared twice".into(),
-        ),
-        (
-            "itself",
-            described("derivative=\"1\"", "derivative=\"2\""),
-            "variables.derivative",
-            "`der(x)` is the derivative of itself".into(),
-        ),
-    ];
-    for factor in ["0", "0.0"] {
-        let base = described("<BaseUnit m=\"1\"/>", &format!("<BaseUnit m=\"1\" factor=\"{factor}\"/>"));
-        let shown = described(unit, &displayed.replacen(display, "", 1).replace("1000", factor));
-        cases.push((
-            "factor",
-            base,
-            "variables.unit",
-            format!("the unit `m` has the factor {factor}, by which"),
-        ));
-        let message = format!("the display unit `mm` of `m` has the factor {factor}, by which");
-        cases.push(("display-factor", shown, "variables.unit", message));
-    }
-    let packed: Vec<_> = cases
-        .iter()
-        .map(|(name, parts, rule, message)| (*name, parts.bytes(), *rule, message.as_str()))
-        .collect();
-    crate::subject::each_has_its_problem(&packed, "fmu", &["--no-run"]);
-}
-
 /// Libraries that are run.
 #[test]
 fn each_fault_of_behaviour_is_found() {
@@ -325,6 +257,31 @@ fn a_restarted_solver_is_noted() {
         .collect();
     assert!(notes.len() >= 2, "{findings:#?}");
     assert!(notes.iter().all(|note| note.contains("within the tolerance of 1e-4")), "{notes:#?}");
+}
+
+/// Raising the input raises the output; in a system, too.
+#[test]
+fn signs_of_responses_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = [folder.path().join("small.fmu"), folder.path().join("small.ssp")];
+    std::fs::write(&files[0], parts("").bytes()).unwrap();
+    std::fs::write(&files[1], crate::ssp::faultless().bytes()).unwrap();
+    let (_, answers) = check(&files, &["--no-fmpy", "--signs"]);
+    for (place, component) in [(0, serde_json::Value::Null), (1, "resources/Faulty one.fmu".into())] {
+        let signs = &answers[place]["report"]["signs"];
+        let expected = serde_json::json!([{
+            "component": component, "input": "u", "by": 0.1, "unit": "m", "duration": 2.0,
+            "rise": ["y"], "fall": [], "rest": [],
+        }]);
+        assert_eq!(signs, &expected, "{signs:#}");
+    }
+    // A rig whose force pulls body and wheel apart.
+    let rig = strut::fmus().join("TumQuarterVehicle.fmu");
+    let (_, answers) = check(&[rig], &["--no-fmpy", "--signs"]);
+    let signs = answers[0]["report"]["signs"].as_array().unwrap();
+    let force = signs.iter().find(|it| it["input"] == "actuator.force").unwrap();
+    let has = |list: &str, name: &str| force[list].as_array().unwrap().contains(&name.into());
+    assert!(has("rise", "body.acceleration") && has("fall", "wheel.acceleration"), "{force:#}");
 }
 
 /// A state of two names, one of which has the derivative.

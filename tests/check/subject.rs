@@ -117,7 +117,7 @@ fn collected(lines: impl Iterator<Item = Value>) -> Value {
         let findings = std::mem::take(&mut findings);
         if line.get("problems").is_some() {
             let report = json!({
-                "findings": findings, "about": line["about"], "done": line["done"], "skipped": line["skipped"],
+                "findings": findings, "about": line["about"], "done": line["done"], "skipped": line["skipped"], "signs": line["signs"],
             });
             line = json!({"file": line["file"], "problems": line["problems"], "report": report});
         }

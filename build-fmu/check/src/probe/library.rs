@@ -1,17 +1,15 @@
-//! A library of FMI 2.0 behind functions without `unsafe`: here and in [`memory`] is all of it.
+//! A library of FMI 2.0 behind functions without `unsafe`: here, in [`memory`] and in [`logger`] is all of it.
 //!
 //! What the library does with its memory is beyond anyone's control. That is why it is loaded in a process
 //! of its own.
 
 #![allow(unsafe_code)]
 
-use std::collections::BTreeSet;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::path::Path;
 use std::ptr::null_mut;
-use std::sync::Mutex;
 
-use super::memory;
+use super::{logger, memory};
 
 /// What a call came to: fmi2OK is 0, fmi2Error 3, fmi2Fatal 4.
 pub type Status = c_int;
@@ -43,58 +41,6 @@ struct EventInfo {
     states_changed: c_int,
     next_event_defined: c_int,
     next_event: f64,
-}
-
-/// What the library has logged.
-#[derive(Clone, Debug, Default, serde::Serialize, serde::Deserialize)]
-pub struct Log {
-    /// The first messages of status warning and worse.
-    pub messages: Vec<String>,
-    /// A message came without category.
-    pub null_category: bool,
-    /// A message came without text or name.
-    pub null_text: bool,
-    /// A text was not encoded in UTF-8.
-    pub invalid_text: bool,
-    /// The first categories.
-    pub categories: BTreeSet<String>,
-}
-
-static LOG: Mutex<Log> = Mutex::new(Log {
-    messages: Vec::new(),
-    null_category: false,
-    null_text: false,
-    invalid_text: false,
-    categories: BTreeSet::new(),
-});
-
-/// What has been logged until now.
-pub fn logged() -> Log {
-    LOG.lock().map(|log| log.clone()).unwrap_or_default()
-}
-
-unsafe extern "C" fn log(
-    _environment: *mut c_void,
-    name: *const c_char,
-    status: Status,
-    category: *const c_char,
-    message: *const c_char,
-) {
-    let Ok(mut log) = LOG.lock() else { return };
-    log.null_category |= category.is_null();
-    log.null_text |= message.is_null() || name.is_null();
-    // SAFETY: both are C strings while the logger runs, by the standard.
-    let text = |text: *const c_char| (!text.is_null()).then(|| unsafe { CStr::from_ptr(text) });
-    if let Some(category) = text(category).filter(|_| log.categories.len() < 20) {
-        log.categories.insert(category.to_string_lossy().into_owned());
-    }
-    if let Some(message) = text(message) {
-        log.invalid_text |= message.to_str().is_err();
-        if status > 0 && log.messages.len() < 5 {
-            let shown = message.to_string_lossy().chars().take(300).collect();
-            log.messages.push(shown);
-        }
-    }
 }
 
 /// An error with what the system says of it.
@@ -146,7 +92,7 @@ impl Library {
         #[cfg(not(unix))]
         let library = unsafe { libloading::Library::new(path) };
         let callbacks = Box::new(Callbacks {
-            logger: log,
+            logger: logger::log,
             allocate: memory::allocate,
             free: memory::free,
             step_finished: None,

@@ -1,6 +1,7 @@
 //! What another process does with a library, act by act, and what came of it.
 
 mod library;
+mod logger;
 mod memory;
 mod process;
 
@@ -13,8 +14,9 @@ use std::process::ExitCode;
 use serde::{Deserialize, Serialize};
 
 use crate::description::Kind;
-pub use library::{ABSENT, Log};
+pub use library::ABSENT;
 use library::{Instance, Library, Saved};
+pub use logger::Log;
 pub use memory::Memory;
 pub use process::{Ending, Probe, Run};
 
@@ -187,7 +189,7 @@ fn obey(orders: &Orders, folder: &Path) -> Answers {
             break;
         }
     }
-    answers.log = library::logged();
+    answers.log = logger::logged();
     answers.memory = memory::memory();
     calling.tell("the end of the process");
     answers
