@@ -72,6 +72,8 @@ fn of_unknown(
     let variable = description.variable(unknown.index)?;
     let (name, last) = (&variable.name, description.variables.len());
     let wrong = |rule: &'static Rule, message: String| Some(Finding::error(rule, message).line(unknown.line));
+    // Importers pass over these; the Reference FMUs have some.
+    let odd = |rule: &'static Rule, message: String| Some(Finding::warning(rule, message).line(unknown.line));
     let initially = list == "InitialUnknowns";
     if let Some(kinds) = &unknown.kinds {
         if Some(kinds.len()) != unknown.dependencies.as_ref().map(Vec::len) {
@@ -82,13 +84,13 @@ fn of_unknown(
         if variable.kind != "Real" && kinds.iter().any(|kind| kind != "dependent") {
             let message =
                 format!("`{name}` in {list} is {}, and has other kinds than dependent", variable.kind);
-            return wrong(fmi::KINDS_REAL, message);
+            return odd(fmi::KINDS_REAL, message);
         }
         let initial = ["dependent", "constant"];
         if let Some(kind) = kinds.iter().find(|kind| initially && !initial.contains(&kind.as_str())) {
             let message = format!("`{name}` in {list} has the dependenciesKind {kind}");
             let help = "at the initialisation there are only dependent and constant";
-            return wrong(fmi::KINDS_INITIAL, message).map(|finding| finding.help(help));
+            return odd(fmi::KINDS_INITIAL, message).map(|finding| finding.help(help));
         }
     }
     let dependencies = unknown.dependencies.as_ref()?;
@@ -125,7 +127,7 @@ fn of_unknown(
     } else {
         "knowns are inputs, states, and the independent variable"
     };
-    wrong(fmi::DEPENDENCIES_KNOWN, message).map(|finding| finding.help(help))
+    odd(fmi::DEPENDENCIES_KNOWN, message).map(|finding| finding.help(help))
 }
 
 /// The function that the standard gives for outputs and derivatives has tunable parameters in it, too.
@@ -218,21 +220,26 @@ fn states(description: &Description) -> Vec<Finding> {
     let mut findings = Vec::new();
     // By what a state goes by: its reference.
     let mut seen: HashMap<u32, &str> = HashMap::new();
+    let mut others = Vec::new();
     for unknown in &description.derivatives {
         let derivative = description.variable(unknown.index);
         let state = derivative.and_then(|it| description.variable(it.derivative?));
         let (Some(derivative), Some(state)) = (derivative, state) else { continue };
         let (name, of) = (&derivative.name, &state.name);
         if !matches!(state.causality.as_str(), "local" | "output") {
-            let message = format!("`{of}` is a state, but its causality is \"{}\"", state.causality);
-            let help = "a state is a local variable or an output";
-            findings.push(Finding::error(fmi::DERIVATIVES_STATE, message).line(state.line).help(help));
+            others.push((of, state.line));
         }
         let Some(reference) = state.reference else { continue };
         if let Some(first) = seen.insert(reference, name).filter(|first| *first != name.as_str()) {
             let message = format!("`{first}` and `{name}` are both listed as the derivative of `{of}`");
             findings.push(Finding::error(fmi::DERIVATIVES_TWICE, message).line(unknown.line));
         }
+    }
+    if let Some((_, line)) = others.first() {
+        let names = names(&others.iter().map(|(name, _)| *name).collect::<Vec<_>>());
+        let message = format!("<Derivatives> makes states of what is neither local nor an output: {names}");
+        let help = "a state is a local variable or an output";
+        findings.push(Finding::error(fmi::DERIVATIVES_STATE, message).line(*line).help(help));
     }
     findings
 }

@@ -45,7 +45,8 @@ impl Package {
         for index in 0..archive.len() {
             // As it is stored: what is deflated, encrypted or otherwise is found out when it is read.
             let entry = archive.by_index_raw(index).map_err(no_zip)?;
-            names.push(String::from_utf8_lossy(entry.name_raw()).into_owned());
+            // Backslashes are told, and read as what they are meant for.
+            names.push(String::from_utf8_lossy(entry.name_raw()).replace('\\', "/"));
         }
         Ok(Self { archive, entries, names })
     }
