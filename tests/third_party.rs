@@ -1,17 +1,38 @@
 //! FMUs that others have made, connected with ours: what the systems in `examples/third-party` do is what scipy says.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 const NAMES: [&str; 3] = ["their-plant", "our-rig", "their-truck"];
 
+/// What the check finds in them, each looked up in the standard.
+const FOUND: [(&str, &[&str]); 5] = [
+    // OpenModelica promises derivatives of outputs, and gives NaN.
+    ("MassSpringSubSystem1", &["run.slopes"]),
+    ("ramp", &["run.slopes"]),
+    // Names like der(der(x)) are not structured, and the state is declared to start exactly where it does not.
+    ("Mass_Damper", &["run.slopes", "run.start", "variables.name.structured"]),
+    // PythonFMU's libraries load in a Python alone, and its outputs are no initial unknowns.
+    ("Chassis", &["run.load", "structure.initial.missing"]),
+    ("Wheel", &["run.load", "structure.initial.missing"]),
+];
+
+/// The FMUs of others, and the files of the systems with them.
+fn theirs() -> &'static Path {
+    static THEIRS: OnceLock<PathBuf> = OnceLock::new();
+    THEIRS.get_or_init(|| {
+        let theirs = strut::target().join("tested-third-party/theirs");
+        strut::python("examples/third-party/fetch.py", [&theirs]);
+        theirs
+    })
+}
+
 /// The systems with the FMUs of others in them.
 fn systems() -> &'static Path {
     static SYSTEMS: OnceLock<PathBuf> = OnceLock::new();
     SYSTEMS.get_or_init(|| {
-        let out = strut::target().join("tested-third-party");
-        let theirs = out.join("theirs");
-        strut::python("examples/third-party/fetch.py", [&theirs]);
+        let (theirs, out) = (theirs(), strut::target().join("tested-third-party"));
         let mut build = strut::build_fmu();
         build.arg("--out").arg(&out);
         for name in NAMES {
@@ -74,5 +95,19 @@ fn connectors_bear_the_units_that_their_fmus_declare() {
         let problems = crate::subject::problems(answer);
         let of_systems: Vec<_> = problems.iter().filter(|problem| problem.starts_with("system.")).collect();
         assert!(of_systems.is_empty(), "{}: {of_systems:#?}", answer["file"]);
+    }
+}
+
+/// An error that is none by the standard would be one more.
+#[test]
+fn the_errors_found_in_their_fmus_are_those_that_they_have() {
+    let files: Vec<PathBuf> =
+        FOUND.iter().map(|(name, _)| theirs().join(name).with_extension("fmu")).collect();
+    let (_, answers) = crate::subject::check(&files, &["--no-fmpy"]);
+    for ((name, expected), answer) in FOUND.iter().zip(answers.as_array().unwrap()) {
+        let findings = answer["report"]["findings"].as_array().unwrap();
+        let errors = findings.iter().filter(|finding| finding["level"] == "error");
+        let errors: BTreeSet<&str> = errors.map(|finding| finding["rule"].as_str().unwrap()).collect();
+        assert_eq!(errors, expected.iter().copied().collect(), "{name}: {findings:#?}");
     }
 }
