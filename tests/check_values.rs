@@ -303,6 +303,17 @@ fn values_within_an_fmu_are_found_there() {
     assert!(done.contains("7 parameter values"), "{done}");
 }
 
+/// By the table of SSP: what is set once may lead to what is read.
+#[test]
+fn a_parameter_may_lead_to_an_input() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("parameter.ssp");
+    let ssp = with(DESCRIPTION, "name=\"drive\" kind=\"input\"", "name=\"drive\" kind=\"parameter\"");
+    std::fs::write(&path, ssp.bytes()).unwrap();
+    let (code, answers) = check(&[path], &["--no-run", "--no-fmpy"]);
+    assert_eq!((code, problems(&answers[0])), (0, Vec::new()));
+}
+
 #[test]
 fn signals_may_be_given_in_place() {
     let folder = tempfile::tempdir().unwrap();

@@ -41,7 +41,7 @@ checked {
     VALUE_UNIT "system.parameter.unit" "5.2.3" "A value has its variable's unit."
     VALUE_BOUNDS "system.parameter.bounds" "5.2.3" "A value lies within its variable's bounds."
     CONNECTION_END "system.connection" "5.3.2" "The ends of a connection are there."
-    CONNECTION_KINDS "system.connection.kinds" "5.3.2.1" "A connection leads from what gives a value to what takes one, and does not join signals to parameters."
+    CONNECTION_KINDS "system.connection.kinds" "5.3.2.1" "A connection leads from what gives a value to what takes one, and no signal leads to a parameter."
     CONNECTION_TWICE "system.twice" "5.3.2.1" "An input is connected once."
     CONNECTION_TYPE "system.type" "5.3.2" "The ends of a connection have the same type, or a transformation."
     CONNECTION_UNIT "system.unit" "5.3.2" "The ends of a connection have units of the same dimension, or a transformation."

@@ -201,13 +201,15 @@ fn find<'a>(system: &'a Element, elements: &'a [Element], end: &End) -> Result<F
 /// The ends in the order that the signal takes, which is not always that in which they are written.
 fn directed<'a>(start: Found<'a>, end: Found<'a>) -> Result<(Found<'a>, Found<'a>), String> {
     let both = format!("`{}` and `{}`", start.shown(), end.shown());
-    if start.is_parameter() != end.is_parameter() {
+    let (source, sink) = match (start.role(), end.role()) {
+        (Role::Source, Role::Source) => return Err(format!("{both} are connected, and both give a value")),
+        (Role::Sink, Role::Sink) => return Err(format!("{both} are connected, and both take a value")),
+        (Role::Sink, _) | (_, Role::Source) => (end, start),
+        (Role::Source | Role::Either, Role::Sink | Role::Either) => (start, end),
+    };
+    // A parameter may set a signal, which then stays as it is; what changes cannot set a parameter.
+    if sink.is_parameter() && !source.is_parameter() {
         return Err(format!("{both} are connected, of which one is a parameter and the other a signal"));
     }
-    match (start.role(), end.role()) {
-        (Role::Source, Role::Source) => Err(format!("{both} are connected, and both give a value")),
-        (Role::Sink, Role::Sink) => Err(format!("{both} are connected, and both take a value")),
-        (Role::Sink, _) | (_, Role::Source) => Ok((end, start)),
-        (Role::Source | Role::Either, Role::Sink | Role::Either) => Ok((start, end)),
-    }
+    Ok((source, sink))
 }
