@@ -29,6 +29,12 @@ checked {
     FINITE "run.finite" "" "Outputs are finite numbers while the inputs are near their start values."
     REPEAT "run.repeat" "" "Two runs with the same inputs have the same results."
     FMPY "fmpy" "" "FMPy's validation finds nothing."
+    CONNECTOR_TYPE "system.connector.type" "" "A connector's type is its variable's or signal's."
+    CONNECTOR_UNIT "system.connector.unit" "" "A connector's unit is its variable's or signal's."
+    CONNECTION_TYPE "system.type" "" "The ends of a connection have the same type, or a transformation."
+    CONNECTION_UNIT "system.unit" "" "The ends of a connection have units of the same dimension, or a transformation."
+    VALUE_BOUNDS "system.parameter.bounds" "" "A value lies within its variable's bounds."
+    VALUE_UNIT "system.parameter.unit" "" "A value has its variable's unit."
     PARAMETER_THERE "system.parameter" "" "Values and mappings are for names that are there."
 }
 uncheckable {}

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::structure::{Connection, Connector, Content, Element, End};
 use super::{System, at};
 use crate::finding::Finding;
-use crate::rules::ssp;
+use crate::rules::{practice, ssp};
 use crate::unit::Fit;
 
 /// An end of a connection, found.
@@ -114,12 +114,14 @@ impl System {
             return transformable(transformation, [&from, &to])
                 .map(|finding| finding.at(at(connection.line)));
         }
-        if from == to {
+        // Enumerations are passed on as whole numbers.
+        let whole = |it: &str| matches!(it, "Integer" | "Enumeration");
+        if from == to || (whole(&from) && whole(&to)) {
             return None;
         }
         let (source, sink) = (source.shown(), sink.shown());
         let message = format!("the connection `{source}` -> `{sink}` leads from {from} to {to}");
-        Some(Finding::error(ssp::CONNECTION_TYPE, message).at(at(connection.line)).help(
+        Some(Finding::error(practice::CONNECTION_TYPE, message).at(at(connection.line)).help(
             "connect variables of the same type, or tell how the one becomes the other by a transformation",
         ))
     }
@@ -139,7 +141,7 @@ impl System {
             // It is said what becomes of the signal, or that nothing is to.
             (Fit::Same, ..) | (_, true, _) => return None,
             (Fit::Linear { .. }, false, true) => Finding::warning(
-                ssp::CONNECTION_UNIT,
+                practice::CONNECTION_UNIT,
                 format!(
                     "{leads} by a transformation of its own, which tools apply after converting the units"
                 ),
@@ -148,16 +150,16 @@ impl System {
             (_, false, true) => return None,
             (Fit::Linear { factor, offset }, false, false) => {
                 let way = format!("<ssc:LinearTransformation factor=\"{factor:?}\" offset=\"{offset:?}\"/>");
-                Finding::warning(ssp::CONNECTION_UNIT, format!("{leads}, which not every tool converts"))
+                Finding::warning(practice::CONNECTION_UNIT, format!("{leads}, which not every tool converts"))
                     .help(format!("write {way} into it, with suppressUnitConversion=\"true\""))
             }
             (Fit::Unknown, false, false) => {
                 let message = format!("{leads}, and nothing tells how these units compare");
-                Finding::warning(ssp::CONNECTION_UNIT, message)
+                Finding::warning(practice::CONNECTION_UNIT, message)
                     .help("declare both by their base units, or tell the factor by a transformation")
             }
             (Fit::Derivative | Fit::Integral | Fit::Different, false, false) => {
-                Finding::error(ssp::CONNECTION_UNIT, leads)
+                Finding::error(practice::CONNECTION_UNIT, leads)
                     .help("connect variables of the same unit, or tell the factor by a transformation")
             }
         };
@@ -185,6 +187,9 @@ pub(super) fn transformable(transformation: &str, types: [&str; 2]) -> Option<Fi
 fn find<'a>(system: &'a Element, elements: &'a [Element], end: &End) -> Result<Found<'a>, String> {
     let (element, within) = match &end.element {
         None => (system, true),
+        Some(name) if name.is_empty() => {
+            return Err("a connection ends at an element without a name; for the system itself, leave the attribute out".into());
+        }
         Some(name) => {
             let element = elements.iter().find(|element| element.name == *name).ok_or_else(|| {
                 format!("a connection ends at the element `{}`, which there is none of", system.of(name))

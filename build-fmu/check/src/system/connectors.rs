@@ -3,7 +3,7 @@
 use super::structure::{Connector, Content, Element};
 use super::{System, at, found};
 use crate::finding::Finding;
-use crate::rules::{Rule, ssp};
+use crate::rules::{Rule, practice, ssp};
 use crate::unit::{Fit, Unit};
 
 const KINDS: [&str; 5] = ["input", "output", "parameter", "calculatedParameter", "inout"];
@@ -48,7 +48,7 @@ impl System {
         {
             let given = &variable.kind;
             let message = format!("`{shown}` is of type {of_type}, but its variable is {given}");
-            return Some(wrong(ssp::CONNECTOR_TYPE, message));
+            return Some(wrong(practice::CONNECTOR_TYPE, message));
         }
         let (own, theirs) = (self.own_unit(connector)?, self.unit_of(element, variable)?);
         // Where an FMU counts in numbers without a unit, the connector tells what they are.
@@ -57,7 +57,7 @@ impl System {
         }
         let (own, theirs) = (own.symbol, theirs.symbol);
         let message = format!("`{shown}` has the unit \"{own}\", but its variable has \"{theirs}\"");
-        Some(wrong(ssp::CONNECTOR_UNIT, message).help("give the variable's unit, or none"))
+        Some(wrong(practice::CONNECTOR_UNIT, message).help("give the variable's unit, or none"))
     }
 
     pub(super) fn own_unit(&self, connector: &Connector) -> Option<Unit> {

@@ -9,7 +9,7 @@ use super::structure::{Connector, Content, Element, FILE};
 use super::{System, at, found};
 use crate::finding::{Finding, Report, repeated};
 use crate::package::Package;
-use crate::rules::{Rule, ssp};
+use crate::rules::{Rule, practice, ssp};
 use crate::unit::{Fit, Unit};
 
 /// The dictionaries of all systems, and who refers to them.
@@ -162,7 +162,7 @@ impl System {
             && own != theirs
         {
             let message = format!("`{shown}` is of type {own}, but its signal is {theirs}");
-            return Some(wrong(ssp::CONNECTOR_TYPE, message));
+            return Some(wrong(practice::CONNECTOR_TYPE, message));
         }
         let (own, theirs) = (self.own_unit(connector)?, self.unit_of_signal(element, name)?);
         if own.fit(&theirs, 0) == Fit::Same {
@@ -170,6 +170,6 @@ impl System {
         }
         let (own, theirs) = (own.symbol, theirs.symbol);
         let message = format!("`{shown}` has the unit \"{own}\", but its signal has \"{theirs}\"");
-        Some(wrong(ssp::CONNECTOR_UNIT, message).help("give the signal's unit, or none"))
+        Some(wrong(practice::CONNECTOR_UNIT, message).help("give the signal's unit, or none"))
     }
 }

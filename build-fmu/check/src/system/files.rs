@@ -86,7 +86,7 @@ fn alone(root: Node, schema: &Element, file: &str, lines: &Lines) -> Vec<Finding
             }
         }
     }
-    let units: HashSet<String> = units.iter().map(name).collect();
+    let mut units: HashSet<String> = units.iter().map(name).collect();
     let enumerations: HashSet<String> = enumerations.iter().map(name).collect();
     for node in own {
         let is_type = node.parent_element().is_some_and(|it| it.tag_name().name() != "Enumerations");
@@ -95,6 +95,8 @@ fn alone(root: Node, schema: &Element, file: &str, lines: &Lines) -> Vec<Finding
                 let unit = node.attribute("unit").filter(|unit| !units.contains(*unit));
                 if let Some(unit) = unit {
                     wrong(ssp::UNIT_DECLARED, node, format!("the unit `{unit}` is not declared in {file}"));
+                    // Once is enough.
+                    units.insert(unit.to_owned());
                 }
             }
             "Enumeration" if is_type => {

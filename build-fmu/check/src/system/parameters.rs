@@ -192,7 +192,7 @@ impl System {
         let (min, max) = (variable.min.unwrap_or(f64::NEG_INFINITY), variable.max.unwrap_or(f64::INFINITY));
         let number = value.trim().parse::<f64>().ok().filter(|value| !(min..=max).contains(value))?;
         wrong(
-            ssp::VALUE_BOUNDS,
+            practice::VALUE_BOUNDS,
             format!("`{name}` is given {number}, outside of its bounds from {min} to {max}"),
         )
     }
@@ -233,10 +233,10 @@ fn written(name: &str, parameter: &Parameter, values: &Values, wanted: Option<Un
     match given.fit(&wanted, 0) {
         Fit::Same => None,
         Fit::Linear { .. } | Fit::Unknown => Some(
-            Finding::warning(ssp::VALUE_UNIT, message)
+            Finding::warning(practice::VALUE_UNIT, message)
                 .help("give it in the variable's unit: not every tool converts"),
         ),
-        Fit::Derivative | Fit::Integral | Fit::Different => wrong(ssp::VALUE_UNIT, message),
+        Fit::Derivative | Fit::Integral | Fit::Different => wrong(practice::VALUE_UNIT, message),
     }
 }
 
