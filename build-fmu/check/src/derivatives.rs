@@ -1,7 +1,9 @@
 //! Rules for derivatives: of what they are, and in which unit.
 
+use std::collections::HashSet;
+
 use crate::description::{Description, Kind, Variable};
-use crate::finding::Finding;
+use crate::finding::{Finding, names};
 use crate::rules::{Rule, fmi, practice};
 use crate::unit::{Fit, Unit};
 
@@ -95,29 +97,33 @@ fn named(variable: &Variable, state: &Variable, description: &Description) -> Op
     Some(Finding::warning(practice::DERIVATIVE_NAME, message).line(variable.line).help(help))
 }
 
-/// Attributes that say nothing where nobody else integrates.
+/// Attributes that say nothing where nobody else integrates, or of such variables.
 fn only_for_model_exchange(description: &Description) -> Vec<Finding> {
-    let mut findings = Vec::new();
     let alone = description.interface(Kind::ModelExchange).is_none();
-    let states: Vec<usize> =
-        description.variables.iter().filter_map(|variable| variable.derivative).collect();
-    let is_state: std::collections::HashSet<usize> = states.into_iter().collect();
-    for (index, variable) in (1..).zip(&description.variables) {
-        let mut wrong = |rule: &'static Rule, attribute: &str, why: &str| {
-            let message = format!("`{}` has the attribute {attribute}, {why}", variable.name);
-            findings.push(Finding::error(rule, message).line(variable.line).help("leave it out"));
-        };
-        if variable.reinit && alone {
-            wrong(fmi::REINIT, "reinit", "but the FMU is for co-simulation alone");
-        } else if variable.reinit && !is_state.contains(&index) {
-            wrong(fmi::REINIT, "reinit", "but is no continuous-time state");
-        }
-        let set = "canHandleMultipleSetPerTimeInstant";
-        if variable.multiple_set && alone {
-            wrong(fmi::MULTIPLE_SET, set, "but the FMU is for co-simulation alone");
-        } else if variable.multiple_set && variable.causality != "input" {
-            wrong(fmi::MULTIPLE_SET, set, "but is no input");
-        }
-    }
-    findings
+    let states: HashSet<usize> = description.variables.iter().filter_map(|it| it.derivative).collect();
+    let list = |of: &dyn Fn(usize, &Variable) -> bool| -> Vec<&Variable> {
+        (1..).zip(&description.variables).filter(|(index, it)| of(*index, it)).map(|(_, it)| it).collect()
+    };
+    let set = "canHandleMultipleSetPerTimeInstant";
+    let why = "but the FMU is for co-simulation alone";
+    let cases = if alone {
+        vec![
+            (fmi::REINIT, "reinit", why, list(&|_, it| it.reinit)),
+            (fmi::MULTIPLE_SET, set, why, list(&|_, it| it.multiple_set)),
+        ]
+    } else {
+        let no_state = list(&|index, it| it.reinit && !states.contains(&index));
+        let no_input = list(&|_, it| it.multiple_set && it.causality != "input");
+        vec![
+            (fmi::REINIT, "reinit", "but is no continuous-time state", no_state),
+            (fmi::MULTIPLE_SET, set, "but is no input", no_input),
+        ]
+    };
+    let finding = |(rule, attribute, why, variables): (&'static Rule, &str, &str, Vec<&Variable>)| {
+        let first = variables.first()?;
+        let all: Vec<&str> = variables.iter().map(|variable| variable.name.as_str()).collect();
+        let message = format!("the attribute {attribute} is given for {}, {why}", names(&all));
+        Some(Finding::error(rule, message).line(first.line).help("leave it out"))
+    };
+    cases.into_iter().filter_map(finding).collect()
 }

@@ -1,6 +1,6 @@
 //! Rules for each variable: its name, its role, its start value, its type and unit.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use crate::description::{Description, Variable};
 use crate::finding::{Finding, names};
@@ -29,12 +29,12 @@ const INITIALS: [&str; 3] = ["exact", "approx", "calculated"];
 /// What is wrong with the variables.
 pub fn findings(description: &Description) -> Vec<Finding> {
     let mut findings = unique_names(description);
-    let units: HashSet<&str> = description.units.iter().map(|unit| unit.symbol.as_str()).collect();
     for variable in &description.variables {
         findings.extend(roles(variable));
         findings.extend(start(variable));
-        findings.extend(type_and_unit(variable, description, &units));
+        findings.extend(declared_type(variable, description));
     }
+    findings.extend(units(description));
     findings.extend(aliases::findings(description));
     findings.extend(derivatives::findings(description));
     findings.extend(arrays(description));
@@ -166,7 +166,7 @@ fn start(variable: &Variable) -> Vec<Finding> {
     findings
 }
 
-fn type_and_unit(variable: &Variable, description: &Description, units: &HashSet<&str>) -> Vec<Finding> {
+fn declared_type(variable: &Variable, description: &Description) -> Vec<Finding> {
     let Variable { name, line, .. } = variable;
     let mut findings = Vec::new();
     if let Some(ty) = &variable.declared_type {
@@ -204,17 +204,26 @@ fn type_and_unit(variable: &Variable, description: &Description, units: &HashSet
         let message = format!("`{name}` has the displayUnit `{shown}`, but no unit");
         findings.push(Finding::error(fmi::DISPLAY_UNIT, message).line(*line));
     }
-    if let Some(unit) = &variable.unit
-        && !units.contains(unit.as_str())
-    {
-        let message = format!("the unit `{unit}` of `{name}` is not declared in <UnitDefinitions>");
-        findings.push(
-            Finding::error(fmi::UNIT_DECLARED, message)
-                .line(*line)
-                .help("declare it with its <BaseUnit>, or a tool cannot convert it"),
-        );
-    }
     findings
+}
+
+/// Each unit is declared; what is not is said once, with the variables that have it.
+fn units(description: &Description) -> Vec<Finding> {
+    let declared: HashSet<&str> = description.units.iter().map(|unit| unit.symbol.as_str()).collect();
+    let mut others: BTreeMap<&str, Vec<&Variable>> = BTreeMap::new();
+    for variable in &description.variables {
+        if let Some(unit) = variable.unit.as_deref().filter(|unit| !declared.contains(unit)) {
+            others.entry(unit).or_default().push(variable);
+        }
+    }
+    let finding = |(unit, variables): (&str, Vec<&Variable>)| {
+        let all: Vec<&str> = variables.iter().map(|variable| variable.name.as_str()).collect();
+        let message = format!("the unit `{unit}` of {} is not declared in <UnitDefinitions>", names(&all));
+        Finding::error(fmi::UNIT_DECLARED, message)
+            .line(variables[0].line)
+            .help("declare it with its <BaseUnit>, or a tool cannot convert it")
+    };
+    others.into_iter().map(finding).collect()
 }
 
 /// The elements of an array stand one after another, those of the last index first.
