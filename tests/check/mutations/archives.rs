@@ -50,7 +50,7 @@ pub fn all() -> Vec<Case> {
             "descriptor",
             "archive.descriptor",
             patched(with(&[("resources/stored", Stored)]).bytes(), "resources/stored", |entry| {
-                entry[FLAGS] |= 8
+                entry[FLAGS] |= 8;
             }),
         ),
         (
