@@ -86,9 +86,9 @@ impl Bench<'_> {
             let mut response = Response {
                 component: None,
                 input: input.name.clone(),
-                by: (raised - start).abs(),
+                by: rounded((raised - start).abs()),
                 unit: input.unit.clone(),
-                duration: subject.step * HELD as f64,
+                duration: rounded(subject.step * HELD as f64),
                 rise: Vec::new(),
                 fall: Vec::new(),
                 rest: Vec::new(),
@@ -120,6 +120,11 @@ fn raised(input: &Variable) -> (f64, f64) {
     let by = MOVED * input.nominal.unwrap_or(if start == 0.0 { 1.0 } else { start }).abs();
     let high = (start + by).min(input.max.unwrap_or(f64::MAX));
     (start, if high > start { high } else { (start - by).max(input.min.unwrap_or(f64::MIN)) })
+}
+
+/// Without the last digits, which are those of differences and products.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
 }
 
 /// One output over a run.

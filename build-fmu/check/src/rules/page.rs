@@ -1,6 +1,5 @@
 //! The page of all rules, which the documentation has.
 
-use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use super::{Rule, TABLES, Table, Unchecked};
@@ -35,26 +34,31 @@ pub fn page() -> String {
     text
 }
 
+/// A table of rules, in the order of their sections where they have any.
 fn body(table: &Table) -> String {
-    let mut text = String::from("| section | rule | state |\n|---|---|---|\n");
-    let all = table.uncheckable.iter().chain(table.open).map(|it| it.section);
-    let sections: BTreeSet<Vec<u32>> =
-        table.checked.iter().map(|rule| rule.section).chain(all).map(numbers).collect();
-    for section in sections {
-        for Rule { name, section: of, sentence } in table.checked {
-            if numbers(of) == section {
-                let _ = writeln!(text, "| {} | {} | `{name}` |", short(of), cell(sentence));
-            }
-        }
-        for (state, list) in [("not checkable", table.uncheckable), ("open", table.open)] {
-            for Unchecked { section: of, sentence, why } in list {
-                if numbers(of) == section {
-                    let _ = writeln!(text, "| {} | {} | {state}: {} |", short(of), cell(sentence), cell(why));
-                }
-            }
+    // Each row with what it is sorted by.
+    let mut rows: Vec<(Vec<u32>, String)> = Vec::new();
+    let mut add = |section: &str, sentence: &str, state: &str| {
+        let place = if section.is_empty() { String::new() } else { format!(" {} |", short(section)) };
+        rows.push((numbers(section), format!("|{place} {} | {state} |\n", cell(sentence))));
+    };
+    for Rule { name, section, sentence } in table.checked {
+        add(section, sentence, &format!("`{name}`"));
+    }
+    for (state, list) in [("not checkable", table.uncheckable), ("open", table.open)] {
+        for Unchecked { section, sentence, why } in list {
+            add(section, sentence, &format!("{state}: {}", cell(why)));
         }
     }
-    text
+    // What stands at one section stays in its order.
+    rows.sort_by(|a, b| a.0.cmp(&b.0));
+    let sections = table.checked.iter().any(|rule| !rule.section.is_empty());
+    let head = if sections {
+        "| section | rule | state |\n|---|---|---|\n"
+    } else {
+        "| rule | state |\n|---|---|\n"
+    };
+    rows.into_iter().fold(head.to_owned(), |text, (_, row)| text + &row)
 }
 
 /// The numbers of a section, to sort by.
