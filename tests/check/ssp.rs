@@ -76,6 +76,14 @@ impl Ssp {
         self
     }
 
+    /// The system with one more text of a file changed.
+    pub fn also(self, name: &str, from: &str, to: &str) -> Self {
+        let (_, bytes) = self.0.iter().find(|(known, _)| known == name).unwrap();
+        let text = String::from_utf8(bytes.clone()).unwrap();
+        assert_eq!(text.matches(from).count(), 1, "{from}");
+        self.and(name, text.replace(from, to).as_bytes())
+    }
+
     /// The system with other contents of a file.
     pub fn and(mut self, name: &str, contents: &[u8]) -> Self {
         self.0.iter_mut().find(|(known, _)| known == name).unwrap().1 = contents.to_vec();

@@ -109,6 +109,15 @@ pub fn all() -> Vec<Case> {
         ("system.source", replaced(FMU, b"nothing")),
         ("system.version", changed("version=\"1.0\" name=\"faulty\"", "version=\"1.1\" name=\"faulty\"")),
         ("system.version", with(MAPPING, "version=\"1.0\">", "version=\"one\">")),
+        (
+            "system.twice.id",
+            changed("<ssd:Connector name=\"in\"", "<ssd:Connector id=\"a\" name=\"in\"").also(
+                DESCRIPTION,
+                "<ssd:Connector name=\"out\"",
+                "<ssd:Connector id=\"a\" name=\"out\"",
+            ),
+        ),
+        ("system.schema.value", changed("<ssd:Connector name=\"in\"", "<ssd:Connector id=\"1\" name=\"in\"")),
         ("system.twice.unit", changed(unit, &format!("{unit}{unit}"))),
         (
             "system.twice.enumeration",

@@ -69,7 +69,7 @@ impl Bench<'_> {
             findings.push(Finding::warning(fmi::LOG_TEXT, message).at(library));
         }
         let declared = &self.subject.description.categories;
-        let help = "masters build a string of it, and some crash; give one of the declared categories";
+        let help = "importers build a string of it, and some crash; give one of the declared categories";
         if log.null_category {
             let message = "the library logs messages whose category is null";
             // Without categories, the standard wants a null.

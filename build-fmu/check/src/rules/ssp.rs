@@ -14,6 +14,7 @@ checked {
     NAMES_ENCODING "system.archive.names" "3" "Names beyond ASCII are encoded in UTF-8, which a flag tells."
     PREFIX "system.archive.prefix" "3" "Beside descriptions there is nothing but resources/, extra/ and documentation/."
     DOCUMENTATION "system.archive.documentation" "3" "Documentation has an index.html."
+    ID_TWICE "system.twice.id" "4.1" "The id of an entity is unique in its file."
     ENUMERATION_TWICE "system.twice.enumeration" "4.4.1" "The name of an enumeration is unique in its file."
     ENUMERATION_DECLARED "system.enumeration" "4.5.1.5" "An enumeration that is referred to is declared in the file."
     UNIT_TWICE "system.twice.unit" "4.4.2" "The name of a unit is unique in its file."
@@ -55,7 +56,6 @@ uncheckable {
     "5.3.2" "The linear transformation is applied after units are converted." "it is the importer that transforms"
 }
 open {
-    "4.1" "The id of an entity is unique in its file." "no file with ids has been seen yet"
     "4.5.1.6" "A MIME type is a valid one." "no file with Binary connectors has been seen yet"
     "4.5.2.3" "Mapped values of an enumeration are values of its items." "it takes both ends' enumerations, which FMUs declare in ways of their own"
     "5.4" "Components that are systems themselves (SSD, SSP) are checked." "none of the tools that this project runs with takes them"

@@ -62,6 +62,8 @@ pub enum Type {
     Line,
     /// `xs:string` of one character at least.
     Named,
+    /// `xs:ID`: a name without a colon.
+    Id,
     /// `xs:anyURI`.
     Uri,
     /// `xs:double`.

@@ -1,6 +1,6 @@
 //! Descriptions, parameter sets, mappings and dictionaries of SSP 1.0 (its four schemas and what they share).
 
-use super::Type::{Boolean, DateTime, Double, Doubles, Hex, Int, Line, Named, OneOf, Text, Uri};
+use super::Type::{Boolean, DateTime, Double, Doubles, Hex, Id, Int, Line, Named, OneOf, Text, Uri};
 use super::{Attribute, Content, Element, Particle, any, maybe, one, optional, required, some};
 
 const COMMON: &str = "http://ssp-standard.org/SSP1/SystemStructureCommon";
@@ -23,7 +23,7 @@ const fn holder(name: &'static str, attributes: &'static [&'static [Attribute]])
 }
 
 /// Of every entity.
-const ENTITY: &[Attribute] = &[optional("id", Line), optional("description", Text)];
+const ENTITY: &[Attribute] = &[optional("id", Id), optional("description", Text)];
 /// Of every file's root.
 const ROOT: &[Attribute] = &[
     // That it is 1.0 is a rule of its own.

@@ -9,6 +9,7 @@ impl Type {
         let fine = match self {
             Self::Text | Self::Uri | Self::Line => true,
             Self::Named => !text.is_empty(),
+            Self::Id => name_without_colon(trimmed),
             Self::Double => double(trimmed).is_some(),
             Self::Int => integer(trimmed).is_some_and(|it| i32::try_from(it).is_ok()),
             Self::UnsignedInt => integer(trimmed).is_some_and(|it| u32::try_from(it).is_ok()),
@@ -27,6 +28,7 @@ impl Type {
         (!fine).then(|| match self {
             Self::Text | Self::Uri | Self::Line => unreachable!("any text is one"),
             Self::Named => "a text of one character at least".into(),
+            Self::Id => "a name: a letter or `_`, then letters, digits, `.`, `-` or `_`".into(),
             Self::Double => "a number".into(),
             Self::Int => "a whole number of 32 bits".into(),
             Self::UnsignedInt => "a whole number from 0 to 4294967295".into(),
@@ -57,6 +59,12 @@ fn double(text: &str) -> Option<f64> {
             text.bytes().all(plain).then(|| text.parse().ok())?
         }
     }
+}
+
+/// `xs:NCName`.
+fn name_without_colon(text: &str) -> bool {
+    let letter = |it: char| it.is_alphabetic() || it == '_';
+    text.starts_with(letter) && text.chars().all(|it| letter(it) || it.is_numeric() || ".-".contains(it))
 }
 
 /// An integer with or without a sign.
@@ -113,6 +121,7 @@ mod tests {
                 &["2026-11-26T08:00:00Z", "2026-11-26T08:00:00", "2026-11-26T08:00:00.25+01:00"],
                 &["2026-11-26", "2026-13-26T08:00:00Z", "Thu Nov 26", "2026-11-26T8:00:00Z"],
             ),
+            (Type::Id, &["a", "_1.b-c", "ä"], &["", "1a", "a:b", "a b"]),
             (Type::Hex, &["", "00ff"], &["0", "xy"]),
             (Type::UnsignedInts, &["", "1 2 3"], &["1,2", "a"]),
         ] {

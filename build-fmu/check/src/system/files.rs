@@ -70,6 +70,16 @@ fn alone(root: Node, schema: &Element, file: &str, lines: &Lines) -> Vec<Finding
     let mut own = Vec::new();
     let mut inner = Vec::new();
     collect(root, &mut own, &mut inner);
+    let entities: Vec<Node> =
+        own.iter().copied().filter(|it| it.tag_name().namespace() == schema.namespace).collect();
+    let ids = entities.iter().filter_map(|it| it.attribute("id"));
+    let with_id = entities.iter().filter(|it| it.attribute("id").is_some());
+    for (node, again) in with_id.zip(repeated(ids)) {
+        if again {
+            let id = node.attribute("id").unwrap_or_default();
+            wrong(ssp::ID_TWICE, *node, format!("two entities have the id `{id}`"));
+        }
+    }
     let list = |list: &'static str| -> Vec<Node> {
         let lists = root.children().filter(move |it| it.is_element() && it.tag_name().name() == list);
         lists.flat_map(|it| it.children().filter(Node::is_element)).collect()
