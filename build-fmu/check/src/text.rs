@@ -58,7 +58,12 @@ pub fn decoded(bytes: &[u8], standard: Standard, file: &str) -> (String, Vec<Fin
         _ => {}
     }
     if let Some(other) = head.and_then(|head| attribute(head, "version")).filter(|it| *it != "1.0") {
-        wrong(version, format!("{file} is XML {other}"), "few readers know another version than 1.0");
+        let message = format!("{file} is XML {other}");
+        let finding = match standard {
+            Standard::Fmi => Finding::warning(version, message),
+            Standard::Ssp => Finding::error(version, message),
+        };
+        findings.push(finding.at(file).help("few readers know another version than 1.0"));
     }
     if plain.len() < text.len() {
         let message = format!("{file} begins with a mark of the byte order");

@@ -161,7 +161,7 @@ fn start(variable: &Variable) -> Vec<Finding> {
     }
     if variable.nominal == Some(0.0) {
         let message = format!("`{name}` has the nominal value 0, by which solvers divide");
-        findings.push(Finding::error(practice::NOMINAL, message).line(*line));
+        findings.push(Finding::warning(practice::NOMINAL, message).line(*line));
     }
     findings
 }
