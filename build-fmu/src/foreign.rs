@@ -80,7 +80,7 @@ impl Package {
                 "the packager of `{}` cannot be built; cargo says why above",
                 self.described.name
             ))
-            .help("its lib.rs must end with `strut_fmi2::export_fmu!(YourModel);`, outside of any module")),
+            .help("its lib.rs must end with `strut_fmi::export_fmu!(YourModel);`, outside of any module")),
         }
     }
 

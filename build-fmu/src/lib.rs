@@ -26,7 +26,7 @@
 //! both a shared library and a Rust library (`crate-type = ["cdylib", "rlib"]`) and ends with
 //!
 //! ```ignore
-//! strut_fmi2::export_fmu!(MyModel);
+//! strut_fmi::export_fmu!(MyModel);
 //! ```
 //! which exports the functions of FMI and, for us, the constant `ENTRY` with the declarations.
 //! A packager for it, a few lines long, is generated under the target folder and run: a program

@@ -20,7 +20,6 @@ const CAPABILITIES: Capabilities =
 /// The whole document.
 pub fn document(interface: &Interface, header: &Header<'_>) -> Document {
     let about = interface.about;
-    let experiment = about.experiment;
     Document {
         fmi_version: "2.0",
         model_name: header.name.into(),
@@ -46,39 +45,45 @@ pub fn document(interface: &Interface, header: &Header<'_>) -> Document {
             output_derivatives: 1,
             common: CAPABILITIES,
         },
-        units: units(&interface.variables),
+        units: units(&interface.variables, &[]),
         types: types(&interface.variables),
         log_categories: LOG_CATEGORIES
             .iter()
             .map(|&(name, description)| Category { name, description })
             .collect(),
-        experiment: Experiment {
-            start: number(0.0),
-            stop: number(experiment.stop),
-            tolerance: number(experiment.tolerance),
-            step: number(experiment.step),
-        },
+        experiment: experiment(about.experiment),
         variables: interface.variables.iter().map(variable).collect(),
         structure: structure(interface),
     }
 }
 
+/// The experiment that tools propose.
+pub fn experiment(experiment: strut_model::Experiment) -> Experiment {
+    Experiment {
+        start: number(0.0),
+        stop: number(experiment.stop),
+        tolerance: number(experiment.tolerance),
+        step: number(experiment.step),
+    }
+}
+
 /// The shortest text that reads back as the same number.
-fn number(value: f64) -> String {
+pub fn number(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
 }
 
-/// The units that are used, sorted by name. `1` is declared like any other: a variable without a unit
+/// The units that are used, and others, sorted by name. `1` is declared like any other: a variable without a unit
 /// would be one whose unit nobody knows, and a unit that is used but not declared is refused by some
 /// importers.
-fn units(variables: &[Variable]) -> List<Unit> {
+pub fn units(variables: &[Variable], others: &[OwnedUnit]) -> List<Unit> {
     let mut used: Vec<&OwnedUnit> = variables
         .iter()
         .filter_map(|variable| match &variable.kind {
             VariableKind::Real { unit, .. } if !unit.symbol.is_empty() => Some(unit),
             _ => None,
         })
+        .chain(others)
         .collect();
     used.sort_by(|a, b| a.symbol.cmp(&b.symbol));
     used.dedup_by(|a, b| a.symbol == b.symbol);
@@ -103,8 +108,8 @@ fn units(variables: &[Variable]) -> List<Unit> {
         .collect()
 }
 
-/// The enumerations that are used, in order of appearance.
-fn types(variables: &[Variable]) -> List<SimpleType> {
+/// The enumerations that are used, in order of appearance, with their items.
+pub fn enumerations(variables: &[Variable]) -> Vec<(Enumeration, Vec<Item>)> {
     let mut used: Vec<Enumeration> = Vec::new();
     for variable in variables {
         if let VariableKind::Choice { enumeration, .. } = variable.kind
@@ -114,13 +119,21 @@ fn types(variables: &[Variable]) -> List<SimpleType> {
         }
     }
     used.into_iter()
-        .map(|Enumeration { name, doc, items }| SimpleType {
+        .map(|enumeration| {
+            let items = (1..).zip(enumeration.items);
+            let item = |(value, &(name, description))| Item { name, value, description };
+            (enumeration, items.map(item).collect())
+        })
+        .collect()
+}
+
+fn types(variables: &[Variable]) -> List<SimpleType> {
+    enumerations(variables)
+        .into_iter()
+        .map(|(Enumeration { name, doc, .. }, items)| SimpleType {
             name,
             description: doc,
-            items: (1..)
-                .zip(items)
-                .map(|(value, &(name, description))| Item { name, value, description })
-                .collect(),
+            items: List { items },
         })
         .collect()
 }

@@ -1,4 +1,4 @@
-//! Writes the `modelDescription.xml` of FMI 2.0 from what a model declares.
+//! Writes the `modelDescription.xml` of FMI 2.0 or FMI 3.0 from what a model declares.
 //!
 //! ```
 //! # use strut_model_description::Header;
@@ -13,6 +13,7 @@
 //! number, so that the same sources give the same archive.
 
 mod content;
+mod fmi3;
 mod schema;
 
 use strut_model::Interface;
@@ -53,14 +54,27 @@ impl Default for Header<'_> {
     }
 }
 
-/// The description of a model as an XML document.
+/// The description of a model as an XML document of FMI 2.0.
 pub fn write(interface: &Interface, header: &Header<'_>) -> String {
+    xml(&content::document(interface, header))
+}
+
+/// The description of a model as an XML document of FMI 3.0.
+pub fn write_fmi3(interface: &Interface, header: &Header<'_>) -> String {
+    xml(&fmi3::document(interface, header))
+}
+
+/// The `terminalsAndIcons.xml` of FMI 3.0.
+pub fn write_terminals(interface: &Interface) -> String {
+    xml(&fmi3::terminals(interface))
+}
+
+fn xml(document: &impl serde::Serialize) -> String {
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     let mut serializer = quick_xml::se::Serializer::new(&mut text);
     serializer.indent(' ', 2);
-    let document = content::document(interface, header);
     // Strings, numbers and lists in named structs: there is nothing that the serializer refuses.
-    serde::Serialize::serialize(&document, serializer).expect("the description is plain data");
+    document.serialize(serializer).expect("the description is plain data");
     text.push('\n');
     text
 }

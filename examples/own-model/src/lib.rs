@@ -34,4 +34,4 @@ impl Model for AirSpring {
     }
 }
 
-strut_fmi2::export_fmu!(AirSpring);
+strut_fmi::export_fmu!(AirSpring);

@@ -27,6 +27,8 @@ pub struct Declaration {
     pub output: bool,
     /// An additive constant at which the diagnosis looks for a missing signal.
     pub port: bool,
+    /// Position from zero in the array that it is an element of, and the array's length.
+    pub element: Option<(usize, usize)>,
 }
 
 /// Collects declarations and prefixes the names of groups.

@@ -32,7 +32,8 @@ pub use dependencies::Dependencies;
 pub use entry::{Entry, Instance, Trajectory};
 pub use error::Error;
 pub use interface::{
-    Causality, Dependency, Initial, Interface, Structure, Variability, Variable, VariableKind,
+    Causality, Dependency, Initial, Interface, Numbering, Structure, Table, Timely, Variability, Variable,
+    VariableKind,
 };
 pub use lanes::Lanes;
 pub use log::LOG_CATEGORIES;

@@ -63,15 +63,15 @@ fn directional_derivatives_reach_parameters_and_what_follows_from_them() {
     simulation
         .directional_derivative(
             &unknowns,
-            &[reference::<Oscillator>("spring.stiffness")],
-            &[2.0],
+            (&[reference::<Oscillator>("spring.stiffness")], &[2.0]),
+            0.0,
             &mut derivative,
         )
         .unwrap();
     // a = −k x / m, ω = √(k/m) at k = 4, m = 1, x = 1.
     assert_eq!(derivative, [-2.0, -2.0, 0.5, 0.0]);
-    let error =
-        simulation.directional_derivative(&unknowns, &unknowns[..1], &[1.0], &mut derivative).unwrap_err();
+    let knowns = (&unknowns[..1], &[1.0][..]);
+    let error = simulation.directional_derivative(&unknowns, knowns, 0.0, &mut derivative).unwrap_err();
     assert!(error.to_string().contains("`acceleration`"), "{error}");
 }
 

@@ -1,4 +1,7 @@
-//! Two small models: one with everything that a description can say, one with almost nothing.
+//! Small models: one with everything that a description of FMI 2.0 can say, one with almost nothing, one with what FMI 3.0 says
+//! more.
+
+#![allow(dead_code, reason = "each test uses its own part")]
 
 use strut_model::{About, Choice, Experiment, Model, Now, Real, Settings, Variables, bundles};
 
@@ -152,4 +155,70 @@ pub struct Held<R> {
     /// Held signal
     #[var(unit = M)]
     pub held: R,
+}
+
+/// Where it stands.
+#[derive(Variables, Clone, Copy, Debug)]
+pub struct Height<R> {
+    /// Height
+    #[var(unit = M)]
+    pub height: R,
+}
+
+/// What it stands on.
+#[derive(Variables, Clone, Copy, Debug)]
+pub struct Foot<R> {
+    /// Foot
+    pub foot: Height<R>,
+}
+
+/// A side of it.
+#[derive(Variables, Clone, Copy, Debug)]
+pub struct Side<R> {
+    /// Force
+    #[var(unit = N)]
+    pub force: R,
+}
+
+/// Its upper end.
+#[derive(Variables, Clone, Copy, Debug)]
+pub struct End<R> {
+    /// Height
+    #[var(unit = M)]
+    pub height: R,
+    /// Left
+    pub left: Side<R>,
+}
+
+/// What it shows.
+#[derive(Variables, Clone, Copy, Debug)]
+pub struct Top<R> {
+    /// Top
+    pub top: End<R>,
+}
+
+/// What it is made of.
+#[derive(Variables, Clone, Copy, Debug)]
+pub struct Points<R> {
+    /// Points
+    #[var(unit = M, start = [1.0, 2.5, 3.0], min = 0.0)]
+    pub points: [R; 3],
+}
+
+/// Sways: signals in groups, an array, and an output that depends on time itself.
+pub struct Mast;
+
+impl Model for Mast {
+    const ABOUT: About = About { name: "Mast", ..About::DEFAULT };
+    bundles! { parameters: Points, input: Foot, output: Top }
+
+    fn prepare(_: &strut_model::NoSettings, _: Option<&std::path::Path>) -> Result<Self, String> {
+        Ok(Self)
+    }
+
+    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (strut_model::Nothing, Top<R>) {
+        let ([a, b, c], foot) = (now.parameters.points, now.input.foot.height);
+        let left = Side { force: foot };
+        (strut_model::Nothing, Top { top: End { height: foot + a * b + c * now.time, left } })
+    }
 }

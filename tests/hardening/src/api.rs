@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use libloading::Library;
-use strut_fmi2::types::*;
+use strut_fmi::fmi2::types::*;
 
 macro_rules! api {
     ($($field:ident: $name:ident($($ty:ty),*) -> $result:ty;)*) => {

@@ -1,6 +1,6 @@
 //! The state machines of FMI 2.0.4: which calls each state allows (tables in sections 3.2.3 and 4.2.4).
 //!
-//! Written down state by state, from the standard, as the other reading of what `strut_fmi2::state_table`
+//! Written down state by state, from the standard, as the other reading of what `strut_fmi::fmi2::state_table`
 //! has function by function: a slip of either shows.
 
 /// What an instance is for.

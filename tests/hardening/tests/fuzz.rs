@@ -5,7 +5,7 @@ mod common;
 use std::process::Command;
 
 use common::package;
-use strut_fmi2::types::*;
+use strut_fmi::fmi2::types::*;
 use strut_hardening::api::{Api, load};
 use strut_hardening::generate::episode;
 use strut_hardening::package::Package;

@@ -1,3 +1,3 @@
 //! AngleSensorChain as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::sensors::AngleSensorChain);
+strut_fmi::export_fmu!(strut_physics::sensors::AngleSensorChain);

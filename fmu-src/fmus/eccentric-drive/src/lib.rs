@@ -1,3 +1,3 @@
 //! EccentricDrive as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::actuators::EccentricDrive);
+strut_fmi::export_fmu!(strut_physics::actuators::EccentricDrive);

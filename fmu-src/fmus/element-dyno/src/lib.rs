@@ -1,3 +1,3 @@
 //! ElementDyno as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::rigs::ElementDyno);
+strut_fmi::export_fmu!(strut_physics::rigs::ElementDyno);

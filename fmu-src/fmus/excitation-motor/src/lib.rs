@@ -1,3 +1,3 @@
 //! ExcitationMotor as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::actuators::ExcitationMotor);
+strut_fmi::export_fmu!(strut_physics::actuators::ExcitationMotor);

@@ -1,3 +1,3 @@
 //! ExcitationSpeedController as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::controllers::ExcitationSpeedController);
+strut_fmi::export_fmu!(strut_physics::controllers::ExcitationSpeedController);

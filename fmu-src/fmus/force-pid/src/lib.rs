@@ -1,3 +1,3 @@
 //! ForcePid as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::controllers::ForcePid);
+strut_fmi::export_fmu!(strut_physics::controllers::ForcePid);

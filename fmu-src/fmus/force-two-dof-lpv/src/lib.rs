@@ -1,3 +1,3 @@
 //! ForceTwoDofLpv as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::controllers::ForceTwoDofLpv);
+strut_fmi::export_fmu!(strut_physics::controllers::ForceTwoDofLpv);

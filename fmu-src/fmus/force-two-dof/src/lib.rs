@@ -1,3 +1,3 @@
 //! ForceTwoDof as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::controllers::ForceTwoDof);
+strut_fmi::export_fmu!(strut_physics::controllers::ForceTwoDof);

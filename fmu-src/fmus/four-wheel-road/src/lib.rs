@@ -1,3 +1,3 @@
 //! FourWheelRoad as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::roads::FourWheelRoad);
+strut_fmi::export_fmu!(strut_physics::roads::FourWheelRoad);

@@ -1,3 +1,3 @@
 //! FrequencySource as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::sources::FrequencySource);
+strut_fmi::export_fmu!(strut_physics::sources::FrequencySource);

@@ -1,3 +1,3 @@
 //! FullCar as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::rigs::FullCar);
+strut_fmi::export_fmu!(strut_physics::rigs::FullCar);

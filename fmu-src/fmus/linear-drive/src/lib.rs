@@ -1,3 +1,3 @@
 //! LinearDrive as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::rigs::LinearDrive);
+strut_fmi::export_fmu!(strut_physics::rigs::LinearDrive);

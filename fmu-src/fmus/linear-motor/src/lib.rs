@@ -1,3 +1,3 @@
 //! LinearMotor as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::actuators::LinearMotor);
+strut_fmi::export_fmu!(strut_physics::actuators::LinearMotor);

@@ -1,3 +1,3 @@
 //! LqrController as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::controllers::LqrController);
+strut_fmi::export_fmu!(strut_physics::controllers::LqrController);

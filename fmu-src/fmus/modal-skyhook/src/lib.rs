@@ -1,3 +1,3 @@
 //! ModalSkyhook as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::controllers::ModalSkyhook);
+strut_fmi::export_fmu!(strut_physics::controllers::ModalSkyhook);

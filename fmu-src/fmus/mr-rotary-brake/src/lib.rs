@@ -1,3 +1,3 @@
 //! MrRotaryBrake as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::actuators::MrRotaryBrake);
+strut_fmi::export_fmu!(strut_physics::actuators::MrRotaryBrake);

@@ -1,3 +1,3 @@
 //! PumpHydraulicActuatorLinear as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::actuators::PumpHydraulicActuatorLinear);
+strut_fmi::export_fmu!(strut_physics::actuators::PumpHydraulicActuatorLinear);

@@ -1,3 +1,3 @@
 //! PumpHydraulicActuator as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::actuators::PumpHydraulicActuator);
+strut_fmi::export_fmu!(strut_physics::actuators::PumpHydraulicActuator);

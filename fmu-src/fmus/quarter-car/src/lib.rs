@@ -1,3 +1,3 @@
 //! QuarterCar as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::rigs::QuarterCar);
+strut_fmi::export_fmu!(strut_physics::rigs::QuarterCar);

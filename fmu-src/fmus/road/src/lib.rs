@@ -1,3 +1,3 @@
 //! Road as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::roads::Road);
+strut_fmi::export_fmu!(strut_physics::roads::Road);

@@ -1,3 +1,3 @@
 //! SasRig as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::rigs::SasRig);
+strut_fmi::export_fmu!(strut_physics::rigs::SasRig);

@@ -1,3 +1,3 @@
 //! SensorChain as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::sensors::SensorChain);
+strut_fmi::export_fmu!(strut_physics::sensors::SensorChain);

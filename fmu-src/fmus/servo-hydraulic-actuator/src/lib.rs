@@ -1,3 +1,3 @@
 //! ServoHydraulicActuator as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::actuators::ServoHydraulicActuator);
+strut_fmi::export_fmu!(strut_physics::actuators::ServoHydraulicActuator);

@@ -1,3 +1,3 @@
 //! ServoSuspensionIdentified as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::rigs::ServoSuspensionIdentified);
+strut_fmi::export_fmu!(strut_physics::rigs::ServoSuspensionIdentified);

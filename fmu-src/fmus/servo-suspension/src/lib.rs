@@ -1,3 +1,3 @@
 //! ServoSuspension as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::rigs::ServoSuspension);
+strut_fmi::export_fmu!(strut_physics::rigs::ServoSuspension);

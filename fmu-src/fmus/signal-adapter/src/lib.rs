@@ -1,3 +1,3 @@
 //! SignalAdapter as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::sensors::SignalAdapter);
+strut_fmi::export_fmu!(strut_physics::sensors::SignalAdapter);

@@ -1,3 +1,3 @@
 //! Skyhook as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::controllers::Skyhook);
+strut_fmi::export_fmu!(strut_physics::controllers::Skyhook);

@@ -1,3 +1,3 @@
 //! VelocityEstimator as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::sensors::VelocityEstimator);
+strut_fmi::export_fmu!(strut_physics::sensors::VelocityEstimator);

@@ -1,3 +1,3 @@
 //! VoltageSource as an FMU.
 
-strut_fmi2::export_fmu!(strut_physics::sources::VoltageSource);
+strut_fmi::export_fmu!(strut_physics::sources::VoltageSource);

@@ -45,6 +45,7 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
             declare.push(quote!(declarations.variable(::strut_model::Declaration {
                 name: #text.into(), doc: #doc.into(), unit: #unit, start: #start,
                 min: #min, max: #max, nominal: #nominal, fixed: #fixed, output: #output, port: #port,
+                element: None,
             });));
         } else if let Some(length) = array_length(&field.ty, scalar) {
             let Var { unit, start, min, max, nominal, fixed, output, port } = parse(field, ident)?;
@@ -64,7 +65,7 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
                 declarations.variable(::strut_model::Declaration {
                     name: format!("{}[{}]", #text, index + 1), doc: format!("{}, {}", #doc, index + 1),
                     unit: #unit, start: #start, min: #min, max: #max, nominal: #nominal, fixed: #fixed,
-                    output: #output, port: #port,
+                    output: #output, port: #port, element: Some((index, #length)),
                 });
             }));
         } else {

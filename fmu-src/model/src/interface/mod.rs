@@ -1,16 +1,18 @@
 //! What a model looks like from outside: its variables and what depends on what.
 
+mod numbering;
 mod structure;
 
-pub use structure::{Dependency, Structure};
+pub use numbering::{Numbering, Table};
+pub use structure::{Dependency, Structure, Timely};
 
 use std::path::Path;
 
 use uuid::Uuid;
 
 use crate::{
-    About, Declaration, Enumeration, Error, Model, ParameterSet, SettingDeclaration, SettingKind, Settings,
-    Value,
+    About, Bundle, Declaration, Enumeration, Error, Model, ParameterSet, SettingDeclaration, SettingKind,
+    Settings, Value,
     layout::{Layout, Section, SolverMethod, rate_name},
     parameter_set::Starts,
     setting::Setting,
@@ -26,10 +28,16 @@ pub struct Interface {
     pub variables: Vec<Variable>,
     /// What depends on what, by position in `variables`.
     pub structure: Structure,
+    /// What depends on time itself.
+    pub timely: Timely,
     /// Number of continuous states.
     pub states: usize,
     /// Number of event indicators.
     pub event_indicators: usize,
+    /// The variables that are elements of arrays.
+    pub tables: Vec<Table>,
+    /// Whether a part of it is sampled.
+    pub sampled: bool,
 }
 
 /// A scalar variable.
@@ -178,10 +186,11 @@ impl Interface {
             let _ = settings.set(index, value.clone());
         }
         let dependency = Dependency::of::<M>(&settings, resources)?;
-        let mut variables = Vec::new();
+        let (mut variables, mut tables) = (Vec::new(), Vec::new());
         for (section, _) in Layout::<M>::SECTIONS {
             let list = Layout::<M>::declarations(section);
             let first = Layout::<M>::first(section);
+            tables.extend(numbering::tables(section, first, &list));
             variables.extend(list.into_iter().enumerate().map(|(index, declaration)| {
                 let reference = (first + index) as u32;
                 let start = starts.reals.get(&reference).copied();
@@ -209,7 +218,10 @@ impl Interface {
         }
         let structure = Structure::new::<M>(&dependency, &variables);
         let event_indicators = dependency.event_indicators;
-        Ok(Self { about: M::ABOUT, variables, structure, states: Layout::<M>::STATES, event_indicators })
+        let (about, states) = (M::ABOUT, Layout::<M>::STATES);
+        let sampled = <M::Memory<f64> as Bundle<f64>>::LEN > 0;
+        let timely = Timely::new::<M>(&dependency);
+        Ok(Self { about, variables, structure, timely, states, event_indicators, tables, sampled })
     }
 
     /// An identifier of all that is declared, start values included: the library computes it from the

@@ -143,6 +143,34 @@ pub struct Structure {
     pub initial_unknowns: Vec<(usize, Vec<usize>)>,
 }
 
+/// What depends on time itself, by position in the list of variables. FMI 3.0 asks for it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Timely {
+    /// Of the outputs and state derivatives.
+    pub running: Vec<usize>,
+    /// Of what is calculated at initialisation.
+    pub initial: Vec<usize>,
+}
+
+impl Timely {
+    pub(super) fn new<M: Model>(dependency: &Dependency) -> Self {
+        let of = |sections: [(Section, &[Dependencies]); 2]| -> Vec<usize> {
+            let time = dependency.knowns.time();
+            let sections = sections.into_iter();
+            let found = sections.flat_map(|(section, sets)| {
+                let first = Layout::<M>::first(section);
+                sets.iter().enumerate().filter(|(_, set)| set.contains(time)).map(move |(i, _)| first + i)
+            });
+            found.collect()
+        };
+        let rates = (Section::Rate, &dependency.rates[..]);
+        Self {
+            running: of([(Section::Output, &dependency.outputs), rates]),
+            initial: of([(Section::Output, &dependency.initial_outputs), rates]),
+        }
+    }
+}
+
 impl Structure {
     pub(super) fn new<M: Model>(dependency: &Dependency, variables: &[Variable]) -> Self {
         let Dependency { knowns, .. } = *dependency;

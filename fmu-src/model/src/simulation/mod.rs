@@ -375,10 +375,30 @@ impl<M: Model> Simulation<M> {
     pub fn event(&mut self) -> Result<Option<f64>, Error> {
         self.refresh()?;
         let Some(period) = self.period else { return Ok(None) };
-        if self.tick_time(period) <= self.time + 1e-6 * period {
+        if self.is_due(period) {
             self.tick();
         }
         Ok(Some(self.tick_time(period)))
+    }
+
+    fn is_due(&self, period: f64) -> bool {
+        self.tick_time(period) <= self.time + 1e-6 * period
+    }
+
+    /// Whether a tick is due now.
+    pub fn is_tick_due(&self) -> bool {
+        self.period.is_some_and(|period| self.is_due(period))
+    }
+
+    /// When the first tick after now is due, if a step to `end` would go past it.
+    ///
+    /// # Errors
+    /// If a changed parameter is refused.
+    pub fn tick_before(&mut self, end: f64) -> Result<Option<f64>, Error> {
+        self.refresh()?;
+        let Some(period) = self.period else { return Ok(None) };
+        let next = self.tick_time(period) + if self.is_due(period) { period } else { 0.0 };
+        Ok((next < end - 1e-6 * period).then_some(next))
     }
 }
 

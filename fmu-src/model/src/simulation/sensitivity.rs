@@ -19,15 +19,15 @@ struct Seeds<M: Model> {
 
 impl<M: Model> Simulation<M> {
     /// The change of `unknowns` (outputs, state derivatives, calculated parameters) when `knowns`
-    /// (inputs, states, parameters) change by `seed`: the Jacobian times the seed, exactly.
+    /// (inputs, states, parameters) change by `seed` and time by `time`: the Jacobian times the seed, exactly.
     ///
     /// # Errors
     /// If a variable is not one of those, or the lengths differ.
     pub fn directional_derivative(
         &mut self,
         unknowns: &[u32],
-        knowns: &[u32],
-        seed: &[f64],
+        (knowns, seed): (&[u32], &[f64]),
+        time: f64,
         derivative: &mut [f64],
     ) -> Result<(), Error> {
         self.refresh()?;
@@ -46,7 +46,7 @@ impl<M: Model> Simulation<M> {
                 }
             }
         }
-        let (rates, output, derived) = self.varied(&seeds, 0.0);
+        let (rates, output, derived) = self.varied(&seeds, time);
         for (reference, value) in unknowns.iter().zip(derivative) {
             let (section, index) = Layout::<M>::locate(*reference)?;
             *value = match section {

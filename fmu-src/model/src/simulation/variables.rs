@@ -17,8 +17,17 @@ pub enum Access {
     Continuous,
     /// Inputs and tunable parameters: between steps and at events.
     Tunable,
+    /// Inputs, tunable parameters and continuous states: at events of an outside integrator (FMI 3.0).
+    Event,
     /// Inputs, parameters and start values: until initialisation ends.
     All,
+}
+
+impl Access {
+    /// Whether an outside integrator is at work.
+    fn is_integrators(self) -> bool {
+        matches!(self, Self::Continuous | Self::Event)
+    }
 }
 
 impl<M: Model> Simulation<M> {
@@ -81,7 +90,7 @@ impl<M: Model> Simulation<M> {
                     }
                 }
                 // As `set_states`: what a solver tries may be out of bounds.
-                (Section::State, index) if access == Access::Continuous && value.is_finite() => {
+                (Section::State, index) if access.is_integrators() && value.is_finite() => {
                     self.state.as_mut_slice()[index] = *value;
                     self.changed();
                 }
@@ -108,7 +117,7 @@ impl<M: Model> Simulation<M> {
             Section::Output => return refused("it is an output"),
             Section::Rate => return refused("it is the derivative of a state"),
             Section::Derived => return refused("it is calculated from parameters"),
-            Section::State if access == Access::Continuous => {
+            Section::State if access.is_integrators() => {
                 return Err(Error::NotFinite { name: declaration.name.clone(), value });
             }
             Section::State if access < Access::All => {

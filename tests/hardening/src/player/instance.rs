@@ -1,10 +1,10 @@
 //! An instance, what is known of it, and what it says.
 
 use std::collections::HashMap;
-use std::ffi::{CStr, c_char, c_void};
+use std::ffi::{CStr, c_void};
 use std::ptr;
 
-use strut_fmi2::types::*;
+use strut_fmi::fmi2::types::*;
 
 use crate::api::Api;
 use crate::call::Fault;
@@ -230,8 +230,7 @@ impl Instance {
         unsafe {
             let told = (api.serialized_fmu_state_size)(self.component, state, &raw mut size);
             let mut bytes = vec![0_u8; size];
-            let written =
-                (api.serialize_fmu_state)(self.component, state, bytes.as_mut_ptr().cast::<c_char>(), size);
+            let written = (api.serialize_fmu_state)(self.component, state, bytes.as_mut_ptr().cast(), size);
             if (told, written) == (Status::Ok, Status::Ok) {
                 return Ok(bytes);
             }
@@ -246,7 +245,7 @@ impl Instance {
         let (read, set, freed) = unsafe {
             let read = (api.de_serialize_fmu_state)(
                 self.component,
-                bytes.as_ptr().cast::<c_char>(),
+                bytes.as_ptr().cast(),
                 bytes.len(),
                 &raw mut state,
             );

@@ -1,9 +1,9 @@
 //! From a call as a value to a call in C.
 
-use std::ffi::{CStr, CString, c_char};
+use std::ffi::{CStr, CString};
 use std::ptr;
 
-use strut_fmi2::types::*;
+use strut_fmi::fmi2::types::*;
 
 use super::{Blob, Player};
 use crate::call::{Action, Damage, Null, STATES};
@@ -249,8 +249,7 @@ impl Player<'_> {
         unsafe {
             (self.api.serialized_fmu_state_size)(c, self.states[state], &raw mut size);
             let mut bytes = vec![0_u8; size.saturating_add_signed(excess)];
-            let target =
-                if null == Null::None { bytes.as_mut_ptr().cast::<c_char>() } else { ptr::null_mut() };
+            let target = if null == Null::None { bytes.as_mut_ptr().cast() } else { ptr::null_mut() };
             let status = (self.api.serialize_fmu_state)(c, self.states[state], target, bytes.len());
             if status == Status::Ok {
                 self.blobs[blob] = Blob { bytes, known: None };
@@ -268,7 +267,7 @@ impl Player<'_> {
         null: Null,
     ) -> Status {
         let bytes = damaged(&self.blobs[blob].bytes, damage);
-        let source = if null == Null::First { ptr::null() } else { bytes.as_ptr().cast::<c_char>() };
+        let source = if null == Null::First { ptr::null() } else { bytes.as_ptr().cast() };
         let target = if null == Null::Last { ptr::null_mut() } else { &raw mut self.states[state] };
         // SAFETY: the component is null or an instance, the array is as long as is said; the state is looked
         // up.

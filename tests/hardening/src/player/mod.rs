@@ -6,7 +6,7 @@ mod invoke;
 
 use std::ptr;
 
-use strut_fmi2::types::{FALSE, FmuState, Status, TRUE};
+use strut_fmi::fmi2::types::{FALSE, FmuState, Status, TRUE};
 
 use crate::api::Api;
 use crate::call::{Action, BLOBS, Call, Damage, Fault, INSTANCES, STATES};

@@ -5,7 +5,7 @@
 use std::ffi::c_void;
 use std::ptr;
 
-use strut_fmi2::types::*;
+use strut_fmi::fmi2::types::*;
 use strut_hardening::api::Api;
 use strut_hardening::package::{Kind, Package};
 
