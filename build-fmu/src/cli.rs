@@ -6,6 +6,8 @@ use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::version::Version;
+
 const EXAMPLES: &str = "\
 Examples:
   build-fmu                                     every FMU and system into fmus/
@@ -16,6 +18,8 @@ Examples:
   build-fmu --parameters my-rig.toml            a model with your own parameter set
   build-fmu --system my-system.toml             your own composition, as an SSP
   build-fmu --manifest-path my-model/Cargo.toml your own model
+  build-fmu --fmi 3                             for FMI 3.0
+  build-fmu --fmi 2 --fmi 3                     for both: FMI 3.0 in the folder fmi3 of the output
   build-fmu --target x86_64-unknown-linux-gnu.2.17
                                                 for any Linux since 2012, by cargo-zigbuild
   build-fmu --target x86_64-unknown-linux-gnu.2.17 --target x86_64-pc-windows-gnu
@@ -65,7 +69,7 @@ Names of FMUs and systems are completed in bash and zsh; they are those of today
 ones.
 It completes `build-fmu`, which `cargo install --path build-fmu` puts into the path.";
 
-/// Packs models as FMUs (FMI 2.0) and systems as SSPs (SSP 1.0)
+/// Packs models as FMUs (FMI 2.0, FMI 3.0) and systems as SSPs (SSP 1.0)
 #[derive(Parser, Debug)]
 #[command(name = "build-fmu", bin_name = "build-fmu", version, after_help = EXAMPLES)]
 #[command(args_conflicts_with_subcommands = true)]
@@ -222,6 +226,10 @@ pub struct Arguments {
     /// Folder to write to; made if it is missing
     #[arg(long, value_name = "DIR", default_value = "fmus")]
     pub out: PathBuf,
+
+    /// Version of FMI, several times for several [default: 2]
+    #[arg(long = "fmi", value_name = "VERSION")]
+    pub versions: Vec<Version>,
 
     /// Rust target to build for, several times for FMUs with several platforms [default: this machine]
     #[arg(long = "target", value_name = "TRIPLE")]

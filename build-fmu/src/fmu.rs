@@ -1,6 +1,5 @@
 //! An FMU: a model, perhaps with a parameter set, and its archive.
 
-use std::iter;
 use std::path::PathBuf;
 
 use strut_model::{Causality, Entry, Error, Interface, ParameterSet};
@@ -9,7 +8,7 @@ use strut_model_description::Header;
 use crate::archive::Archive;
 use crate::documentation::{self, Page};
 use crate::failure::{Failure, Result};
-use crate::{icon, platform::Platform};
+use crate::{platform::Platform, version::Version};
 
 /// A published parameter set with where it comes from.
 #[derive(Clone, Debug)]
@@ -63,14 +62,13 @@ impl Fmu {
         (count(Causality::Input), count(Causality::Output))
     }
 
-    /// The archive, with a library for each platform.
+    /// The archive for a version of the standard, with a library for each platform.
     ///
     /// # Errors
     /// If the parameter set does not fit the model, a file of it is missing, or the default experiment
     /// fails.
-    pub fn pack(&self, libraries: &[(Platform, Vec<u8>)], license: &str) -> Result<Packed> {
+    pub fn pack(&self, version: Version, libraries: &[(Platform, Vec<u8>)], license: &str) -> Result<Packed> {
         let interface = self.interface()?;
-        let about = self.entry.about;
         let trajectory =
             self.entry.demonstrate(self.parsed(), self.folder()).map_err(|error| self.refused(&error))?;
         let generated = generation_time();
@@ -82,11 +80,9 @@ impl Fmu {
             ..Header::default()
         };
         let mut archive = Archive::default();
-        archive.add("modelDescription.xml", strut_model_description::write(&interface, &header));
-        archive.add("model.png", icon::png(about.kind));
+        version.describe(&mut archive, &interface, &header);
         for (platform, library) in libraries {
-            let free = |folder: &&String| libraries.iter().all(|(other, _)| other.folder != **folder);
-            for folder in iter::once(&platform.folder).chain(platform.known_as.as_ref().filter(free)) {
+            for folder in version.binaries(platform, libraries) {
                 let file = format!("binaries/{folder}/{}{}", self.name, platform.ending);
                 archive.add_library(file, library.as_slice());
             }
@@ -94,7 +90,7 @@ impl Fmu {
         let page = Page { fmu: self, interface: &interface, trajectory: &trajectory };
         archive.add("documentation/index.html", documentation::html(&page));
         if !license.is_empty() {
-            archive.add("documentation/licenses/LICENSE.txt", license);
+            archive.add(version.license(), license);
         }
         if let Some(set) = &self.set {
             archive.add("resources/parameters.toml", set.text.as_str());
@@ -178,8 +174,8 @@ mod tests {
             ["x86_64-unknown-linux-gnu", "x86_64-pc-windows-gnu"].map(|triple| Platform::of(triple).unwrap());
         let libraries = platforms.map(|platform| (platform, b"library".to_vec()));
         let fmu = recorded_road(&["profile.csv"]);
-        let packed = fmu.pack(&libraries, "MIT License\n\n...").unwrap();
-        assert_eq!(packed.bytes, fmu.pack(&libraries, "MIT License\n\n...").unwrap().bytes);
+        let packed = fmu.pack(Version::Two, &libraries, "MIT License\n\n...").unwrap();
+        assert_eq!(packed.bytes, fmu.pack(Version::Two, &libraries, "MIT License\n\n...").unwrap().bytes);
         let mut zip = zip::ZipArchive::new(std::io::Cursor::new(packed.bytes)).unwrap();
         let names: Vec<String> = zip.file_names().map(|name| name.unwrap().into_owned()).collect();
         assert_eq!(
@@ -202,11 +198,40 @@ mod tests {
     }
 
     #[test]
+    fn an_archive_of_fmi_3_has_everything_in_its_place() {
+        let platforms = ["i686-unknown-linux-gnu", "aarch64-unknown-linux-gnu", "x86_64-pc-windows-gnu"];
+        let platforms = platforms.map(|triple| Platform::of(triple).unwrap());
+        let libraries = platforms.map(|platform| (platform, b"library".to_vec()));
+        let packed = recorded_road(&["profile.csv"]).pack(Version::Three, &libraries, "MIT License").unwrap();
+        let mut zip = zip::ZipArchive::new(std::io::Cursor::new(packed.bytes)).unwrap();
+        let names: Vec<String> = zip.file_names().map(|name| name.unwrap().into_owned()).collect();
+        assert_eq!(
+            names,
+            [
+                "modelDescription.xml",
+                "terminalsAndIcons/terminalsAndIcons.xml",
+                "terminalsAndIcons/icon.png",
+                "binaries/x86-linux/RecordedRoad.so",
+                "binaries/aarch64-linux/RecordedRoad.so",
+                "binaries/x86_64-windows/RecordedRoad.dll",
+                "documentation/index.html",
+                "documentation/licenses/license.txt",
+                "resources/parameters.toml",
+                "resources/profile.csv",
+            ]
+        );
+        let mut xml = String::new();
+        std::io::Read::read_to_string(&mut zip.by_name("modelDescription.xml").unwrap(), &mut xml).unwrap();
+        let token = format!("instantiationToken=\"{}\"", packed.interface.guid());
+        assert!(xml.contains("fmiVersion=\"3.0\"") && xml.contains(&token));
+    }
+
+    #[test]
     fn a_library_for_another_processor_takes_the_folder_of_intels_if_that_is_free() {
         let names = |triples: &[&str]| {
             let platform = |triple: &&str| (Platform::of(triple).unwrap(), triple.as_bytes().to_vec());
             let libraries: Vec<_> = triples.iter().map(platform).collect();
-            let packed = recorded_road(&["profile.csv"]).pack(&libraries, "").unwrap();
+            let packed = recorded_road(&["profile.csv"]).pack(Version::Two, &libraries, "").unwrap();
             let zip = zip::ZipArchive::new(std::io::Cursor::new(packed.bytes)).unwrap();
             let mut names: Vec<String> = zip.file_names().map(|name| name.unwrap().into_owned()).collect();
             names.retain(|name| name.starts_with("binaries/"));
@@ -222,10 +247,10 @@ mod tests {
     #[test]
     fn files_stay_within_the_archive() {
         for file in ["../../../LICENSE", "/etc/hostname", "a//b", "parameters.toml", "c\\..\\d"] {
-            let error = recorded_road(&[file]).pack(&[], "").unwrap_err().to_string();
+            let error = recorded_road(&[file]).pack(Version::Two, &[], "").unwrap_err().to_string();
             assert!(error.contains("cannot bring the file"), "{error}");
         }
-        let error = recorded_road(&["missing.csv"]).pack(&[], "").unwrap_err().to_string();
+        let error = recorded_road(&["missing.csv"]).pack(Version::Two, &[], "").unwrap_err().to_string();
         assert!(error.contains("RecordedRoad needs") && error.contains("missing.csv"), "{error}");
     }
 

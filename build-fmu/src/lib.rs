@@ -55,6 +55,7 @@ mod style;
 mod system;
 mod table;
 mod toolchain;
+mod version;
 
 #[cfg(feature = "strut")]
 use std::path::Path;
@@ -117,6 +118,7 @@ pub fn pack(project: &Project, parameters: &Path, out: &Path) -> Result<(), Stri
     let arguments = cli::Arguments {
         names: Vec::new(),
         out: out.into(),
+        versions: Vec::new(),
         targets: Vec::new(),
         cross: None,
         parameters: vec![parameters.into()],

@@ -55,6 +55,22 @@ impl Platform {
     }
 }
 
+impl Platform {
+    /// The platform tuple of FMI 3.0 (section 2.5.1.4.1).
+    pub fn tuple(&self) -> String {
+        let arch = match self.triple.split('-').next().unwrap_or_default() {
+            "i586" | "i686" => "x86",
+            other => other,
+        };
+        let system = match self.ending {
+            ".dll" => "windows",
+            ".dylib" => "darwin",
+            _ => "linux",
+        };
+        format!("{arch}-{system}")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -73,6 +89,19 @@ mod tests {
         ] {
             let platform = Platform::of(triple).unwrap();
             assert_eq!((platform.folder.as_str(), platform.ending), (folder, ending), "{triple}");
+        }
+    }
+
+    #[test]
+    fn tuples_are_those_of_the_standard() {
+        for (triple, tuple) in [
+            ("x86_64-unknown-linux-gnu.2.17", "x86_64-linux"),
+            ("i686-pc-windows-msvc", "x86-windows"),
+            ("x86_64-pc-windows-gnu", "x86_64-windows"),
+            ("aarch64-apple-darwin", "aarch64-darwin"),
+            ("aarch64-unknown-linux-gnu", "aarch64-linux"),
+        ] {
+            assert_eq!(Platform::of(triple).unwrap().tuple(), tuple);
         }
     }
 

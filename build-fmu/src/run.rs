@@ -18,6 +18,7 @@ use crate::plan::{Component, Plan};
 use crate::platform::Platform;
 use crate::system::{self, Face, System};
 use crate::toolchain::{self, Toolchain};
+use crate::version::{Version, without_systems};
 use crate::{Project, Source, describe, foreign, list, table};
 #[cfg(feature = "tools")]
 use crate::{check, completions};
@@ -107,6 +108,11 @@ pub struct Told {
 pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
     let (metadata, mut plan) = plan(project, arguments)?;
     let platforms = platforms(arguments)?;
+    let versions = Version::wanted(&arguments.versions);
+    let mut notes = Vec::new();
+    if !versions.contains(&Version::Two) {
+        notes.extend(without_systems(&mut plan, &arguments.names)?);
+    }
     // Mistakes in systems come to light before minutes of compiling.
     let mut needed = plan.wanted.clone();
     let (assemblies, failures) = assemble(project, &mut plan, &platforms);
@@ -121,6 +127,9 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
     needed.sort_unstable();
     needed.dedup();
     let folder = Folder::open(&arguments.out)?;
+    let paths: Vec<PathBuf> =
+        versions.iter().map(|version| version.folder(&arguments.out, &versions)).collect();
+    let folders = paths.iter().map(|path| Folder::open(path)).collect::<Result<Vec<_>>>()?;
     let package = |fmu: &Fmu| match project.source {
         Source::Workspace { .. } => cargo::package_of(fmu.entry.about.name),
         Source::Package { name, .. } => name.to_owned(),
@@ -129,7 +138,6 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
     packages.sort();
     packages.dedup();
     let mut built: Vec<(Platform, Libraries)> = Vec::new();
-    let mut notes = Vec::new();
     for (platform, toolchain) in platforms {
         let libraries = cargo::build(&metadata, &packages, &toolchain)?;
         if !libraries.is_empty() {
@@ -147,13 +155,17 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
             .iter()
             .map(|(platform, libraries)| Ok((platform.clone(), library(&libraries[&package(fmu)])?)))
             .collect::<Result<Vec<_>>>()?;
-        let result = fmu.pack(&libraries, project.license)?;
-        if plan.wanted.contains(&index) {
-            let file = format!("{}.fmu", fmu.name);
-            folder.write(&file, &result.bytes)?;
-            rows.push(row(fmu, &result, &arguments.out.join(file)));
+        for ((version, path), folder) in versions.iter().zip(&paths).zip(&folders) {
+            let result = fmu.pack(*version, &libraries, project.license)?;
+            if plan.wanted.contains(&index) {
+                let file = format!("{}.fmu", fmu.name);
+                folder.write(&file, &result.bytes)?;
+                rows.push(row(fmu, &result, &path.join(file)));
+            }
+            if *version == Version::Two {
+                packed.insert(index, result);
+            }
         }
-        packed.insert(index, result);
         progress.inc(1);
     }
     for assembly in &assemblies {
