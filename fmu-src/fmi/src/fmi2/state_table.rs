@@ -8,8 +8,8 @@
 
 use crate::interface::state::{Function, Kind, Phase, State, StateSet, Version, bit, table};
 
-/// FMI 2.0.
-pub static FMI_2: Version = Version {
+/// FMI 2.0. A constant, so that its mark is one in the code of every call.
+pub const FMI_2: Version = Version {
     mark: u64::from_le_bytes(*b"StrutFMI"),
     prefix: "fmi2",
     set_up: "fmi2SetupExperiment",

@@ -18,13 +18,12 @@ pub enum Number {
 }
 
 impl<M: Model> Instance<M> {
-    /// Whether each of the references is that of a single real variable, and each has one value. That is so in nearly every
-    /// call.
+    /// Whether each of the references is one of the single real variables before the first array, and has one value. That
+    /// is so in nearly every call: inputs, outputs and states come first.
     #[inline]
-    pub fn are_scalars(&self, references: &[ValueReference], values: usize) -> bool {
-        let lengths = &self.origin.numbering.lengths;
-        let single = |reference: &u32| lengths.get(*reference as usize) == Some(&1);
-        references.len() == values && references.iter().all(single)
+    pub fn are_singles(&self, references: &[ValueReference], values: usize) -> bool {
+        let singles = self.origin.numbering.singles;
+        references.len() == values && references.iter().all(|reference| *reference < singles)
     }
 
     /// What a reference stands for.

@@ -8,8 +8,8 @@
 
 use crate::interface::state::{Function, Kind, Phase, State, StateSet, Version, bit, table};
 
-/// FMI 3.0.
-pub static FMI_3: Version = Version {
+/// FMI 3.0. A constant, so that its mark is one in the code of every call.
+pub const FMI_3: Version = Version {
     mark: u64::from_le_bytes(*b"StrutFM3"),
     prefix: "fmi3",
     set_up: "fmi3EnterInitializationMode",

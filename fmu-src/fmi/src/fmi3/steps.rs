@@ -8,6 +8,7 @@ use super::{
 };
 use crate::interface::{
     instance::{Instance, call},
+    log::Failure,
     pointer::one,
     state::Phase,
     steps,
@@ -55,17 +56,32 @@ pub unsafe fn do_step<M: Model>(
                 one(reached, "lastSuccessfulTime")?,
             )
         };
-        let tick = if instance.handles.events && instance.handles.early_return {
-            instance.simulation.tick_before(point + size)?
+        let (event, early) = if instance.handles.events {
+            step_among_events(instance, point, size)?
         } else {
-            None
+            steps::do_step(instance, &FMI_3, point, size)?;
+            (false, false)
         };
-        steps::do_step(instance, &FMI_3, point, tick.map_or(size, |tick| tick - point))?;
-        *event_needed = Boolean::from(instance.handles.events && instance.simulation.is_tick_due());
-        (*terminate, *early_return) = (FALSE, Boolean::from(tick.is_some()));
+        (*event_needed, *terminate, *early_return) = (Boolean::from(event), FALSE, Boolean::from(early));
         *reached = instance.simulation.time();
         Ok(())
     };
     // SAFETY: by the caller.
     unsafe { call(component, &table::DO_STEP, body) }
+}
+
+/// Makes a step for a host that handles events; tells whether an event is due then, and whether the step ended early.
+#[inline(never)]
+fn step_among_events<M: Model>(
+    instance: &mut Instance<M>,
+    point: Real,
+    size: Real,
+) -> Result<(bool, bool), Failure> {
+    let end = point + size;
+    steps::check_end(instance, &FMI_3, point, size)?;
+    // A step that is refused is refused as a whole.
+    let early = instance.handles.early_return && end.is_finite();
+    let tick = if early { instance.simulation.tick_before(end)?.filter(|tick| *tick > point) } else { None };
+    steps::do_step(instance, &FMI_3, point, tick.map_or(size, |tick| tick - point))?;
+    Ok((instance.simulation.is_tick_due(), tick.is_some()))
 }

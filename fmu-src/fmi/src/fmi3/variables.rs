@@ -31,7 +31,7 @@ pub unsafe fn get_float64<M: Model>(
         // SAFETY: by the caller.
         let (references, values) =
             unsafe { (slice(references, n, "valueReferences")?, slice_mut(values, n_values, "values")?) };
-        if instance.are_scalars(references, n_values) {
+        if instance.are_singles(references, n_values) {
             return read(instance, references, values);
         }
         read_arrays(instance, references, values)
@@ -41,6 +41,7 @@ pub unsafe fn get_float64<M: Model>(
 }
 
 /// Reads arrays, event indicators and time as well.
+#[inline(never)]
 fn read_arrays<M: Model>(
     instance: &mut Instance<M>,
     references: &[ValueReference],
@@ -92,15 +93,24 @@ pub unsafe fn set_float64<M: Model>(
         // SAFETY: by the caller.
         let (references, values) =
             unsafe { (slice(references, n, "valueReferences")?, slice(values, n_values, "values")?) };
-        let access = instance.access();
-        if instance.are_scalars(references, n_values) {
-            return Ok(instance.simulation.set_real(references, values, access)?);
+        if instance.are_singles(references, n_values) {
+            return Ok(instance.simulation.set_real(references, values, instance.access())?);
         }
-        let references = instance.reals(references, n_values)?;
-        Ok(instance.simulation.set_real(&references, values, access)?)
+        set_arrays(instance, references, values)
     };
     // SAFETY: by the caller.
     unsafe { call(component, &table::SET_FLOAT64, body) }
+}
+
+/// Sets arrays as well.
+#[inline(never)]
+fn set_arrays<M: Model>(
+    instance: &mut Instance<M>,
+    references: &[ValueReference],
+    values: &[Real],
+) -> Result<(), Failure> {
+    let references = instance.reals(references, values.len())?;
+    Ok(instance.simulation.set_real(&references, values, instance.access())?)
 }
 
 /// What tells a type of settings from the others.

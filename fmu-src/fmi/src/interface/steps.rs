@@ -10,9 +10,21 @@ use super::{
 };
 
 /// Makes a step. One that cannot be integrated is discarded: everything is as before it.
-#[inline]
+#[inline(always)]
 pub fn do_step<M: Model>(
     instance: &mut Instance<M>,
+    version: &Version,
+    point: Real,
+    size: Real,
+) -> Result<(), Failure> {
+    check_end(instance, version, point, size)?;
+    instance.simulation.step(point, size).map_err(|error| failed(instance, version, error))
+}
+
+/// Refuses a step past the stop time.
+#[inline(always)]
+pub fn check_end<M: Model>(
+    instance: &Instance<M>,
     version: &Version,
     point: Real,
     size: Real,
@@ -20,7 +32,7 @@ pub fn do_step<M: Model>(
     if point + size > instance.stop {
         check_stop(version, point, size, instance.stop)?;
     }
-    instance.simulation.step(point, size).map_err(|error| failed(instance, version, error))
+    Ok(())
 }
 
 /// Lets through a step that passes the stop time by rounding only.

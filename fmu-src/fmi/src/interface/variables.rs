@@ -12,7 +12,7 @@ use super::{
 };
 
 /// Reads real variables; in the state Instantiated their start values, for nothing is calculated yet.
-#[inline]
+#[inline(always)]
 pub fn read<M: Model>(
     instance: &mut Instance<M>,
     references: &[ValueReference],

@@ -137,6 +137,18 @@ fn a_host_that_handles_events_gets_to_each_tick() {
 }
 
 #[test]
+fn a_step_that_is_wrong_is_not_made_up_to_a_tick() {
+    let host = Host::<Hybrid>::with_events(true, true);
+    assert_eq!(host.enter_initialization_mode(None, 0.0, Some(1.0)), Status::Ok);
+    assert_eq!(host.exit_initialization_mode(), Status::Ok);
+    assert_eq!(host.enter_step_mode(), Status::Ok);
+    for (point, size) in [(0.0, f64::INFINITY), (0.0, f64::NAN), (0.0, 2.0), (0.5, 0.1), (0.0, -1.0)] {
+        assert_eq!(host.do_step(point, size), Err(Status::Error), "{point} {size}");
+    }
+    assert_eq!(host.do_step(0.0, 1.0), Ok((true, true, 0.01)));
+}
+
+#[test]
 fn event_mode_has_to_be_asked_for() {
     let host = Host::<Hybrid>::co_simulation();
     host.initialize(0.0);

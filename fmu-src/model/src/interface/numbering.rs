@@ -42,6 +42,8 @@ pub(super) fn tables(section: Section, first: usize, list: &[Declaration]) -> Ve
 pub struct Numbering {
     /// Number of elements of a real variable, by reference; zero for what is a part of an array.
     pub lengths: Vec<usize>,
+    /// All references below this one are those of single real variables.
+    pub singles: u32,
     /// The first of the settings.
     pub settings: u32,
     /// The first of the event indicators.
@@ -63,6 +65,8 @@ impl Interface {
         // References are 32 bits wide, and nobody declares as many variables.
         let settings = lengths.len() as u32;
         let indicators = self.variables.len() as u32;
-        Numbering { lengths, settings, indicators, time: indicators + self.event_indicators as u32 }
+        let singles = lengths.iter().take_while(|length| **length == 1).count() as u32;
+        let time = indicators + self.event_indicators as u32;
+        Numbering { lengths, singles, settings, indicators, time }
     }
 }

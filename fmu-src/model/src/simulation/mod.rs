@@ -169,7 +169,8 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// If the step does not start at the present time or is not positive and finite, or if the
     /// integration fails; the simulation is then as before the step.
-    #[inline]
+    // In line in the step of each version of the C interface; what is long is behind a call.
+    #[inline(always)]
     pub fn step(&mut self, from: f64, size: f64) -> Result<(), Error> {
         let end = from + size;
         // Relative to the step: masters accumulate their clock in different ways.
@@ -184,7 +185,8 @@ impl<M: Model> Simulation<M> {
             self.refresh()?;
         }
         match self.period {
-            None => self.flow_to(end)?,
+            None if Layout::<M>::STATES == 0 => self.flow_to(end)?,
+            None => self.flow_apart_to(end)?,
             Some(period) => self.flow_and_tick_to(end, period)?,
         }
         self.time = end;
@@ -236,6 +238,12 @@ impl<M: Model> Simulation<M> {
         }
         self.time = end;
         Ok(())
+    }
+
+    /// The same, once for all who step.
+    #[inline(never)]
+    fn flow_apart_to(&mut self, end: f64) -> Result<(), Error> {
+        self.flow_to(end)
     }
 
     /// Integrates from tick to tick; all or nothing.
@@ -337,29 +345,42 @@ impl<M: Model> Simulation<M> {
     }
 
     /// Evaluates rates and outputs, if they do not belong to the present already.
-    #[inline]
+    #[inline(always)]
     fn evaluate(&mut self) -> Result<(), Error> {
         if self.unprepared || self.underived {
             self.refresh()?;
         }
-        if self.stale {
-            let memory = if self.before_first_tick() { self.ticked() } else { self.memory };
-            // Through the integrator's way in: one place that calls the equations is one that the compiler
-            // puts them into.
-            let mut flow = Flow {
-                model: &self.model,
-                parameters: &self.parameters,
-                derived: &self.derived,
-                memory: &memory,
-                input: &self.input,
-                tick: self.ticks,
-                rates: &mut self.rates,
-                output: &mut self.output,
-            };
-            flow.rates(self.time, &self.state);
-            self.stale = false;
+        // Without states the equations are short: in line in each reader. With states they are there once.
+        if self.stale && Layout::<M>::STATES == 0 {
+            self.evaluate_now();
+        } else if self.stale {
+            self.evaluate_apart();
         }
         Ok(())
+    }
+
+    #[inline(never)]
+    fn evaluate_apart(&mut self) {
+        self.evaluate_now();
+    }
+
+    #[inline(always)]
+    fn evaluate_now(&mut self) {
+        let memory = if self.before_first_tick() { self.ticked() } else { self.memory };
+        // Through the integrator's way in: one place that calls the equations is one that the compiler
+        // puts them into.
+        let mut flow = Flow {
+            model: &self.model,
+            parameters: &self.parameters,
+            derived: &self.derived,
+            memory: &memory,
+            input: &self.input,
+            tick: self.ticks,
+            rates: &mut self.rates,
+            output: &mut self.output,
+        };
+        flow.rates(self.time, &self.state);
+        self.stale = false;
     }
 
     /// Sets the time, for an outside integrator.

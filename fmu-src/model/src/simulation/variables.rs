@@ -35,7 +35,7 @@ impl<M: Model> Simulation<M> {
     ///
     /// # Errors
     /// For an unknown reference, or if the model refuses its settings.
-    #[inline]
+    #[inline(always)]
     pub fn real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Error> {
         for (reference, value) in references.iter().zip(values) {
             let (section, index) = Layout::<M>::locate(*reference)?;
@@ -80,7 +80,7 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// For an unknown reference, a variable that may not be set now, a value that is not finite or not
     /// within the declared bounds.
-    #[inline]
+    #[inline(always)]
     pub fn set_real(&mut self, references: &[u32], values: &[f64], access: Access) -> Result<(), Error> {
         for (reference, value) in references.iter().zip(values) {
             match Layout::<M>::locate(*reference)? {
