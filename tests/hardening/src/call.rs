@@ -3,6 +3,7 @@
 use std::ffi::CString;
 
 use crate::package::Kind;
+use crate::standard::Version;
 
 /// Places for instances.
 pub const INSTANCES: usize = 3;
@@ -31,6 +32,15 @@ pub enum Null {
     First,
     /// The last, often the values.
     Last,
+}
+
+/// What the host of a co-simulation handles, in FMI 3.0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Handles {
+    /// `eventModeUsed`
+    pub events: bool,
+    /// `earlyReturnAllowed`
+    pub early_return: bool,
 }
 
 /// What is wrong with an instantiation.
@@ -72,6 +82,8 @@ pub enum Action {
     Instantiate {
         cosimulation: bool,
         logging: bool,
+        /// What the host of a co-simulation handles, in FMI 3.0.
+        handles: Handles,
         fault: Fault,
     },
     FreeInstance,
@@ -80,6 +92,7 @@ pub enum Action {
         categories: Vec<Option<CString>>,
         null: Null,
     },
+    /// In FMI 3.0 this enters Initialization Mode, too.
     SetupExperiment {
         tolerance: Option<f64>,
         start: f64,
@@ -99,6 +112,8 @@ pub enum Action {
         null: Null,
     },
     SetInteger {
+        /// Of FMI 3.0's two.
+        kind: Kind,
         values: Vec<(u32, i32)>,
         null: Null,
     },
@@ -113,6 +128,11 @@ pub enum Action {
     GetDirectionalDerivative {
         unknowns: Vec<u32>,
         knowns: Vec<(u32, f64)>,
+        null: Null,
+    },
+    GetAdjointDerivative {
+        unknowns: Vec<(u32, f64)>,
+        knowns: Vec<u32>,
         null: Null,
     },
     GetFmuState {
@@ -210,55 +230,87 @@ pub enum Action {
         kind: i32,
         null: Null,
     },
+    GetNumberOfContinuousStates {
+        null: Null,
+    },
+    /// Of a type that no FMU has.
+    GetUInt16 {
+        references: Vec<u32>,
+    },
+    /// Of a type that no FMU has.
+    SetFloat32 {
+        references: Vec<u32>,
+    },
+    EnterConfigurationMode,
+    EvaluateDiscreteStates,
+    EnterStepMode,
 }
 
 impl Action {
-    /// The function's C name.
-    pub fn function(&self) -> &'static str {
+    /// The function's C name; empty if the version has none.
+    pub fn function(&self, version: Version) -> &'static str {
         use Action as A;
-        match self {
-            A::Instantiate { .. } => "fmi2Instantiate",
-            A::FreeInstance => "fmi2FreeInstance",
-            A::SetDebugLogging { .. } => "fmi2SetDebugLogging",
-            A::SetupExperiment { .. } => "fmi2SetupExperiment",
-            A::EnterInitializationMode => "fmi2EnterInitializationMode",
-            A::ExitInitializationMode => "fmi2ExitInitializationMode",
-            A::Terminate => "fmi2Terminate",
-            A::Reset => "fmi2Reset",
-            A::Get { kind: Kind::Real, .. } => "fmi2GetReal",
-            A::Get { kind: Kind::Integer, .. } => "fmi2GetInteger",
-            A::Get { kind: Kind::Boolean, .. } => "fmi2GetBoolean",
-            A::Get { kind: Kind::Text, .. } => "fmi2GetString",
-            A::SetReal { .. } => "fmi2SetReal",
-            A::SetInteger { .. } => "fmi2SetInteger",
-            A::SetBoolean { .. } => "fmi2SetBoolean",
-            A::SetString { .. } => "fmi2SetString",
-            A::GetDirectionalDerivative { .. } => "fmi2GetDirectionalDerivative",
-            A::GetFmuState { .. } => "fmi2GetFMUstate",
-            A::SetFmuState { .. } => "fmi2SetFMUstate",
-            A::FreeFmuState { .. } => "fmi2FreeFMUstate",
-            A::SerializedFmuStateSize { .. } => "fmi2SerializedFMUstateSize",
-            A::SerializeFmuState { .. } => "fmi2SerializeFMUstate",
-            A::DeSerializeFmuState { .. } => "fmi2DeSerializeFMUstate",
-            A::EnterEventMode => "fmi2EnterEventMode",
-            A::NewDiscreteStates { .. } => "fmi2NewDiscreteStates",
-            A::EnterContinuousTimeMode => "fmi2EnterContinuousTimeMode",
-            A::CompletedIntegratorStep { .. } => "fmi2CompletedIntegratorStep",
-            A::SetTime { .. } => "fmi2SetTime",
-            A::SetContinuousStates { .. } => "fmi2SetContinuousStates",
-            A::GetDerivatives { .. } => "fmi2GetDerivatives",
-            A::GetContinuousStates { .. } => "fmi2GetContinuousStates",
-            A::GetNominals { .. } => "fmi2GetNominalsOfContinuousStates",
-            A::GetEventIndicators { .. } => "fmi2GetEventIndicators",
-            A::SetRealInputDerivatives { .. } => "fmi2SetRealInputDerivatives",
-            A::GetRealOutputDerivatives { .. } => "fmi2GetRealOutputDerivatives",
-            A::DoStep { .. } => "fmi2DoStep",
-            A::CancelStep => "fmi2CancelStep",
-            A::GetStatus { .. } => "fmi2GetStatus",
-            A::GetRealStatus { .. } => "fmi2GetRealStatus",
-            A::GetIntegerStatus { .. } => "fmi2GetIntegerStatus",
-            A::GetBooleanStatus { .. } => "fmi2GetBooleanStatus",
-            A::GetStringStatus { .. } => "fmi2GetStringStatus",
-        }
+        let (two, three) = match self {
+            A::Instantiate { .. } => ("fmi2Instantiate", "fmi3Instantiate"),
+            A::FreeInstance => ("fmi2FreeInstance", "fmi3FreeInstance"),
+            A::SetDebugLogging { .. } => ("fmi2SetDebugLogging", "fmi3SetDebugLogging"),
+            A::SetupExperiment { .. } => ("fmi2SetupExperiment", "fmi3EnterInitializationMode"),
+            A::EnterInitializationMode => ("fmi2EnterInitializationMode", "fmi3EnterInitializationMode"),
+            A::ExitInitializationMode => ("fmi2ExitInitializationMode", "fmi3ExitInitializationMode"),
+            A::Terminate => ("fmi2Terminate", "fmi3Terminate"),
+            A::Reset => ("fmi2Reset", "fmi3Reset"),
+            A::Get { kind: Kind::Real, .. } => ("fmi2GetReal", "fmi3GetFloat64"),
+            A::Get { kind: Kind::Integer, .. } => ("fmi2GetInteger", "fmi3GetInt32"),
+            A::Get { kind: Kind::Choice, .. } => ("", "fmi3GetInt64"),
+            A::Get { kind: Kind::Boolean, .. } => ("fmi2GetBoolean", "fmi3GetBoolean"),
+            A::Get { kind: Kind::Text, .. } => ("fmi2GetString", "fmi3GetString"),
+            A::SetReal { .. } => ("fmi2SetReal", "fmi3SetFloat64"),
+            A::SetInteger { kind: Kind::Choice, .. } => ("", "fmi3SetInt64"),
+            A::SetInteger { .. } => ("fmi2SetInteger", "fmi3SetInt32"),
+            A::SetBoolean { .. } => ("fmi2SetBoolean", "fmi3SetBoolean"),
+            A::SetString { .. } => ("fmi2SetString", "fmi3SetString"),
+            A::GetDirectionalDerivative { .. } => {
+                ("fmi2GetDirectionalDerivative", "fmi3GetDirectionalDerivative")
+            }
+            A::GetFmuState { .. } => ("fmi2GetFMUstate", "fmi3GetFMUState"),
+            A::SetFmuState { .. } => ("fmi2SetFMUstate", "fmi3SetFMUState"),
+            A::FreeFmuState { .. } => ("fmi2FreeFMUstate", "fmi3FreeFMUState"),
+            A::SerializedFmuStateSize { .. } => ("fmi2SerializedFMUstateSize", "fmi3SerializedFMUStateSize"),
+            A::SerializeFmuState { .. } => ("fmi2SerializeFMUstate", "fmi3SerializeFMUState"),
+            A::DeSerializeFmuState { .. } => ("fmi2DeSerializeFMUstate", "fmi3DeserializeFMUState"),
+            A::EnterEventMode => ("fmi2EnterEventMode", "fmi3EnterEventMode"),
+            A::NewDiscreteStates { .. } => ("fmi2NewDiscreteStates", "fmi3UpdateDiscreteStates"),
+            A::EnterContinuousTimeMode => ("fmi2EnterContinuousTimeMode", "fmi3EnterContinuousTimeMode"),
+            A::CompletedIntegratorStep { .. } => {
+                ("fmi2CompletedIntegratorStep", "fmi3CompletedIntegratorStep")
+            }
+            A::SetTime { .. } => ("fmi2SetTime", "fmi3SetTime"),
+            A::SetContinuousStates { .. } => ("fmi2SetContinuousStates", "fmi3SetContinuousStates"),
+            A::GetDerivatives { .. } => ("fmi2GetDerivatives", "fmi3GetContinuousStateDerivatives"),
+            A::GetContinuousStates { .. } => ("fmi2GetContinuousStates", "fmi3GetContinuousStates"),
+            A::GetNominals { .. } => {
+                ("fmi2GetNominalsOfContinuousStates", "fmi3GetNominalsOfContinuousStates")
+            }
+            A::GetEventIndicators { .. } => ("fmi2GetEventIndicators", "fmi3GetEventIndicators"),
+            A::SetRealInputDerivatives { .. } => ("fmi2SetRealInputDerivatives", ""),
+            A::GetRealOutputDerivatives { .. } => {
+                ("fmi2GetRealOutputDerivatives", "fmi3GetOutputDerivatives")
+            }
+            A::DoStep { .. } => ("fmi2DoStep", "fmi3DoStep"),
+            A::CancelStep => ("fmi2CancelStep", ""),
+            A::GetStatus { .. } => ("fmi2GetStatus", ""),
+            A::GetRealStatus { .. } => ("fmi2GetRealStatus", ""),
+            A::GetIntegerStatus { .. } => ("fmi2GetIntegerStatus", ""),
+            A::GetBooleanStatus { .. } => ("fmi2GetBooleanStatus", ""),
+            A::GetStringStatus { .. } => ("fmi2GetStringStatus", ""),
+            A::GetAdjointDerivative { .. } => ("", "fmi3GetAdjointDerivative"),
+            A::GetNumberOfContinuousStates { .. } => ("", "fmi3GetNumberOfContinuousStates"),
+            A::GetUInt16 { .. } => ("", "fmi3GetUInt16"),
+            A::SetFloat32 { .. } => ("", "fmi3SetFloat32"),
+            A::EnterConfigurationMode => ("", "fmi3EnterConfigurationMode"),
+            A::EvaluateDiscreteStates => ("", "fmi3EvaluateDiscreteStates"),
+            A::EnterStepMode => ("", "fmi3EnterStepMode"),
+        };
+        if version == Version::Two { two } else { three }
     }
 }

@@ -4,8 +4,9 @@ use std::ffi::CString;
 
 use fastrand::Rng;
 
-use crate::call::{Action, BLOBS, Call, Damage, Fault, INSTANCES, Null, STATES};
+use crate::call::{Action, BLOBS, Call, Damage, Fault, Handles, INSTANCES, Null, STATES};
 use crate::package::{Kind, Package, Variable};
+use crate::standard::Version;
 
 /// Calls of an episode.
 pub const LENGTH: usize = 1000;
@@ -20,7 +21,8 @@ pub fn episode(package: &Package, seed: u64, number: u64) -> Vec<Call> {
         calls.push(Call { instance, action, checked: false });
         // From where most of the functions are legal; what goes before comes at random, too.
         if source.rng.u8(..4) > 0 {
-            for action in [Action::EnterInitializationMode, Action::ExitInitializationMode] {
+            let enter = source.enter_initialization_mode();
+            for action in [enter, Action::ExitInitializationMode] {
                 calls.push(Call { instance, action, checked: false });
             }
         }
@@ -41,6 +43,7 @@ impl Source<'_> {
     fn action(&mut self) -> Action {
         use Action as A;
         let null = self.null();
+        let three = self.package.version == Version::Three;
         // Weights: what works goes on for a while between what ends it.
         match self.rng.u8(..128) {
             0 => {
@@ -56,7 +59,7 @@ impl Source<'_> {
                 start: self.time(),
                 stop: self.maybe(Self::time),
             },
-            7..=9 => A::EnterInitializationMode,
+            7..=9 => self.enter_initialization_mode(),
             10..=12 => A::ExitInitializationMode,
             13..=28 => {
                 let kind = self.kind();
@@ -69,9 +72,10 @@ impl Source<'_> {
                 A::SetReal { values, null }
             }
             45..=46 => {
-                let references = self.references(Kind::Integer);
+                let kind = if three && self.rng.bool() { Kind::Choice } else { Kind::Integer };
+                let references = self.references(kind);
                 let values = references.into_iter().map(|reference| (reference, self.integer())).collect();
-                A::SetInteger { values, null }
+                A::SetInteger { kind, values, null }
             }
             47 => {
                 let references = self.references(Kind::Boolean);
@@ -121,6 +125,15 @@ impl Source<'_> {
             96 => A::GetContinuousStates { excess: self.excess(), null },
             97 => A::GetNominals { excess: self.excess(), null },
             98 => A::GetEventIndicators { excess: self.excess(), null },
+            99..=100 if three => {
+                let unknowns = self.references(Kind::Real);
+                A::GetAdjointDerivative {
+                    unknowns: unknowns.into_iter().map(|reference| (reference, self.number())).collect(),
+                    knowns: self.references(Kind::Real),
+                    null,
+                }
+            }
+            101..=102 if three => A::EnterStepMode,
             99..=102 => {
                 let references = self.references(Kind::Real);
                 let values = references
@@ -136,6 +149,12 @@ impl Source<'_> {
                 A::GetRealOutputDerivatives { orders, null }
             }
             106..=121 => self.step(),
+            122 if three => A::GetNumberOfContinuousStates { null },
+            123 if three => A::GetUInt16 { references: self.references(Kind::Integer) },
+            124 if three => A::SetFloat32 { references: self.references(Kind::Real) },
+            125 if three => A::EnterConfigurationMode,
+            126 if three => A::EvaluateDiscreteStates,
+            _ if three => A::EnterStepMode,
             122 => A::CancelStep,
             123 => A::GetStatus { kind: self.status(), null },
             124 => A::GetRealStatus { kind: self.status(), null },
@@ -146,7 +165,20 @@ impl Source<'_> {
     }
 
     fn instantiate(&mut self, fault: Fault) -> Action {
-        Action::Instantiate { cosimulation: self.rng.u8(..3) > 0, logging: self.rng.bool(), fault }
+        let (cosimulation, logging) = (self.rng.u8(..3) > 0, self.rng.bool());
+        let mut handles = Handles::default();
+        if self.package.version == Version::Three {
+            handles = Handles { events: self.rng.bool(), early_return: self.rng.bool() };
+        }
+        Action::Instantiate { cosimulation, logging, handles, fault }
+    }
+
+    /// In FMI 3.0 it sets the experiment up, too.
+    fn enter_initialization_mode(&self) -> Action {
+        match self.package.version {
+            Version::Two => Action::EnterInitializationMode,
+            Version::Three => Action::SetupExperiment { tolerance: None, start: 0.0, stop: None },
+        }
     }
 
     fn fault(&mut self) -> Fault {
@@ -177,6 +209,7 @@ impl Source<'_> {
 
     fn kind(&mut self) -> Kind {
         match self.rng.u8(..8) {
+            0 if self.package.version == Version::Three && self.rng.bool() => Kind::Choice,
             0 => Kind::Integer,
             1 => Kind::Boolean,
             2 => Kind::Text,

@@ -96,7 +96,7 @@ fn main() -> ExitCode {
 fn run(subject: &Subject, calls: u64, threads: u64, journal: Option<&Path>) -> Result<(), String> {
     let package = Package::open(&subject.fmu)?;
     let library = load(subject.library.as_ref().unwrap_or(&package.library()))?;
-    let api = Api::of(&library)?;
+    let api = Api::of(&library, package.version)?;
     let journal =
         journal.map(|path| File::create(path).map_err(|error| format!("{}: {error}", path.display())));
     let journal = Mutex::new(journal.transpose()?);
@@ -159,7 +159,7 @@ fn listing(calls: &[Call]) -> String {
 fn play(subject: &Subject, number: u64, keep: Option<&[usize]>) -> Result<(), String> {
     let package = Package::open(&subject.fmu)?;
     let library = load(subject.library.as_ref().unwrap_or(&package.library()))?;
-    let api = Api::of(&library)?;
+    let api = Api::of(&library, package.version)?;
     let all = episode(&package, subject.seed, number);
     let calls: Vec<Call> = match keep {
         None => all,

@@ -7,13 +7,17 @@ use std::path::{Path, PathBuf};
 use roxmltree::{Document, Node};
 use tempfile::TempDir;
 
-/// The types of `ScalarVariable`; enumerations are integers in the C interface.
+use crate::standard::Version;
+
+/// The types of variables, as the C interface tells them apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// `Real`
+    /// `Real`, `Float64`
     Real,
-    /// `Integer` or `Enumeration`
+    /// `Integer` or `Enumeration`, `Int32`
     Integer,
+    /// `Enumeration` of FMI 3.0
+    Choice,
     /// `Boolean`
     Boolean,
     /// `String`
@@ -43,6 +47,8 @@ pub struct Variable {
     pub is_choice: bool,
     /// Whether another variable is its derivative.
     pub is_state: bool,
+    /// Number of its values.
+    pub length: usize,
 }
 
 impl Variable {
@@ -63,15 +69,17 @@ impl Variable {
 pub struct Package {
     /// Its folder, gone with the value.
     folder: TempDir,
+    /// `fmiVersion`
+    pub version: Version,
     /// `modelIdentifier`
     pub name: String,
-    /// `guid`
+    /// `guid`, `instantiationToken`
     pub guid: CString,
     /// The variables.
     pub variables: Vec<Variable>,
     /// Number of continuous states.
     pub states: usize,
-    /// `numberOfEventIndicators`
+    /// Number of event indicators.
     pub event_indicators: usize,
 }
 
@@ -92,41 +100,77 @@ impl Package {
         let document = Document::parse(&xml).map_err(|error| wrong(&error))?;
         let root = document.root_element();
         let identifier = document.descendants().find_map(|node| node.attribute("modelIdentifier"));
+        let version = match root.attribute("fmiVersion") {
+            Some("3.0") => Version::Three,
+            _ => Version::Two,
+        };
+        // A state is told by its place in the list in FMI 2.0, by its reference in FMI 3.0.
         let derivatives = document.descendants().filter_map(|node| node.attribute("derivative"));
         let states: Vec<usize> =
             derivatives.map(|text| text.parse().map_err(|error| wrong(&error))).collect::<Result<_, _>>()?;
-        let scalars = document.descendants().filter(|node| node.has_tag_name("ScalarVariable"));
+        let list = root.children().find(|node| node.has_tag_name("ModelVariables"));
+        let nodes = list.into_iter().flat_map(|list| list.children()).filter(Node::is_element);
+        let read = |(index, node): (usize, Node<'_, '_>)| {
+            let typed = if version == Version::Two { node.first_element_child() } else { Some(node) };
+            let variable = typed.and_then(|typed| variable(node, typed, version));
+            let variable = variable.ok_or_else(|| wrong(&format!("{node:?} is no variable")))?;
+            let named = if version == Version::Two { index } else { variable.reference as usize };
+            Ok(Variable { is_state: states.contains(&named), ..variable })
+        };
+        let indicators = document.descendants().filter(|node| node.has_tag_name("EventIndicator")).count();
+        let (guid, event_indicators) = match version {
+            Version::Two => {
+                let number = root.attribute("numberOfEventIndicators").and_then(|text| text.parse().ok());
+                ("guid", number.ok_or_else(|| wrong(&"no numberOfEventIndicators"))?)
+            }
+            Version::Three => ("instantiationToken", indicators),
+        };
         Ok(Self {
+            version,
             name: identifier.ok_or_else(|| wrong(&"no modelIdentifier"))?.to_owned(),
-            guid: CString::new(root.attribute("guid").unwrap_or_default()).map_err(|error| wrong(&error))?,
-            variables: (1..)
-                .zip(scalars)
-                .map(|(index, node)| {
-                    let variable =
-                        variable(node).ok_or_else(|| wrong(&format!("{node:?} is no variable")))?;
-                    Ok(Variable { is_state: states.contains(&index), ..variable })
-                })
-                .collect::<Result<_, String>>()?,
+            guid: CString::new(root.attribute(guid).unwrap_or_default()).map_err(|error| wrong(&error))?,
+            variables: (1..).zip(nodes).map(read).collect::<Result<_, String>>()?,
             states: states.len(),
-            event_indicators: root
-                .attribute("numberOfEventIndicators")
-                .and_then(|text| text.parse().ok())
-                .ok_or_else(|| wrong(&"no numberOfEventIndicators"))?,
+            event_indicators,
             folder,
         })
     }
 
     /// The shared library for this machine.
     pub fn library(&self) -> PathBuf {
-        let folder = if cfg!(windows) { "win64" } else { "linux64" };
+        let folder = match (self.version, cfg!(windows)) {
+            (Version::Two, false) => "linux64",
+            (Version::Two, true) => "win64",
+            (Version::Three, false) => "x86_64-linux",
+            (Version::Three, true) => "x86_64-windows",
+        };
         let file = format!("{}{}", self.name, std::env::consts::DLL_SUFFIX);
         self.folder.path().join("binaries").join(folder).join(file)
     }
 
-    /// The resources as a URI.
+    /// The resources as a URI or, in FMI 3.0, as a path.
     pub fn resources(&self) -> CString {
         let folder = self.folder.path().join("resources");
-        CString::new(format!("file://{}", folder.display())).expect("a path has no zero bytes")
+        let text = match self.version {
+            Version::Two => format!("file://{}", folder.display()),
+            Version::Three => format!("{}/", folder.display()),
+        };
+        CString::new(text).expect("a path has no zero bytes")
+    }
+
+    /// The reference of time; none in FMI 2.0.
+    pub fn time(&self) -> Option<u32> {
+        self.variables.iter().find(|variable| variable.causality == "independent").map(|it| it.reference)
+    }
+
+    /// How many values references of real variables have together; an unknown one counts as one.
+    pub fn values(&self, references: &[u32]) -> usize {
+        references.iter().map(|reference| self.length(*reference)).sum()
+    }
+
+    /// How many values a real variable has.
+    pub fn length(&self, reference: u32) -> usize {
+        self.variable(Kind::Real, reference).map_or(1, |variable| variable.length)
     }
 
     /// The variable of a type with a reference.
@@ -135,15 +179,18 @@ impl Package {
     }
 }
 
-fn variable(node: Node<'_, '_>) -> Option<Variable> {
-    let typed = node.first_element_child()?;
+fn variable(node: Node<'_, '_>, typed: Node<'_, '_>, version: Version) -> Option<Variable> {
     let kind = match typed.tag_name().name() {
-        "Real" => Kind::Real,
-        "Integer" | "Enumeration" => Kind::Integer,
+        "Real" | "Float64" => Kind::Real,
+        "Enumeration" if version == Version::Three => Kind::Choice,
+        "Integer" | "Enumeration" | "Int32" => Kind::Integer,
         "Boolean" => Kind::Boolean,
         "String" => Kind::Text,
         _ => return None,
     };
+    let dimension = node.children().find(|child| child.has_tag_name("Dimension"));
+    let length = dimension.map_or(Some(1), |node| node.attribute("start")?.parse().ok())?;
+    let start = typed.attribute("start").and_then(|text| text.split_whitespace().next()?.parse().ok());
     let text = |name| node.attribute(name).unwrap_or_default().to_owned();
     let number = |name: &str, default| match typed.attribute(name) {
         Some(text) => text.parse().ok(),
@@ -155,10 +202,11 @@ fn variable(node: Node<'_, '_>) -> Option<Variable> {
         causality: text("causality"),
         variability: text("variability"),
         initial: text("initial"),
-        start: typed.attribute("start").and_then(|text| text.parse().ok()).unwrap_or(0.0),
+        start: start.unwrap_or(0.0),
         min: number("min", f64::NEG_INFINITY)?,
         max: number("max", f64::INFINITY)?,
         is_choice: typed.has_tag_name("Enumeration"),
         is_state: false,
+        length,
     })
 }

@@ -1,7 +1,19 @@
-//! The state machines of FMI 2.0.4: which calls each state allows (tables in sections 3.2.3 and 4.2.4).
+//! The state machines of FMI 2.0.4: which calls each state allows (tables in sections 3.2.3 and 4.2.4). Those of FMI 3.0 are in
+//! [`three`].
 //!
 //! Written down state by state, from the standard, as the other reading of what `strut_fmi::fmi2::state_table`
 //! has function by function: a slip of either shows.
+
+pub mod three;
+
+/// A version of the standard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Version {
+    /// FMI 2.0
+    Two,
+    /// FMI 3.0
+    Three,
+}
 
 /// What an instance is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +32,7 @@ pub enum State {
     InitializationMode,
     EventMode,
     ContinuousTimeMode,
+    /// Step Mode of FMI 3.0
     StepComplete,
     StepFailed,
     Terminated,
@@ -65,7 +78,10 @@ const ASK: &[&str] = &[
 const INPUT_DERIVATIVES: &[&str] = &["fmi2SetRealInputDerivatives"];
 
 /// Whether a function may be called.
-pub fn verdict(purpose: Purpose, state: State, function: &str) -> Verdict {
+pub fn verdict(version: Version, purpose: Purpose, state: State, function: &str) -> Verdict {
+    if version == Version::Three {
+        return three::verdict(purpose, state, function);
+    }
     // The table lists it for Initialization Mode, Reference-FMUs refuses it there.
     let doubtful = [(Purpose::ModelExchange, State::InitializationMode, "fmi2GetDerivatives")];
     if doubtful.contains(&(purpose, state, function)) {
@@ -136,17 +152,20 @@ fn allowed(purpose: Purpose, state: State) -> &'static [&'static [&'static str]]
     }
 }
 
-/// The state that a function leads to if it returns `fmi2OK`, if it leads anywhere.
-pub fn successor(purpose: Purpose, function: &str) -> Option<State> {
-    Some(match (function, purpose) {
-        ("fmi2EnterInitializationMode", _) => State::InitializationMode,
-        ("fmi2ExitInitializationMode", Purpose::ModelExchange) | ("fmi2EnterEventMode", _) => {
-            State::EventMode
+/// The state that a function leads to if it returns that all is well, if it leads anywhere. `events` tells whether a host of
+/// co-simulation handles events, in FMI 3.0.
+pub fn successor(purpose: Purpose, events: bool, function: &str) -> Option<State> {
+    let name = function.trim_start_matches("fmi2").trim_start_matches("fmi3");
+    Some(match (name, purpose) {
+        ("EnterInitializationMode", _) => State::InitializationMode,
+        ("ExitInitializationMode", Purpose::ModelExchange) | ("EnterEventMode", _) => State::EventMode,
+        ("ExitInitializationMode", Purpose::CoSimulation) if events => State::EventMode,
+        ("ExitInitializationMode", Purpose::CoSimulation) | ("DoStep" | "EnterStepMode", _) => {
+            State::StepComplete
         }
-        ("fmi2ExitInitializationMode", Purpose::CoSimulation) | ("fmi2DoStep", _) => State::StepComplete,
-        ("fmi2EnterContinuousTimeMode", _) => State::ContinuousTimeMode,
-        ("fmi2Terminate", _) => State::Terminated,
-        ("fmi2Reset", _) => State::Instantiated,
+        ("EnterContinuousTimeMode", _) => State::ContinuousTimeMode,
+        ("Terminate", _) => State::Terminated,
+        ("Reset", _) => State::Instantiated,
         _ => return None,
     })
 }

@@ -4,9 +4,9 @@ mod common;
 
 use std::process::Command;
 
-use common::package;
+use common::{package, package_of_fmi_3};
 use strut_fmi::fmi2::types::*;
-use strut_hardening::api::{Api, load};
+use strut_hardening::api::{Api, Own, load};
 use strut_hardening::generate::episode;
 use strut_hardening::package::Package;
 use strut_hardening::player::Player;
@@ -15,9 +15,11 @@ use strut_hardening::player::Player;
 #[test]
 fn calls_at_random_do_no_harm() {
     let folder = tempfile::tempdir().expect("a folder");
-    for name in ["QuarterCar", "QuanserLqrController", "RecordedRoad", "TumSensorChain", "SasRig"] {
-        let fmu = strut::fmus().join(name).with_extension("fmu");
-        let journal = folder.path().join(name);
+    let names = ["QuarterCar", "QuanserLqrController", "RecordedRoad", "TumSensorChain", "SasRig"];
+    let three = ["QuarterCar", "QuanserLqrController", "RecordedRoad", "KogutMrRotaryBrake"];
+    for name in names.map(str::to_owned).into_iter().chain(three.map(|name| format!("fmi3/{name}"))) {
+        let fmu = strut::fmus().join(&name).with_extension("fmu");
+        let journal = folder.path().join("journal");
         let mut run = Command::new(env!("CARGO_BIN_EXE_fuzz"));
         run.arg("run").arg(&fmu).args(["--calls", "50000", "--threads", "2", "--journal"]).arg(&journal);
         let output = run.output().expect("it starts");
@@ -55,24 +57,72 @@ unsafe extern "C" fn sets_nothing(_: Component, _: *const ValueReference, _: Siz
     Status::Ok
 }
 
+unsafe extern "C" fn arrives_and_stands_still(
+    _: Component,
+    point: Real,
+    size: Real,
+    _: u8,
+    event: *mut u8,
+    end: *mut u8,
+    early: *mut u8,
+    reached: *mut Real,
+) -> Status {
+    // SAFETY: the player gives four places.
+    unsafe {
+        (*event, *end, *early, *reached) = (0, 0, 0, point + size);
+    }
+    Status::Ok
+}
+
+unsafe extern "C" fn sets_nothing_of_fmi_3(
+    _: Component,
+    _: *const ValueReference,
+    _: Size,
+    _: *const Real,
+    _: Size,
+) -> Status {
+    Status::Ok
+}
+
+type Harm = (&'static str, fn(&mut Api));
+
+/// Changes what only one version has.
+fn harm(api: &mut Api, two: fn(&mut strut_hardening::api::Two), three: fn(&mut strut_hardening::api::Three)) {
+    match &mut api.own {
+        Own::Two(own) => two(own),
+        Own::Three(own) => three(own),
+    }
+}
+
 #[test]
 fn a_library_that_does_not_do_what_it_says_is_caught() {
-    let package = package("QuarterCar");
-    let library = load(&package.library()).expect("it loads");
-    let api = Api::of(&library).expect("it is complete");
-    assert!(!is_caught(api, &package));
-    type Harm = (&'static str, fn(&mut Api));
     let broken: [Harm; 6] = [
-        ("reset", |api| api.reset = does_nothing),
-        ("terminate", |api| api.terminate = does_nothing),
-        ("cancel", |api| api.cancel_step = does_nothing),
-        ("restore", |api| api.set_fmu_state = restores_nothing),
-        ("step", |api| api.do_step = stands_still),
-        ("set", |api| api.set_real = sets_nothing),
+        ("reset", |api| api.common.reset = does_nothing),
+        ("terminate", |api| api.common.terminate = does_nothing),
+        ("restore", |api| api.common.set_fmu_state = restores_nothing),
+        ("what is never legal", |api| {
+            harm(
+                api,
+                |two| two.cancel_step = does_nothing,
+                |three| three.evaluate_discrete_states = does_nothing,
+            );
+        }),
+        ("step", |api| {
+            harm(api, |two| two.do_step = stands_still, |three| three.do_step = arrives_and_stands_still);
+        }),
+        ("set", |api| {
+            harm(api, |two| two.set_real = sets_nothing, |three| three.set_float64 = sets_nothing_of_fmi_3);
+        }),
     ];
-    for (name, harm) in broken {
-        let mut harmed = api;
-        harm(&mut harmed);
-        assert!(is_caught(harmed, &package), "{name} is broken, and nobody minds");
+    for package in [package("QuarterCar"), package_of_fmi_3("QuarterCar")] {
+        let library = load(&package.library()).expect("it loads");
+        let api = Api::of(&library, package.version).expect("it is complete");
+        assert!(!is_caught(api, &package));
+        for (name, harm) in broken {
+            let mut harmed = api;
+            harm(&mut harmed);
+            let version = package.version;
+            assert!(is_caught(harmed, &package), "{name} is broken in {version:?}, and nobody minds");
+        }
     }
 }

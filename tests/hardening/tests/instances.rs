@@ -30,7 +30,7 @@ fn a_thousand_instances_in_sixteen_threads_go_where_they_go_alone() {
     for name in ["QuarterCar", "TumSensorChain"] {
         let package = package(name);
         let library = load(&package.library()).expect("it loads");
-        let api = Api::of(&library).expect("it is complete");
+        let api = Api::of(&library, package.version).expect("it is complete");
         let mut slaves: Vec<Slave> = (0..INSTANCES).map(|_| Slave::new(api, &package)).collect();
         let expected: Vec<_> = {
             let mut alone: Vec<Slave> = (0..INSTANCES).map(|_| Slave::new(api, &package)).collect();
@@ -76,7 +76,7 @@ fn libraries_come_and_go() {
     let path = package.library();
     let load_and_step = || {
         let library = load(&path).expect("it loads");
-        let api = Api::of(&library).expect("it is complete");
+        let api = Api::of(&library, package.version).expect("it is complete");
         let bits = Slave::new(api, &package).step(&package, 0.0, STEP, 0.01);
         assert!(is_loaded(&path));
         drop(library);
@@ -101,7 +101,7 @@ fn instances_come_and_go() {
     }
     let package = package("QuanserLqrController");
     let library = load(&package.library()).expect("it loads");
-    let api = Api::of(&library).expect("it is complete");
+    let api = Api::of(&library, package.version).expect("it is complete");
     let live = || drop(Slave::new(api, &package).step(&package, 0.0, STEP, 0.01));
     (0..500).for_each(|_| live());
     let before = resident();

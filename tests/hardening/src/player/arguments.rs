@@ -4,10 +4,11 @@
 
 use std::ptr;
 
+use super::instance::Known;
 use super::{Expected, Instance, Player};
 use crate::call::{Action, Damage, Null};
 use crate::package::{Kind, Package, Variable};
-use crate::standard::{Purpose, State};
+use crate::standard::{Purpose, State, Version};
 
 /// Inputs and their slopes up to here are what a rig may see.
 const TAME: f64 = 0.05;
@@ -30,6 +31,10 @@ pub fn only_reads(action: &Action) -> bool {
         action,
         A::Get { .. }
             | A::GetDirectionalDerivative { .. }
+            | A::GetAdjointDerivative { .. }
+            | A::GetNumberOfContinuousStates { .. }
+            | A::GetUInt16 { .. }
+            | A::SetFloat32 { .. }
             | A::GetFmuState { .. }
             | A::FreeFmuState { .. }
             | A::SerializedFmuStateSize { .. }
@@ -66,6 +71,11 @@ pub fn is_wild(package: &Package, action: &Action) -> bool {
         Action::DoStep { size, .. } => !(*size <= 0.1),
         _ => false,
     }
+}
+
+/// Before initialisation ends.
+fn is_early(state: Option<State>) -> bool {
+    matches!(state, Some(State::Instantiated | State::InitializationMode))
 }
 
 fn ok_if(right: bool) -> Expected {
@@ -109,18 +119,26 @@ impl Player<'_> {
                 }
             }
             A::ExitInitializationMode => ok_if_tame(instance),
+            A::EnterEventMode => {
+                let asked_for = known.handles.events || known.purpose == Purpose::ModelExchange;
+                ok_if(self.package.version == Version::Two || asked_for)
+            }
             A::EnterInitializationMode
             | A::Terminate
             | A::Reset
-            | A::EnterEventMode
+            | A::EnterStepMode
             | A::EnterContinuousTimeMode => Expected::Ok,
-            A::CancelStep => Expected::Error,
+            A::CancelStep | A::EnterConfigurationMode | A::EvaluateDiscreteStates => Expected::Error,
+            A::GetNumberOfContinuousStates { null } => ok_if(*null == Null::None),
+            A::GetUInt16 { references } | A::SetFloat32 { references } => ok_if(references.is_empty()),
             A::Get { kind, references, null } => {
                 // Before initialisation, what has a start value may be read.
                 let early = known.state == Some(State::Instantiated);
                 let right = references.iter().all(|reference| {
                     let variable = self.package.variable(*kind, *reference);
-                    variable.is_some_and(|variable| !early || variable.is_settable())
+                    variable.is_some_and(|variable| {
+                        !early || variable.is_settable() || variable.causality == "independent"
+                    })
                 });
                 if references.is_empty() {
                     Expected::Ok
@@ -134,17 +152,17 @@ impl Player<'_> {
             }
             A::SetReal { values, null } => {
                 let right = values.iter().all(|(reference, value)| {
-                    self.settable(known.state, Kind::Real, *reference).is_some_and(|variable| {
+                    self.settable(known, Kind::Real, *reference).is_some_and(|variable| {
                         // A solver may try a state that is out of bounds.
-                        let tried = variable.is_state && known.state == Some(State::ContinuousTimeMode);
+                        let tried = variable.is_state && !is_early(known.state);
                         value.is_finite() && (tried || (variable.min..=variable.max).contains(value))
                     })
                 });
                 ok_if(values.is_empty() || *null == Null::None && right)
             }
-            A::SetInteger { values, null } => {
+            A::SetInteger { kind, values, null } => {
                 let right = values.iter().all(|(reference, value)| {
-                    self.settable(known.state, Kind::Integer, *reference).is_some_and(|variable| {
+                    self.settable(known, *kind, *reference).is_some_and(|variable| {
                         !variable.is_choice || (variable.min..=variable.max).contains(&f64::from(*value))
                     })
                 });
@@ -153,13 +171,13 @@ impl Player<'_> {
             A::SetBoolean { values, null } => ok_if(
                 values.is_empty()
                     || *null == Null::None
-                        && values.iter().all(|(reference, _)| {
-                            self.settable(known.state, Kind::Boolean, *reference).is_some()
-                        }),
+                        && values
+                            .iter()
+                            .all(|(reference, _)| self.settable(known, Kind::Boolean, *reference).is_some()),
             ),
             A::SetString { values, null } => {
                 let right = values.iter().all(|(reference, value)| {
-                    self.settable(known.state, Kind::Text, *reference).is_some()
+                    self.settable(known, Kind::Text, *reference).is_some()
                         && value.as_ref().is_some_and(|text| text.to_str().is_ok())
                 });
                 ok_if(values.is_empty() || *null == Null::None && right)
@@ -172,6 +190,17 @@ impl Player<'_> {
                 };
                 let right = unknowns.iter().all(exists)
                     && knowns.iter().all(|(reference, seed)| exists(reference) && seed.is_finite());
+                if nothing && right { Expected::Survives } else { Expected::Error }
+            }
+            A::GetAdjointDerivative { unknowns, knowns, null } => {
+                let exists = |reference: &u32| self.package.variable(Kind::Real, *reference).is_some();
+                let nothing = match null {
+                    Null::None => true,
+                    Null::First => unknowns.is_empty(),
+                    Null::Last => knowns.is_empty(),
+                };
+                let right = knowns.iter().all(exists)
+                    && unknowns.iter().all(|(reference, seed)| exists(reference) && seed.is_finite());
                 if nothing && right { Expected::Survives } else { Expected::Error }
             }
             A::GetFmuState { state, null } => {
@@ -268,11 +297,14 @@ impl Player<'_> {
 
     /// The variable, if it may be set in a state (FMI 2.0.4, section 2.1.7 and the notes to the tables of
     /// the state machines).
-    fn settable(&self, state: Option<State>, kind: Kind, reference: u32) -> Option<&Variable> {
+    fn settable(&self, known: &Known, kind: Kind, reference: u32) -> Option<&Variable> {
         let variable = self.package.variable(kind, reference)?;
         let tunable = variable.causality == "parameter" && variable.variability == "tunable";
-        let settable = match state? {
+        // FMI 3.0, section 2.3.5.
+        let at_event = self.package.version == Version::Three && known.purpose == Purpose::ModelExchange;
+        let settable = match known.state? {
             State::Instantiated | State::InitializationMode => variable.is_settable(),
+            State::EventMode if at_event && variable.is_state => true,
             State::EventMode | State::StepComplete => variable.is_input() || tunable,
             State::ContinuousTimeMode => variable.is_input() || variable.is_state,
             State::StepFailed | State::Terminated => false,

@@ -1,13 +1,14 @@
 //! An instance, what is known of it, and what it says.
 
 use std::collections::HashMap;
-use std::ffi::{CStr, c_void};
+use std::ffi::{CStr, CString, c_void};
 use std::ptr;
 
-use strut_fmi::fmi2::types::*;
+use strut_fmi::fmi2::types::{CallbackFunctions, Component, FmuState, Logger, Status, Text};
+use strut_fmi::fmi3::types::LogMessage;
 
-use crate::api::Api;
-use crate::call::Fault;
+use crate::api::{Api, Own, Three, Two};
+use crate::call::{Fault, Handles};
 use crate::package::Package;
 use crate::standard::{Purpose, State};
 
@@ -16,6 +17,8 @@ use crate::standard::{Purpose, State};
 pub struct Known {
     /// What the instance is for.
     pub purpose: Purpose,
+    /// What its host handles.
+    pub handles: Handles,
     /// Its state; none after a forged state was restored.
     pub state: Option<State>,
     /// Its time in seconds.
@@ -27,9 +30,16 @@ pub struct Known {
 }
 
 impl Known {
-    /// After `fmi2Instantiate` or `fmi2Reset`.
-    pub fn fresh(purpose: Purpose) -> Self {
-        Self { purpose, state: Some(State::Instantiated), time: 0.0, stop: f64::INFINITY, tame: true }
+    /// After an instantiation or a reset.
+    pub fn fresh(purpose: Purpose, handles: Handles) -> Self {
+        Self {
+            purpose,
+            handles,
+            state: Some(State::Instantiated),
+            time: 0.0,
+            stop: f64::INFINITY,
+            tame: true,
+        }
     }
 }
 
@@ -54,6 +64,8 @@ pub struct Instance {
     /// The serialised state after instantiation.
     pub fresh: Vec<u8>,
     free: unsafe extern "C" fn(Component),
+    /// The reference of time, where it is one.
+    clock: Option<u32>,
     messages: *mut Messages,
 }
 
@@ -104,18 +116,35 @@ unsafe extern "C" fn record(
     messages.last = format;
 }
 
+/// The logger of FMI 3.0.
+unsafe extern "C" fn record_three(environment: *mut c_void, status: Status, category: Text, message: Text) {
+    // What the other one checks of a format holds for any text with its signs doubled.
+    let text = if message.is_null() {
+        String::new()
+    } else {
+        // SAFETY: not null; the library's texts end with a zero.
+        unsafe { CStr::from_ptr(message) }.to_string_lossy().replace('%', "%%")
+    };
+    let format = CString::new(text).unwrap_or_default();
+    let format = if message.is_null() { ptr::null() } else { format.as_ptr() };
+    // SAFETY: as it comes from the library, with a text that lives.
+    unsafe { record(environment, NAME.as_ptr(), status, category, format) }
+}
+
 const NAME: &CStr = c"r\xc3\xa4der <&>";
 
-impl Instance {
-    /// Instantiates; none if the library gives no instance.
-    pub fn new(
-        api: Api,
-        package: &Package,
-        purpose: Purpose,
-        logging: bool,
-        fault: Fault,
-    ) -> Result<Option<Self>, String> {
-        let messages = Box::into_raw(Box::<Messages>::default());
+/// What an instance is made from.
+struct Start {
+    name: Text,
+    guid: Text,
+    resources: Text,
+    logging: bool,
+    fault: Fault,
+    messages: *mut Messages,
+}
+
+impl Start {
+    fn two(&self, two: &Two, purpose: Purpose) -> Component {
         // SAFETY: a variadic function's fixed arguments, see `record`.
         let logger = unsafe {
             std::mem::transmute::<unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text), Logger>(record)
@@ -125,8 +154,82 @@ impl Instance {
             allocate_memory: None,
             free_memory: None,
             step_finished: None,
-            component_environment: messages.cast(),
+            component_environment: self.messages.cast(),
         };
+        let resources = match self.fault {
+            Fault::ForeignResources => c"http://example.org/".as_ptr(),
+            _ => self.resources,
+        };
+        let kind = match (self.fault, purpose) {
+            (Fault::UnknownType, _) => 2,
+            (_, Purpose::ModelExchange) => 0,
+            (_, Purpose::CoSimulation) => 1,
+        };
+        let callbacks: *const CallbackFunctions =
+            if self.fault == Fault::NoCallbacks { ptr::null() } else { &raw const callbacks };
+        let logging = i32::from(self.logging);
+        // SAFETY: all pointers are null or live.
+        unsafe { (two.instantiate)(self.name, kind, self.guid, resources, callbacks, 0, logging) }
+    }
+
+    fn three(&self, three: &Three, purpose: Purpose, handles: Handles) -> Component {
+        let Self { name, guid, logging, .. } = *self;
+        let resources = match self.fault {
+            // A path that is no text.
+            Fault::ForeignResources => c"\xff\xfe".as_ptr(),
+            _ => self.resources,
+        };
+        let [logging, events, early] = [logging, handles.events, handles.early_return].map(u8::from);
+        let (environment, log, none) = (self.messages.cast(), Some(record_three as LogMessage), ptr::null());
+        // Nothing that is needed is missing without a logger: intermediate updates are refused instead.
+        let intermediate = usize::from(self.fault == Fault::NoCallbacks);
+        // SAFETY: all pointers are null or live.
+        unsafe {
+            match (self.fault, purpose) {
+                (Fault::UnknownType, _) => (three.instantiate_scheduled_execution)(
+                    name,
+                    guid,
+                    resources,
+                    0,
+                    logging,
+                    environment,
+                    log,
+                    none,
+                    none,
+                    none,
+                ),
+                (Fault::NoCallbacks, _) | (_, Purpose::CoSimulation) => (three.instantiate_co_simulation)(
+                    name,
+                    guid,
+                    resources,
+                    0,
+                    logging,
+                    events,
+                    early,
+                    &0,
+                    intermediate,
+                    environment,
+                    log,
+                    none,
+                ),
+                (_, Purpose::ModelExchange) => {
+                    (three.instantiate_model_exchange)(name, guid, resources, 0, logging, environment, log)
+                }
+            }
+        }
+    }
+}
+
+impl Instance {
+    /// Instantiates; none if the library gives no instance.
+    pub fn new(
+        api: Api,
+        package: &Package,
+        (purpose, handles): (Purpose, Handles),
+        logging: bool,
+        fault: Fault,
+    ) -> Result<Option<Self>, String> {
+        let messages = Box::into_raw(Box::<Messages>::default());
         let name = match fault {
             Fault::NoName => ptr::null(),
             Fault::EmptyName => c"".as_ptr(),
@@ -138,18 +241,10 @@ impl Instance {
             _ => package.guid.as_ptr(),
         };
         let own = package.resources();
-        let resources =
-            if fault == Fault::ForeignResources { c"http://example.org/".as_ptr() } else { own.as_ptr() };
-        let kind = match (fault, purpose) {
-            (Fault::UnknownType, _) => 2,
-            (_, Purpose::ModelExchange) => 0,
-            (_, Purpose::CoSimulation) => 1,
-        };
-        let callbacks: *const CallbackFunctions =
-            if fault == Fault::NoCallbacks { ptr::null() } else { &raw const callbacks };
-        // SAFETY: all pointers are null or live.
-        let component = unsafe {
-            (api.instantiate)(name, kind, guid, resources, callbacks, FALSE, Boolean::from(logging))
+        let start = Start { name, guid, resources: own.as_ptr(), logging, fault, messages };
+        let component = match &api.own {
+            Own::Two(two) => start.two(two, purpose),
+            Own::Three(three) => start.three(three, purpose, handles),
         };
         // SAFETY: ours, and nobody writes to it now.
         let told = unsafe { &*messages };
@@ -166,10 +261,11 @@ impl Instance {
         }
         let mut instance = Self {
             component,
-            known: Known::fresh(purpose),
+            known: Known::fresh(purpose, handles),
             saved: HashMap::new(),
             fresh: Vec::new(),
-            free: api.free_instance,
+            free: api.common.free_instance,
+            clock: package.time(),
             messages,
         };
         instance.fresh = instance.bytes(api)?;
@@ -184,6 +280,7 @@ impl Instance {
 
     /// Whether what was said fits what was returned.
     pub fn check_messages(&mut self, status: Status) -> Result<(), String> {
+        let three = self.clock.is_some();
         // SAFETY: ours, and nobody else uses it now.
         let Messages { complaints, wrong, .. } = unsafe { &*self.messages };
         if let Some(wrong) = wrong {
@@ -192,6 +289,8 @@ impl Instance {
         let right = match status {
             Status::Ok => *complaints == 0,
             Status::Discard => *complaints <= 1,
+            // FMI 3.0 has warnings told to those who ask.
+            Status::Warning if three => *complaints <= 1,
             Status::Warning | Status::Error | Status::Fatal | Status::Pending => *complaints > 0,
         };
         if right { Ok(()) } else { Err(format!("returned {status:?} with {complaints} complaints")) }
@@ -208,14 +307,14 @@ impl Instance {
         let mut state = ptr::null_mut();
         // SAFETY: the component is ours, the state is to be made and freed.
         let bytes = unsafe {
-            let status = (api.get_fmu_state)(self.component, &raw mut state);
+            let status = (api.common.get_fmu_state)(self.component, &raw mut state);
             if status != Status::Ok {
-                return Err(format!("leaves an instance of which fmi2GetFMUstate says {status:?}"));
+                return Err(format!("leaves an instance of which get FMU state says {status:?}"));
             }
             self.bytes_of(api, state)?
         };
         // SAFETY: as above.
-        let freed = unsafe { (api.free_fmu_state)(self.component, &raw mut state) };
+        let freed = unsafe { (api.common.free_fmu_state)(self.component, &raw mut state) };
         if freed == Status::Ok && state.is_null() {
             Ok(bytes)
         } else {
@@ -228,9 +327,9 @@ impl Instance {
         let mut size = 0;
         // SAFETY: the component is ours, the array is as long as it says.
         unsafe {
-            let told = (api.serialized_fmu_state_size)(self.component, state, &raw mut size);
+            let told = (api.common.serialized_fmu_state_size)(self.component, state, &raw mut size);
             let mut bytes = vec![0_u8; size];
-            let written = (api.serialize_fmu_state)(self.component, state, bytes.as_mut_ptr().cast(), size);
+            let written = (api.common.serialize_fmu_state)(self.component, state, bytes.as_mut_ptr(), size);
             if (told, written) == (Status::Ok, Status::Ok) {
                 return Ok(bytes);
             }
@@ -243,14 +342,14 @@ impl Instance {
         let mut state = ptr::null_mut();
         // SAFETY: the component is ours, the array is as long as it says.
         let (read, set, freed) = unsafe {
-            let read = (api.de_serialize_fmu_state)(
+            let read = (api.common.de_serialize_fmu_state)(
                 self.component,
-                bytes.as_ptr().cast(),
+                bytes.as_ptr(),
                 bytes.len(),
                 &raw mut state,
             );
-            let set = (api.set_fmu_state)(self.component, state);
-            (read, set, (api.free_fmu_state)(self.component, &raw mut state))
+            let set = (api.common.set_fmu_state)(self.component, state);
+            (read, set, (api.common.free_fmu_state)(self.component, &raw mut state))
         };
         if (read, set, freed) == (Status::Ok, Status::Ok, Status::Ok) {
             return Ok(());
@@ -262,7 +361,15 @@ impl Instance {
     pub fn time(&self, api: Api) -> Option<f64> {
         let mut time = f64::NAN;
         // SAFETY: the component is ours.
-        let status = unsafe { (api.get_real_status)(self.component, 2, &raw mut time) };
+        let status = unsafe {
+            match (&api.own, self.clock) {
+                (Own::Two(two), _) => (two.get_real_status)(self.component, 2, &raw mut time),
+                (Own::Three(three), Some(clock)) => {
+                    (three.get_float64)(self.component, &raw const clock, 1, &raw mut time, 1)
+                }
+                (Own::Three(_), None) => return None,
+            }
+        };
         (status == Status::Ok).then_some(time)
     }
 

@@ -1,13 +1,16 @@
 //! From a call as a value to a call in C.
 
-use std::ffi::{CStr, CString};
+mod three;
+mod two;
+
+use std::ffi::CString;
 use std::ptr;
 
-use strut_fmi::fmi2::types::*;
+use strut_fmi::fmi2::types::{Component, Status, Text};
 
 use super::{Blob, Player};
+use crate::api::Own;
 use crate::call::{Action, Damage, Null, STATES};
-use crate::package::Kind;
 
 /// What came back.
 #[derive(Clone, Copy, Debug)]
@@ -20,6 +23,15 @@ pub struct Outcome {
     pub integer: i32,
     /// Whether every text that was asked for is one.
     pub complete: bool,
+    /// Whether a step ended early, in FMI 3.0.
+    pub early: bool,
+}
+
+impl Outcome {
+    /// That nothing came back but a status.
+    fn of(status: Status) -> Self {
+        Self { status, real: f64::NAN, integer: 7, complete: true, early: false }
+    }
 }
 
 fn first<T>(null: Null, values: &[T]) -> *const T {
@@ -46,97 +58,23 @@ impl Player<'_> {
     /// cannot check is not tried.
     pub(super) fn invoke(&mut self, c: Component, time: f64, action: &Action) -> Outcome {
         use Action as A;
-        let api = self.api;
-        let (mut real, mut integer, mut complete) = (f64::NAN, 7, true);
-        let split = |values: &[(u32, i32)]| -> (Vec<u32>, Vec<i32>) { values.iter().copied().unzip() };
+        let common = self.api.common;
         // SAFETY: the component is null or an instance, pointers are null or to living arrays of the length
         // that is given; states are looked up.
         let status = unsafe {
             match action {
                 A::Instantiate { .. } | A::FreeInstance => unreachable!("they are not calls to an instance"),
-                A::SetDebugLogging { on, categories, null } => {
-                    let texts: Vec<Text> = categories.iter().map(text).collect();
-                    (api.set_debug_logging)(c, Boolean::from(*on), texts.len(), first(both(*null), &texts))
-                }
-                A::SetupExperiment { tolerance, start, stop } => (api.setup_experiment)(
-                    c,
-                    Boolean::from(tolerance.is_some()),
-                    tolerance.unwrap_or(f64::NAN),
-                    *start,
-                    Boolean::from(stop.is_some()),
-                    stop.unwrap_or(f64::NAN),
-                ),
-                A::EnterInitializationMode => (api.enter_initialization_mode)(c),
-                A::ExitInitializationMode => (api.exit_initialization_mode)(c),
-                A::Terminate => (api.terminate)(c),
-                A::Reset => (api.reset)(c),
-                A::Get { kind, references, null } => {
-                    let (vr, n) = (first(*null, references), references.len());
-                    match kind {
-                        Kind::Real => {
-                            let mut values = vec![f64::NAN; n];
-                            (api.get_real)(c, vr, n, last_mut(*null, &mut values))
-                        }
-                        Kind::Integer => {
-                            let mut values = vec![0; n];
-                            (api.get_integer)(c, vr, n, last_mut(*null, &mut values))
-                        }
-                        Kind::Boolean => {
-                            let mut values = vec![FALSE; n];
-                            let status = (api.get_boolean)(c, vr, n, last_mut(*null, &mut values));
-                            integer = values.into_iter().max().unwrap_or(FALSE);
-                            status
-                        }
-                        Kind::Text => {
-                            let mut values = vec![ptr::null(); n];
-                            let status = (api.get_string)(c, vr, n, last_mut(*null, &mut values));
-                            // Read to their ends, for memory checkers.
-                            complete = status != Status::Ok
-                                || values
-                                    .iter()
-                                    .all(|text| !text.is_null() && CStr::from_ptr(*text).to_str().is_ok());
-                            status
-                        }
-                    }
-                }
-                A::SetReal { values, null } => {
-                    let (vr, values): (Vec<_>, Vec<_>) = values.iter().copied().unzip();
-                    (api.set_real)(c, first(*null, &vr), vr.len(), last(*null, &values))
-                }
-                A::SetInteger { values, null } => {
-                    let (vr, values) = split(values);
-                    (api.set_integer)(c, first(*null, &vr), vr.len(), last(*null, &values))
-                }
-                A::SetBoolean { values, null } => {
-                    let (vr, values) = split(values);
-                    (api.set_boolean)(c, first(*null, &vr), vr.len(), last(*null, &values))
-                }
-                A::SetString { values, null } => {
-                    let vr: Vec<u32> = values.iter().map(|(reference, _)| *reference).collect();
-                    let texts: Vec<Text> = values.iter().map(|(_, value)| text(value)).collect();
-                    (api.set_string)(c, first(*null, &vr), vr.len(), last(*null, &texts))
-                }
-                A::GetDirectionalDerivative { unknowns, knowns, null } => {
-                    let (known, seed): (Vec<_>, Vec<_>) = knowns.iter().copied().unzip();
-                    let mut result = vec![f64::NAN; unknowns.len()];
-                    (api.get_directional_derivative)(
-                        c,
-                        first(*null, unknowns),
-                        unknowns.len(),
-                        known.as_ptr(),
-                        known.len(),
-                        seed.as_ptr(),
-                        last_mut(*null, &mut result),
-                    )
-                }
+                A::ExitInitializationMode => (common.exit_initialization_mode)(c),
+                A::Terminate => (common.terminate)(c),
+                A::Reset => (common.reset)(c),
                 A::GetFmuState { state, null } => {
-                    (api.get_fmu_state)(c, place(*null, &mut self.states[*state]))
+                    (common.get_fmu_state)(c, place(*null, &mut self.states[*state]))
                 }
-                A::SetFmuState { state } => (api.set_fmu_state)(c, self.states[*state]),
+                A::SetFmuState { state } => (common.set_fmu_state)(c, self.states[*state]),
                 A::FreeFmuState { state, null } => self.free_state(c, *state, *null),
                 A::SerializedFmuStateSize { state, null } => {
                     let mut size = 0;
-                    (api.serialized_fmu_state_size)(c, self.states[*state], place(*null, &mut size))
+                    (common.serialized_fmu_state_size)(c, self.states[*state], place(*null, &mut size))
                 }
                 A::SerializeFmuState { state, blob, excess, null } => {
                     self.serialize(c, *state, *blob, *excess, *null)
@@ -144,96 +82,45 @@ impl Player<'_> {
                 A::DeSerializeFmuState { blob, damage, state, null } => {
                     self.de_serialize(c, *blob, damage, *state, *null)
                 }
-                A::EnterEventMode => (api.enter_event_mode)(c),
-                A::NewDiscreteStates { null } => {
-                    let mut info = EventInfo {
-                        new_discrete_states_needed: FALSE,
-                        terminate_simulation: FALSE,
-                        nominals_of_continuous_states_changed: FALSE,
-                        values_of_continuous_states_changed: FALSE,
-                        next_event_time_defined: FALSE,
-                        next_event_time: 0.0,
-                    };
-                    (api.new_discrete_states)(c, place(*null, &mut info))
-                }
-                A::EnterContinuousTimeMode => (api.enter_continuous_time_mode)(c),
-                A::CompletedIntegratorStep { null } => {
-                    let (mut event, mut end) = (FALSE, FALSE);
-                    let event = if *null == Null::First { ptr::null_mut() } else { &raw mut event };
-                    let end = if *null == Null::Last { ptr::null_mut() } else { &raw mut end };
-                    (api.completed_integrator_step)(c, TRUE, event, end)
-                }
-                A::SetTime { time } => (api.set_time)(c, *time),
+                A::EnterEventMode => (common.enter_event_mode)(c),
+                A::EnterContinuousTimeMode => (common.enter_continuous_time_mode)(c),
+                A::SetTime { time } => (common.set_time)(c, *time),
                 A::SetContinuousStates { values, excess, null } => {
                     let n = self.package.states.saturating_add_signed(*excess);
                     let x: Vec<f64> = values.iter().copied().cycle().take(n).collect();
-                    (api.set_continuous_states)(c, first(both(*null), &x), n)
+                    (common.set_continuous_states)(c, first(both(*null), &x), n)
                 }
                 A::GetDerivatives { excess, null } => {
                     let mut x = vec![f64::NAN; self.package.states.saturating_add_signed(*excess)];
-                    (api.get_derivatives)(c, last_mut(both_last(*null), &mut x), x.len())
+                    (common.get_derivatives)(c, last_mut(both_last(*null), &mut x), x.len())
                 }
                 A::GetContinuousStates { excess, null } => {
                     let mut x = vec![f64::NAN; self.package.states.saturating_add_signed(*excess)];
-                    (api.get_continuous_states)(c, last_mut(both_last(*null), &mut x), x.len())
+                    (common.get_continuous_states)(c, last_mut(both_last(*null), &mut x), x.len())
                 }
                 A::GetNominals { excess, null } => {
                     let mut x = vec![f64::NAN; self.package.states.saturating_add_signed(*excess)];
-                    (api.get_nominals)(c, last_mut(both_last(*null), &mut x), x.len())
+                    (common.get_nominals)(c, last_mut(both_last(*null), &mut x), x.len())
                 }
                 A::GetEventIndicators { excess, null } => {
                     let mut x = vec![f64::NAN; self.package.event_indicators.saturating_add_signed(*excess)];
-                    (api.get_event_indicators)(c, last_mut(both_last(*null), &mut x), x.len())
+                    (common.get_event_indicators)(c, last_mut(both_last(*null), &mut x), x.len())
                 }
-                A::SetRealInputDerivatives { values, null } => {
-                    let vr: Vec<u32> = values.iter().map(|(reference, _, _)| *reference).collect();
-                    let orders: Vec<i32> = values.iter().map(|(_, order, _)| *order).collect();
-                    let values: Vec<f64> = values.iter().map(|(_, _, value)| *value).collect();
-                    (api.set_real_input_derivatives)(
-                        c,
-                        first(*null, &vr),
-                        vr.len(),
-                        orders.as_ptr(),
-                        last(*null, &values),
-                    )
-                }
-                A::GetRealOutputDerivatives { orders, null } => {
-                    let (vr, orders) = split(orders);
-                    let mut values = vec![f64::NAN; vr.len()];
-                    (api.get_real_output_derivatives)(
-                        c,
-                        first(*null, &vr),
-                        vr.len(),
-                        orders.as_ptr(),
-                        last_mut(*null, &mut values),
-                    )
-                }
-                A::DoStep { offset, size } => (api.do_step)(c, time + offset, *size, TRUE),
-                A::CancelStep => (api.cancel_step)(c),
-                A::GetStatus { kind, null } => {
-                    let mut value = Status::Ok;
-                    (api.get_status)(c, *kind, place(*null, &mut value))
-                }
-                A::GetRealStatus { kind, null } => (api.get_real_status)(c, *kind, place(*null, &mut real)),
-                A::GetIntegerStatus { kind, null } => {
-                    (api.get_integer_status)(c, *kind, place(*null, &mut integer))
-                }
-                A::GetBooleanStatus { kind, null } => {
-                    (api.get_boolean_status)(c, *kind, place(*null, &mut integer))
-                }
-                A::GetStringStatus { kind, null } => {
-                    let mut value = ptr::null();
-                    (api.get_string_status)(c, *kind, place(*null, &mut value))
+                _ => {
+                    return match &self.api.own {
+                        Own::Two(two) => two::invoke(two, c, time, action),
+                        Own::Three(three) => three::invoke(three, self.package, c, time, action),
+                    };
                 }
             }
         };
-        Outcome { status, real, integer, complete }
+        Outcome::of(status)
     }
 
     fn free_state(&mut self, c: Component, state: usize, null: Null) -> Status {
         let freed = self.states[state];
         // SAFETY: the component is null or an instance; the state is looked up.
-        let status = unsafe { (self.api.free_fmu_state)(c, place(null, &mut self.states[state])) };
+        let status = unsafe { (self.api.common.free_fmu_state)(c, place(null, &mut self.states[state])) };
         // A pointer to what was freed stays in use somewhere, as with careless hosts.
         let other = (state + 1) % STATES;
         if status == Status::Ok && !freed.is_null() && self.states[other].is_null() {
@@ -247,10 +134,10 @@ impl Player<'_> {
         // SAFETY: the component is null or an instance, the array is as long as is said; the state is looked
         // up.
         unsafe {
-            (self.api.serialized_fmu_state_size)(c, self.states[state], &raw mut size);
+            (self.api.common.serialized_fmu_state_size)(c, self.states[state], &raw mut size);
             let mut bytes = vec![0_u8; size.saturating_add_signed(excess)];
-            let target = if null == Null::None { bytes.as_mut_ptr().cast() } else { ptr::null_mut() };
-            let status = (self.api.serialize_fmu_state)(c, self.states[state], target, bytes.len());
+            let target = if null == Null::None { bytes.as_mut_ptr() } else { ptr::null_mut() };
+            let status = (self.api.common.serialize_fmu_state)(c, self.states[state], target, bytes.len());
             if status == Status::Ok {
                 self.blobs[blob] = Blob { bytes, known: None };
             }
@@ -267,11 +154,11 @@ impl Player<'_> {
         null: Null,
     ) -> Status {
         let bytes = damaged(&self.blobs[blob].bytes, damage);
-        let source = if null == Null::First { ptr::null() } else { bytes.as_ptr().cast() };
+        let source = if null == Null::First { ptr::null() } else { bytes.as_ptr() };
         let target = if null == Null::Last { ptr::null_mut() } else { &raw mut self.states[state] };
         // SAFETY: the component is null or an instance, the array is as long as is said; the state is looked
         // up.
-        unsafe { (self.api.de_serialize_fmu_state)(c, source, bytes.len(), target) }
+        unsafe { (self.api.common.de_serialize_fmu_state)(c, source, bytes.len(), target) }
     }
 }
 

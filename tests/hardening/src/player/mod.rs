@@ -9,10 +9,10 @@ use std::ptr;
 use strut_fmi::fmi2::types::{FALSE, FmuState, Status, TRUE};
 
 use crate::api::Api;
-use crate::call::{Action, BLOBS, Call, Damage, Fault, INSTANCES, STATES};
+use crate::call::{Action, BLOBS, Call, Damage, Fault, Handles, INSTANCES, STATES};
 use crate::package::Kind;
 use crate::package::Package;
-use crate::standard::{Purpose, State, Verdict, successor, verdict};
+use crate::standard::{Purpose, State, Verdict, Version, successor, verdict};
 use instance::{Instance, Known};
 
 /// Bytes of a saved state, and what is known of it.
@@ -81,7 +81,9 @@ impl<'a> Player<'a> {
     /// What the library did wrong, and at which call.
     pub fn play(mut self, calls: &[Call]) -> Result<u64, (usize, String)> {
         for (index, call) in calls.iter().enumerate() {
-            self.call(call).map_err(|wrong| (index, format!("{} {wrong}", call.action.function())))?;
+            self.call(call).map_err(|wrong| {
+                (index, format!("{} {wrong}", call.action.function(self.package.version)))
+            })?;
         }
         Ok(self.calls)
     }
@@ -89,8 +91,9 @@ impl<'a> Player<'a> {
     fn call(&mut self, call: &Call) -> Result<(), String> {
         self.calls += 1;
         match &call.action {
-            Action::Instantiate { cosimulation, logging, fault } => {
-                return self.instantiate(call.instance, *cosimulation, *logging, *fault);
+            Action::Instantiate { cosimulation, logging, handles, fault } => {
+                let purpose = if *cosimulation { Purpose::CoSimulation } else { Purpose::ModelExchange };
+                return self.instantiate(call.instance, (purpose, *handles), *logging, *fault);
             }
             Action::FreeInstance => {
                 self.instances[call.instance] = None;
@@ -110,12 +113,11 @@ impl<'a> Player<'a> {
     fn instantiate(
         &mut self,
         place: usize,
-        cosimulation: bool,
+        purpose: (Purpose, Handles),
         logging: bool,
         fault: Fault,
     ) -> Result<(), String> {
         self.instances[place] = None;
-        let purpose = if cosimulation { Purpose::CoSimulation } else { Purpose::ModelExchange };
         let made = Instance::new(self.api, self.package, purpose, logging, fault)?;
         match (made.is_some(), fault) {
             (true, Fault::None) => self.instances[place] = made,
@@ -136,8 +138,9 @@ impl<'a> Player<'a> {
 
     fn call_instance(&mut self, instance: &mut Instance, call: &Call) -> Result<(), String> {
         let Call { action, checked, .. } = call;
+        let function = action.function(self.package.version);
         let legal = match instance.known.state {
-            Some(state) => verdict(instance.known.purpose, state, action.function()),
+            Some(state) => verdict(self.package.version, instance.known.purpose, state, function),
             None => Verdict::Either,
         };
         let expected = match legal {
@@ -165,7 +168,7 @@ impl<'a> Player<'a> {
                 instance.last_message()
             ));
         }
-        self.follow(instance, action, status, &states)?;
+        self.follow(instance, action, &outcome, &states)?;
         if let Some(wrong) = self.unanswered(instance, action, &outcome) {
             return Err(wrong);
         }
@@ -196,28 +199,30 @@ impl<'a> Player<'a> {
         &mut self,
         instance: &mut Instance,
         action: &Action,
-        status: Status,
+        outcome: &invoke::Outcome,
         states: &[FmuState; STATES],
     ) -> Result<(), String> {
+        let (status, version) = (outcome.status, self.package.version);
         let known = &mut instance.known;
         let accepted = matches!(status, Status::Ok | Status::Warning);
         if arguments::is_wild(self.package, action) && (accepted || arguments::sets_several(action)) {
             known.tame = false;
         }
-        if status == Status::Discard && matches!(action, Action::DoStep { .. }) {
+        // In FMI 3.0 a discarded step leaves everything as it was.
+        if status == Status::Discard && version == Version::Two && matches!(action, Action::DoStep { .. }) {
             known.state = known.state.map(|_| State::StepFailed);
         }
         if !accepted {
             return Ok(());
         }
-        if let Some(next) = successor(known.purpose, action.function())
+        if let Some(next) = successor(known.purpose, known.handles.events, action.function(version))
             && (known.state.is_some() || next == State::Instantiated)
         {
             known.state = Some(next);
         }
         match action {
             Action::Reset => {
-                *known = Known::fresh(known.purpose);
+                *known = Known::fresh(known.purpose, known.handles);
                 if instance.bytes(self.api)? != instance.fresh {
                     return Err("left an instance that is not as a fresh one".into());
                 }
@@ -227,7 +232,15 @@ impl<'a> Player<'a> {
             }
             Action::SetTime { time } => known.time = *time,
             Action::DoStep { offset, size } => {
-                let end = known.time + offset + size;
+                let mut end = known.time + offset + size;
+                if version == Version::Three {
+                    let allowed = known.handles.events && known.handles.early_return;
+                    let early = outcome.early && allowed && known.time < outcome.real && outcome.real < end;
+                    if !early && (outcome.early || outcome.real.to_bits() != end.to_bits()) {
+                        return Err(format!("was to go to {end} s and went to {} s", outcome.real));
+                    }
+                    end = outcome.real;
+                }
                 known.time = end;
                 let told = instance.time(self.api);
                 if told.map(f64::to_bits) != Some(end.to_bits()) {
@@ -254,7 +267,8 @@ impl<'a> Player<'a> {
             }
             Action::SetFmuState { state } => {
                 let state = self.states[*state];
-                instance.known = instance.saved[&(state as usize)].clone();
+                let handles = instance.known.handles;
+                instance.known = Known { handles, ..instance.saved[&(state as usize)].clone() };
                 if instance.bytes(self.api)? != instance.bytes_of(self.api, state)? {
                     return Err("did not lead to the saved state".into());
                 }
@@ -271,10 +285,11 @@ impl<'a> Player<'a> {
         bytes: &[u8],
         action: &Action,
     ) -> Result<(Status, Vec<u8>), String> {
-        let purpose = instance.known.purpose;
-        let mut twin = match self.twins[purpose as usize].take() {
+        let Known { purpose, handles, .. } = instance.known;
+        let kept = self.twins[purpose as usize].take().filter(|twin| twin.known.handles == handles);
+        let mut twin = match kept {
             Some(twin) => twin,
-            None => Instance::new(self.api, self.package, purpose, false, Fault::None)?
+            None => Instance::new(self.api, self.package, (purpose, handles), false, Fault::None)?
                 .ok_or("gave no second instance")?,
         };
         twin.restore(self.api, bytes)?;

@@ -13,6 +13,11 @@ pub fn package(name: &str) -> Package {
     Package::open(&strut::fmus().join(name).with_extension("fmu")).expect("the FMU is built")
 }
 
+pub fn package_of_fmi_3(name: &str) -> Package {
+    let fmu = strut::fmus().join("fmi3").join(name).with_extension("fmu");
+    Package::open(&fmu).expect("the FMU is built")
+}
+
 /// An instance for co-simulation; it may go from thread to thread.
 pub struct Slave {
     pub api: Api,
@@ -25,7 +30,7 @@ unsafe impl Send for Slave {}
 impl Drop for Slave {
     fn drop(&mut self) {
         // SAFETY: ours, and not used any more.
-        unsafe { (self.api.free_instance)(self.component) }
+        unsafe { (self.api.common.free_instance)(self.component) }
     }
 }
 
@@ -42,7 +47,7 @@ impl Slave {
         let resources = package.resources();
         // SAFETY: all pointers live; without a logger nothing is called back.
         let component = unsafe {
-            (api.instantiate)(
+            (api.two().instantiate)(
                 c"slave".as_ptr(),
                 1,
                 package.guid.as_ptr(),
@@ -56,9 +61,9 @@ impl Slave {
         let slave = Self { api, component };
         // SAFETY: the component is ours, here and below.
         unsafe {
-            assert_eq!((api.setup_experiment)(component, FALSE, 0.0, 0.0, FALSE, 0.0), Status::Ok);
-            assert_eq!((api.enter_initialization_mode)(component), Status::Ok);
-            assert_eq!((api.exit_initialization_mode)(component), Status::Ok);
+            assert_eq!((api.two().setup_experiment)(component, FALSE, 0.0, 0.0, FALSE, 0.0), Status::Ok);
+            assert_eq!((api.two().enter_initialization_mode)(component), Status::Ok);
+            assert_eq!((api.common.exit_initialization_mode)(component), Status::Ok);
         }
         slave
     }
@@ -76,10 +81,10 @@ impl Slave {
         // SAFETY: arrays are as long as is said.
         unsafe {
             let c = self.component;
-            let set = (self.api.set_real)(c, inputs.as_ptr(), inputs.len(), given.as_ptr());
+            let set = (self.api.two().set_real)(c, inputs.as_ptr(), inputs.len(), given.as_ptr());
             assert_eq!(set, Status::Ok);
-            assert_eq!((self.api.do_step)(c, from, size, TRUE), Status::Ok);
-            let got = (self.api.get_real)(c, told.as_ptr(), told.len(), values.as_mut_ptr());
+            assert_eq!((self.api.two().do_step)(c, from, size, TRUE), Status::Ok);
+            let got = (self.api.two().get_real)(c, told.as_ptr(), told.len(), values.as_mut_ptr());
             assert_eq!(got, Status::Ok);
         }
         values.into_iter().map(f64::to_bits).collect()
