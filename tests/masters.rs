@@ -18,6 +18,7 @@ fn some_of_each_kind_do_the_same_in_every_master() {
 #[test]
 fn casadis_jacobians_are_those_of_differences() {
     print!("{}", strut::python("tests/masters/casadi_jacobians.py", [strut::fmus()]));
+    print!("{}", strut::python("tests/masters/casadi_jacobians.py", [strut::fmus().join("fmi3")]));
 }
 
 #[test]

@@ -62,15 +62,35 @@ impl Fmu {
         (count(Causality::Input), count(Causality::Output))
     }
 
-    /// The archive for a version of the standard, with a library for each platform.
+    /// An archive for each version of the standard, with a library for each platform.
     ///
     /// # Errors
     /// If the parameter set does not fit the model, a file of it is missing, or the default experiment
     /// fails.
-    pub fn pack(&self, version: Version, libraries: &[(Platform, Vec<u8>)], license: &str) -> Result<Packed> {
+    pub fn pack(
+        &self,
+        versions: &[Version],
+        libraries: &[(Platform, Vec<u8>)],
+        license: &str,
+    ) -> Result<Vec<Packed>> {
         let interface = self.interface()?;
         let trajectory =
             self.entry.demonstrate(self.parsed(), self.folder()).map_err(|error| self.refused(&error))?;
+        let page = documentation::html(&Page { fmu: self, interface: &interface, trajectory: &trajectory });
+        let archive = |version: &Version| {
+            let bytes = self.archive(*version, (&interface, &page), libraries, license)?.bytes();
+            Ok(Packed { bytes, interface: interface.clone() })
+        };
+        versions.iter().map(archive).collect()
+    }
+
+    fn archive(
+        &self,
+        version: Version,
+        (interface, page): (&Interface, &str),
+        libraries: &[(Platform, Vec<u8>)],
+        license: &str,
+    ) -> Result<Archive> {
         let generated = generation_time();
         let header = Header {
             name: &self.name,
@@ -80,15 +100,14 @@ impl Fmu {
             ..Header::default()
         };
         let mut archive = Archive::default();
-        version.describe(&mut archive, &interface, &header);
+        version.describe(&mut archive, interface, &header);
         for (platform, library) in libraries {
             for folder in version.binaries(platform, libraries) {
                 let file = format!("binaries/{folder}/{}{}", self.name, platform.ending);
                 archive.add_library(file, library.as_slice());
             }
         }
-        let page = Page { fmu: self, interface: &interface, trajectory: &trajectory };
-        archive.add("documentation/index.html", documentation::html(&page));
+        archive.add("documentation/index.html", page);
         if !license.is_empty() {
             archive.add(version.license(), license);
         }
@@ -98,7 +117,7 @@ impl Fmu {
                 archive.add(format!("resources/{file}"), self.resource(set, file)?);
             }
         }
-        Ok(Packed { bytes: archive.bytes(), interface })
+        Ok(archive)
     }
 
     fn parsed(&self) -> Option<&ParameterSet> {
@@ -168,14 +187,18 @@ mod tests {
         Fmu { name: parsed.fmu.clone(), entry, set: Some(Set { parsed, text: (*text).into(), folder }) }
     }
 
+    fn archived(fmu: &Fmu, version: Version, libraries: &[(Platform, Vec<u8>)], license: &str) -> Packed {
+        fmu.pack(&[version], libraries, license).unwrap().remove(0)
+    }
+
     #[test]
     fn an_archive_has_everything_in_its_place() {
         let platforms =
             ["x86_64-unknown-linux-gnu", "x86_64-pc-windows-gnu"].map(|triple| Platform::of(triple).unwrap());
         let libraries = platforms.map(|platform| (platform, b"library".to_vec()));
         let fmu = recorded_road(&["profile.csv"]);
-        let packed = fmu.pack(Version::Two, &libraries, "MIT License\n\n...").unwrap();
-        assert_eq!(packed.bytes, fmu.pack(Version::Two, &libraries, "MIT License\n\n...").unwrap().bytes);
+        let packed = archived(&fmu, Version::Two, &libraries, "MIT License\n\n...");
+        assert_eq!(packed.bytes, archived(&fmu, Version::Two, &libraries, "MIT License\n\n...").bytes);
         let mut zip = zip::ZipArchive::new(std::io::Cursor::new(packed.bytes)).unwrap();
         let names: Vec<String> = zip.file_names().map(|name| name.unwrap().into_owned()).collect();
         assert_eq!(
@@ -202,7 +225,7 @@ mod tests {
         let platforms = ["i686-unknown-linux-gnu", "aarch64-unknown-linux-gnu", "x86_64-pc-windows-gnu"];
         let platforms = platforms.map(|triple| Platform::of(triple).unwrap());
         let libraries = platforms.map(|platform| (platform, b"library".to_vec()));
-        let packed = recorded_road(&["profile.csv"]).pack(Version::Three, &libraries, "MIT License").unwrap();
+        let packed = archived(&recorded_road(&["profile.csv"]), Version::Three, &libraries, "MIT License");
         let mut zip = zip::ZipArchive::new(std::io::Cursor::new(packed.bytes)).unwrap();
         let names: Vec<String> = zip.file_names().map(|name| name.unwrap().into_owned()).collect();
         assert_eq!(
@@ -231,7 +254,7 @@ mod tests {
         let names = |triples: &[&str]| {
             let platform = |triple: &&str| (Platform::of(triple).unwrap(), triple.as_bytes().to_vec());
             let libraries: Vec<_> = triples.iter().map(platform).collect();
-            let packed = recorded_road(&["profile.csv"]).pack(Version::Two, &libraries, "").unwrap();
+            let packed = archived(&recorded_road(&["profile.csv"]), Version::Two, &libraries, "");
             let zip = zip::ZipArchive::new(std::io::Cursor::new(packed.bytes)).unwrap();
             let mut names: Vec<String> = zip.file_names().map(|name| name.unwrap().into_owned()).collect();
             names.retain(|name| name.starts_with("binaries/"));
@@ -247,10 +270,10 @@ mod tests {
     #[test]
     fn files_stay_within_the_archive() {
         for file in ["../../../LICENSE", "/etc/hostname", "a//b", "parameters.toml", "c\\..\\d"] {
-            let error = recorded_road(&[file]).pack(Version::Two, &[], "").unwrap_err().to_string();
+            let error = recorded_road(&[file]).pack(&[Version::Two], &[], "").unwrap_err().to_string();
             assert!(error.contains("cannot bring the file"), "{error}");
         }
-        let error = recorded_road(&["missing.csv"]).pack(Version::Two, &[], "").unwrap_err().to_string();
+        let error = recorded_road(&["missing.csv"]).pack(&[Version::Two], &[], "").unwrap_err().to_string();
         assert!(error.contains("RecordedRoad needs") && error.contains("missing.csv"), "{error}");
     }
 

@@ -129,7 +129,8 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
     let folder = Folder::open(&arguments.out)?;
     let paths: Vec<PathBuf> =
         versions.iter().map(|version| version.folder(&arguments.out, &versions)).collect();
-    let folders = paths.iter().map(|path| Folder::open(path)).collect::<Result<Vec<_>>>()?;
+    let opened = versions.iter().zip(&paths).map(|(version, path)| Ok((*version, path, Folder::open(path)?)));
+    let places = opened.collect::<Result<Vec<_>>>()?;
     let package = |fmu: &Fmu| match project.source {
         Source::Workspace { .. } => cargo::package_of(fmu.entry.about.name),
         Source::Package { name, .. } => name.to_owned(),
@@ -155,8 +156,8 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
             .iter()
             .map(|(platform, libraries)| Ok((platform.clone(), library(&libraries[&package(fmu)])?)))
             .collect::<Result<Vec<_>>>()?;
-        for ((version, path), folder) in versions.iter().zip(&paths).zip(&folders) {
-            let result = fmu.pack(*version, &libraries, project.license)?;
+        let results = fmu.pack(&versions, &libraries, project.license)?;
+        for (result, (version, path, folder)) in results.into_iter().zip(&places) {
             if plan.wanted.contains(&index) {
                 let file = format!("{}.fmu", fmu.name);
                 folder.write(&file, &result.bytes)?;

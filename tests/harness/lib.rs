@@ -33,7 +33,7 @@ pub fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
 }
 
-/// The folder with every FMU and system, built on the first call; or the one that `STRUT_FMUS` names, for
+/// The folder with every FMU and system, and those of FMI 3.0 in its folder `fmi3`, built on the first call; or the one that `STRUT_FMUS` names, for
 /// who works on a test and has built what it needs.
 pub fn fmus() -> &'static Path {
     static FMUS: OnceLock<PathBuf> = OnceLock::new();
@@ -43,7 +43,7 @@ pub fn fmus() -> &'static Path {
         }
         let out = target().join("tested-fmus");
         let _lock = lock("fmus.lock");
-        run(build_fmu().arg("--out").arg(&out));
+        run(build_fmu().args(["--fmi", "2", "--fmi", "3", "--out"]).arg(&out));
         out
     })
 }

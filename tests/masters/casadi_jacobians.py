@@ -23,8 +23,10 @@ def jacobians(path):
         with zipfile.ZipFile(path) as archive:
             archive.extractall(folder)
         root = ElementTree.parse(Path(folder) / "modelDescription.xml").getroot()
-        declared = {v.get("name"): v[0] for v in root.find("ModelVariables")}
-        start = {name: float(kind.get("start") or 0.0) for name, kind in declared.items() if kind.tag == "Real"}
+        # In FMI 3.0 a variable is its type's element itself.
+        declared = {v.get("name"): v[0] if v.tag == "ScalarVariable" else v for v in root.find("ModelVariables")}
+        numbers = {name: kind for name, kind in declared.items() if kind.tag in ("Real", "Float64")}
+        start = {name: float(kind.get("start") or 0.0) for name, kind in numbers.items() if not len(kind)}
         model = ca.DaeBuilder("fmu", folder)
         states, inputs = model.x(), model.u()
         functions = (["ode"] if states else []) + (["y"] if model.y() else [])
@@ -70,6 +72,10 @@ def main():
     paths, entries = sorted(Path(sys.argv[1]).glob("*.fmu")), 0
     assert paths, "no FMUs"
     for path in paths:
+        if path.parent.name == "fmi3" and "<Start " in zipfile.ZipFile(path).read("modelDescription.xml").decode():
+            # CasADi 3.8.2 reads no variables of type String in FMI 3.0: "Cannot handle: Start".
+            print(f"{path.stem}: not read, it has strings")
+            continue
         worst, found = jacobians(path)
         print(f"{path.stem}: {found} entries, {worst:.1e} apart")
         assert worst <= TOLERANCE, path.stem
