@@ -73,7 +73,9 @@ fn a_model_of_ones_own_becomes_an_fmu_by_one_command() {
     assert!(source.lines().count() <= 40, "README says that 40 lines are enough");
     let out = strut::target().join("tested-own-model");
     let manifest = strut::root().join("examples/own-model/Cargo.toml");
-    strut::run(strut::build_fmu().arg("--manifest-path").arg(&manifest).arg("--out").arg(&out));
+    let mut build = strut::build_fmu();
+    build.args(["--fmi", "2", "--fmi", "3", "--manifest-path"]).arg(&manifest).arg("--out").arg(&out);
+    strut::run(&mut build);
     let told = |command: &[&str]| {
         let output = strut::run(strut::build_fmu().args(command).arg("--manifest-path").arg(&manifest));
         // Whatever the lines are wrapped at.
@@ -85,6 +87,10 @@ fn a_model_of_ones_own_becomes_an_fmu_by_one_command() {
     );
     for check in ["validate", "starts", "rewind", "directional", "model_exchange"] {
         let output = strut::python("tests/masters/fmpy_checks.py", [check.as_ref(), out.as_os_str()]);
+        assert_eq!(output.trim(), format!("{check}: AirSpring"));
+    }
+    for check in ["validate", "same_bits", "derivatives"] {
+        let output = strut::python("tests/masters/fmi3_checks.py", [check.as_ref(), out.as_os_str()]);
         assert_eq!(output.trim(), format!("{check}: AirSpring"));
     }
 }
@@ -163,6 +169,18 @@ fn the_benchmark_prints_a_row_of_numbers() {
     assert_eq!(row[1], "TumQuarterVehicle", "{text}");
     let nanoseconds: f64 = row[7].parse().unwrap_or_else(|_| panic!("no time: {text}"));
     assert!(nanoseconds > 0.0, "{text}");
+}
+
+/// The script compares the outputs of both versions.
+#[test]
+fn a_step_of_fmi_3_leads_where_one_of_fmi_2_does() {
+    let fmus = strut::fmus().to_str().expect("the folder's name is text");
+    let text = strut::python("examples/benchmark/versions.py", [fmus, "QuarterCar", "KogutMrRotaryBrake"]);
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split('|').map(str::trim).collect()).collect();
+    assert_eq!((rows.len(), rows[2][1], rows[3][1]), (4, "QuarterCar", "KogutMrRotaryBrake"), "{text}");
+    for row in &rows[2..] {
+        assert!(row[2].parse::<f64>().is_ok_and(|nanoseconds| nanoseconds > 0.0), "{text}");
+    }
 }
 
 /// Both ways have the same information on every parameter, and one of them is by far cheaper; by how much, the

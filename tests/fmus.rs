@@ -32,7 +32,7 @@ mod fmi3 {
 
     checks! {
         "tests/masters/fmi3_checks.py":
-        validate same_bits same_bits_in_model_exchange event_mode derivatives ecos
+        validate same_bits same_bits_in_model_exchange event_mode derivatives ecos fmutool
     }
 }
 
