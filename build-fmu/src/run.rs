@@ -111,7 +111,7 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
     let versions = Version::wanted(&arguments.versions);
     let mut notes = Vec::new();
     if !versions.contains(&Version::Two) {
-        notes.extend(without_systems(&mut plan, &arguments.names)?);
+        notes.extend(without_systems(&mut plan, arguments)?);
     }
     // Mistakes in systems come to light before minutes of compiling.
     let mut needed = plan.wanted.clone();

@@ -8,6 +8,7 @@ use strut_model::Interface;
 use strut_model_description::{Header, write, write_fmi3, write_terminals};
 
 use crate::archive::Archive;
+use crate::cli::Arguments;
 use crate::failure::{Failure, Result};
 use crate::icon;
 use crate::plan::Plan;
@@ -78,16 +79,20 @@ impl Version {
 ///
 /// # Errors
 /// If one was asked for.
-pub fn without_systems(plan: &mut Plan, asked_for: &[String]) -> Result<Option<String>> {
-    let named = plan
-        .systems
-        .iter()
-        .find(|(system, folder)| asked_for.contains(&system.name) || folder != Path::new(""));
-    if let Some((system, _)) = named {
-        return Err(Failure::new(format!("the system {} is made of FMUs of FMI 2.0 (SSP 1.0)", system.name))
-            .help("add `--fmi 2`"));
+pub fn without_systems(plan: &mut Plan, arguments: &Arguments) -> Result<Option<String>> {
+    let asked_for = !arguments.systems.is_empty() || !arguments.names.is_empty();
+    match plan.systems.first() {
+        Some((system, _)) if asked_for => Err(Failure::new(format!(
+            "the system {} is made of FMUs of FMI 2.0, as SSP 1.0 wants",
+            system.name
+        ))
+        .help("add `--fmi 2`")),
+        Some(_) => {
+            let count = std::mem::take(&mut plan.systems).len();
+            Ok(Some(format!(
+                "{count} systems are left out, as SSP 1.0 wants FMI 2.0: add `--fmi 2` for them"
+            )))
+        }
+        None => Ok(None),
     }
-    let left_out = std::mem::take(&mut plan.systems).len();
-    Ok((left_out > 0)
-        .then(|| format!("{left_out} systems are left out: SSP 1.0 wants FMI 2.0, add `--fmi 2`")))
 }

@@ -235,6 +235,20 @@ fn a_bad_system_does_not_stop_the_others() {
 }
 
 #[test]
+fn systems_want_fmi_2_and_other_versions_are_unknown() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let out = out.to_str().unwrap();
+    fails(
+        &["quanser-lqr", "--fmi", "3", "--out", out],
+        &["the system quanser-lqr", "SSP 1.0", "add `--fmi 2`"],
+    );
+    assert!(!Path::new(out).exists());
+    let (code, _, stderr) = answer(&["QuarterCar", "--fmi", "1"]);
+    assert!(code == 2 && stderr.contains("[possible values: 2, 3]"), "{stderr}");
+}
+
+#[test]
 fn a_folder_that_cannot_be_written_is_told_before_the_build() {
     let folder = tempfile::tempdir().unwrap();
     let taken = file(&folder, "taken", "");
