@@ -14,6 +14,7 @@ mod masters;
 mod mutations;
 mod packages;
 mod platforms;
+mod prebuilt;
 #[path = "check/ssp.rs"]
 mod ssp;
 #[path = "check/subject.rs"]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
-use std::io::BufReader;
+use std::io::{BufReader, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -42,6 +42,10 @@ pub fn metadata(manifest: Option<&Path>) -> Result<Metadata> {
         cargo_metadata::Error::CargoMetadata { stderr } => {
             Failure::new(format!("cargo does not understand the manifest\n{}", stderr.trim()))
         }
+        cargo_metadata::Error::Io(error) if error.kind() == ErrorKind::NotFound => {
+            Failure::new("there is no cargo, which builds the libraries of FMUs")
+                .help("install Rust (rustup.rs), or give a folder of prebuilt libraries by --libraries")
+        }
         other => Failure::new(format!("cannot ask cargo for the packages: {other}")),
     })
 }
@@ -61,10 +65,6 @@ pub type Libraries = BTreeMap<String, PathBuf>;
 /// # Errors
 /// If a package is missing or the build fails.
 pub fn build(metadata: &Metadata, packages: &[String], toolchain: &Toolchain) -> Result<Libraries> {
-    // A system may be made of the FMUs of others alone. Told of no package, cargo would build the workspace.
-    if packages.is_empty() {
-        return Ok(Libraries::new());
-    }
     for package in packages {
         if !metadata.packages.iter().any(|other| other.name.as_str() == package) {
             let names = metadata.packages.iter().map(|package| package.name.as_str());
@@ -128,13 +128,6 @@ pub fn package_of(model: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn where_no_library_is_asked_for_none_is_built() {
-        let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
-        let metadata = metadata(Some(&manifest)).unwrap();
-        assert_eq!(build(&metadata, &[], &Toolchain::HOST).unwrap(), Libraries::new());
-    }
 
     #[test]
     fn packages_are_named_after_their_model() {

@@ -15,6 +15,8 @@ Examples:
   build-fmu list                                what there is
   build-fmu describe TumQuarterVehicle          its variables, equations and sources
   build-fmu check fmus/QuarterCar.fmu           whether an FMU, anyone's, is fit for other tools
+  build-fmu TumQuarterVehicle --set strut.stiffness=9000 --name StiffRig
+                                                with another value, under another name
   build-fmu --parameters my-rig.toml            a model with your own parameter set
   build-fmu --system my-system.toml             your own composition, as an SSP
   build-fmu --manifest-path my-model/Cargo.toml your own model
@@ -45,6 +47,16 @@ Examples:
   build-fmu describe AirSpring --manifest-path examples/own-model/Cargo.toml
                                                 a model of your own";
 
+const LIBRARIES_EXAMPLES: &str = "\
+Examples:
+  build-fmu libraries --out libraries           for this machine
+  build-fmu libraries --out libraries --target x86_64-unknown-linux-gnu.2.17 --target x86_64-pc-windows-gnu
+                                                for any Linux since 2012 and for Windows
+  build-fmu TumQuarterVehicle --libraries libraries
+                                                an FMU of them, without cargo
+
+The folder `libraries` beside the program, or beside its folder, is found without --libraries.";
+
 #[cfg(feature = "tools")]
 const CHECK_EXAMPLES: &str = "\
 Examples:
@@ -71,10 +83,10 @@ It completes `build-fmu`, which `cargo install --path build-fmu` puts into the p
 
 /// Packs models as FMUs (FMI 2.0, FMI 3.0) and systems as SSPs (SSP 1.0)
 #[derive(Parser, Debug)]
-#[command(name = "build-fmu", bin_name = "build-fmu", version, after_help = EXAMPLES)]
+#[command(name = "build-fmu", version = crate::VERSION, after_help = EXAMPLES)]
 #[command(args_conflicts_with_subcommands = true)]
 pub struct CommandLine {
-    /// Something else than building.
+    /// Subcommands
     #[command(subcommand)]
     pub command: Option<Command>,
     /// What to build.
@@ -82,10 +94,18 @@ pub struct CommandLine {
     pub build: Arguments,
 }
 
+impl CommandLine {
+    /// A command without anything to build.
+    pub fn of(command: Command) -> Self {
+        Self { command: Some(command), build: Arguments::default() }
+    }
+}
+
 /// The names of what there is to do besides building: what a misspelt one may have been meant for.
 pub const COMMANDS: &[&str] = &[
     "list",
     "describe",
+    "libraries",
     #[cfg(feature = "tools")]
     "check",
     #[cfg(feature = "tools")]
@@ -105,6 +125,9 @@ pub enum Command {
     #[cfg(feature = "tools")]
     #[command(after_help = CHECK_EXAMPLES)]
     Check(CheckArguments),
+    /// Builds the library of every model into a folder, from which FMUs are made without cargo
+    #[command(after_help = LIBRARIES_EXAMPLES)]
+    Libraries(LibrariesArguments),
     /// Prints a script that completes commands, options and names in a shell
     #[cfg(feature = "tools")]
     #[command(after_help = COMPLETIONS_EXAMPLES)]
@@ -129,6 +152,7 @@ pub struct ListArguments {
     #[arg(value_name = "NAME")]
     pub names: Vec<String>,
 
+    /// What there is besides.
     #[command(flatten)]
     pub models: ModelArguments,
 
@@ -144,6 +168,7 @@ pub struct DescribeArguments {
     #[arg(value_name = "NAME")]
     pub name: String,
 
+    /// What there is besides.
     #[command(flatten)]
     pub models: ModelArguments,
 
@@ -216,6 +241,26 @@ pub struct ModelArguments {
     pub manifest_path: Option<PathBuf>,
 }
 
+/// Libraries for which platforms, and where to.
+#[derive(Args, Debug)]
+pub struct LibrariesArguments {
+    /// Folder to write to; made if it is missing
+    #[arg(long, value_name = "DIR", default_value = "libraries")]
+    pub out: PathBuf,
+
+    /// Rust target to build for, several times for several platforms [default: this machine]
+    #[arg(long = "target", value_name = "TRIPLE")]
+    pub targets: Vec<String>,
+
+    /// Folder of the toolchain for targets that are not installed, as build-fmu/cross/toolchain makes it
+    #[arg(long, value_name = "DIR", env = "STRUT_CROSS")]
+    pub cross: Option<PathBuf>,
+
+    /// Folder of prebuilt libraries; cargo builds what is not in it [env: STRUT_LIBRARIES=]
+    #[arg(long, value_name = "DIR")]
+    pub libraries: Option<PathBuf>,
+}
+
 /// What to build, for which platforms, and where to.
 #[derive(Args, Debug, Default)]
 pub struct Arguments {
@@ -238,6 +283,18 @@ pub struct Arguments {
     /// Folder of the toolchain for targets that are not installed, as build-fmu/cross/toolchain makes it
     #[arg(long, value_name = "DIR", env = "STRUT_CROSS")]
     pub cross: Option<PathBuf>,
+
+    /// Value of a parameter of the FMU that is named, in its SI unit: strut.stiffness=9000
+    #[arg(long, value_name = "NAME=VALUE", requires = "names")]
+    pub set: Vec<String>,
+
+    /// Name of the FMU that --set makes [default: as before]
+    #[arg(long, value_name = "NAME", requires = "set")]
+    pub name: Option<String>,
+
+    /// Folder of prebuilt libraries, from `build-fmu libraries`; cargo builds what is not in it [env: STRUT_LIBRARIES=]
+    #[arg(long, value_name = "DIR")]
+    pub libraries: Option<PathBuf>,
 
     /// Parameter set (TOML) to make an FMU of
     #[arg(long, value_name = "FILE")]

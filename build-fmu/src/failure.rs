@@ -36,6 +36,12 @@ impl Failure {
         self.help.push(help.into());
         self
     }
+
+    /// Adds help where there is some.
+    #[must_use]
+    pub fn help_if(self, help: Option<String>) -> Self {
+        help.into_iter().fold(self, Self::help)
+    }
 }
 
 impl Display for Failure {

@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 
 use strut_model::{Causality, Entry, Error, Interface, ParameterSet};
+#[cfg(feature = "strut")]
+use strut_model::{Inputs, Trajectory};
 use strut_model_description::Header;
 
 use crate::archive::Archive;
@@ -118,6 +120,16 @@ impl Fmu {
             }
         }
         Ok(archive)
+    }
+
+    /// Simulates the model: see [`Entry::simulate`].
+    ///
+    /// # Errors
+    /// If inputs or values do not fit, or the integration fails.
+    #[cfg(feature = "strut")]
+    pub fn simulate(&self, inputs: Option<&Inputs>, times: [f64; 2]) -> Result<Trajectory> {
+        let simulated = self.entry.simulate(self.parsed(), self.folder(), inputs, times);
+        simulated.map_err(|error| Failure::new(format!("{}: {error}", self.name)))
     }
 
     fn parsed(&self) -> Option<&ParameterSet> {

@@ -39,17 +39,20 @@ mod check;
 mod cli;
 #[cfg(feature = "tools")]
 mod completions;
+mod custom;
 mod describe;
 mod documentation;
 mod failure;
 mod fmu;
 mod foreign;
 mod icon;
+mod libraries;
 mod list;
 mod needs;
 mod plan;
 mod platform;
 mod plot;
+mod prebuilt;
 mod run;
 mod style;
 mod system;
@@ -58,11 +61,22 @@ mod toolchain;
 mod version;
 
 #[cfg(feature = "strut")]
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
-use strut_model::Entry;
+#[cfg(feature = "tools")]
+pub use cli::CheckArguments;
+pub use cli::{Arguments, Command, CommandLine, DescribeArguments, ListArguments};
+use strut_model::{Entry, ParameterSet};
+#[cfg(feature = "strut")]
+use strut_model::{Inputs, Trajectory};
+
+/// The version of this program, with the commit where the build is told: `0.1.0 (1a2b3c4d5e6f)`.
+pub const VERSION: &str = match option_env!("STRUT_VERSION") {
+    Some(version) => version,
+    None => env!("CARGO_PKG_VERSION"),
+};
 
 /// What there is to build.
 #[derive(Clone, Copy, Debug)]
@@ -77,6 +91,15 @@ pub struct Project<'a> {
     pub source: Source<'a>,
     /// Text of the license; its first line goes into the descriptions.
     pub license: &'a str,
+}
+
+impl Project<'_> {
+    /// The files that its parameter sets bring.
+    fn resources(&self) -> Vec<String> {
+        let sets = self.parameter_sets.iter().filter_map(|(_, text)| ParameterSet::parse(text).ok());
+        let files: std::collections::BTreeSet<String> = sets.flat_map(|set| set.files).collect();
+        files.into_iter().collect()
+    }
 }
 
 /// Where cargo finds the libraries of models.
@@ -108,32 +131,105 @@ pub fn strut() -> Project<'static> {
     }
 }
 
-/// Packs the FMU of a parameter set of one of Strut's models into a folder.
+/// One FMU to make.
+#[cfg(feature = "strut")]
+#[derive(Clone, Copy, Debug)]
+pub enum Wanted<'a> {
+    /// That of a parameter set in a file.
+    Parameters(&'a Path),
+    /// That of a name, with values `NAME=VALUE` and perhaps another name.
+    Values(&'a str, &'a [String], Option<&'a str>),
+}
+
+/// Makes an FMU of one of Strut's models in a folder. `libraries` is a folder of prebuilt ones, else the one beside the
+/// program; cargo builds what is not there.
 ///
 /// # Errors
-/// If the set does not fit its model, or cargo cannot build the model's library: what to do.
+/// If the values do not fit the model, there is neither a library nor cargo, or the folder cannot be written: what to do.
 #[cfg(feature = "strut")]
-pub fn pack(project: &Project, parameters: &Path, out: &Path) -> Result<(), String> {
+pub fn make(
+    project: &Project,
+    wanted: Wanted,
+    out: &Path,
+    libraries: Option<&Path>,
+) -> Result<PathBuf, String> {
+    let mut arguments = Arguments { out: out.into(), ..arguments(libraries) };
+    match wanted {
+        Wanted::Parameters(path) => arguments.parameters.push(path.into()),
+        Wanted::Values(fmu, values, name) => {
+            arguments.names.push(fmu.into());
+            arguments.set = values.into();
+            arguments.name = name.map(Into::into);
+        }
+    }
+    let told = run::build(project, &arguments).map_err(|failure| failure.to_string())?;
+    let [name] = &told.fmus[..] else { unreachable!("one was asked for") };
+    Ok(out.join(format!("{name}.fmu")))
+}
+
+/// All FMUs and systems in JSON, as `build-fmu list --json` prints them.
+///
+/// # Errors
+/// If there is neither a folder of libraries nor a workspace.
+#[cfg(feature = "strut")]
+pub fn list(project: &Project, libraries: Option<&Path>) -> Result<String, String> {
+    let plan = run::plan(project, &arguments(libraries));
+    plan.and_then(|plan| list::text(&plan, true)).map_err(|failure| failure.to_string())
+}
+
+/// Variables, equations and sources of an FMU, or a system's components and connections, in JSON, as
+/// `build-fmu describe --json` prints them.
+///
+/// # Errors
+/// If there is none of this name.
+#[cfg(feature = "strut")]
+pub fn describe(project: &Project, name: &str, libraries: Option<&Path>) -> Result<String, String> {
+    let plan = run::plan(project, &arguments(libraries));
+    plan.and_then(|plan| describe::text(&plan, name, true)).map_err(|failure| failure.to_string())
+}
+
+/// Simulates an FMU's model with values `NAME=VALUE`, in this process: its driven inputs and all outputs. What is not given
+/// is that of its default experiment: the inputs, and step and stop time in seconds.
+///
+/// # Errors
+/// If there is no such FMU, a value or an input does not fit it, or the integration fails.
+#[cfg(feature = "strut")]
+pub fn simulate(
+    project: &Project,
+    (name, values): (&str, &[String]),
+    inputs: Option<&Inputs>,
+    [step, stop]: [Option<f64>; 2],
+    libraries: Option<&Path>,
+) -> Result<Trajectory, String> {
+    let arguments = Arguments { names: vec![name.into()], set: values.into(), ..arguments(libraries) };
+    let plan = run::plan(project, &arguments).map_err(|failure| failure.to_string())?;
+    let [index] = plan.wanted[..] else { return Err(plan.unknown(name).to_string()) };
+    let experiment = plan.fmus[index].entry.about.experiment;
+    let times = [step.unwrap_or(experiment.step), stop.unwrap_or(experiment.stop)];
+    plan.fmus[index].simulate(inputs, times).map_err(|failure| failure.to_string())
+}
+
+/// Of all that there is; an installed program has no workspace.
+#[cfg(feature = "strut")]
+fn arguments(libraries: Option<&Path>) -> Arguments {
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.toml");
-    let arguments = cli::Arguments {
-        names: Vec::new(),
-        out: out.into(),
-        versions: Vec::new(),
-        targets: Vec::new(),
-        cross: None,
-        parameters: vec![parameters.into()],
-        systems: Vec::new(),
-        manifest_path: Some(workspace),
-    };
-    let told = run::build(project, &arguments);
-    told.and_then(|told| told.failed.map_or(Ok(()), Err)).map_err(|failure| failure.to_string())
+    Arguments {
+        libraries: libraries.map(Into::into),
+        manifest_path: Some(workspace).filter(|manifest| manifest.exists()),
+        ..Arguments::default()
+    }
 }
 
 /// Builds what the command line asks for; failures are told on stderr.
 ///
 /// The exit code is 0, 1 after a failure, and 2 if the command line was not understood.
 pub fn main(project: &Project) -> ExitCode {
-    match run::run(project, &cli::CommandLine::parse()) {
+    run(project, &CommandLine::parse())
+}
+
+/// Builds what a command line asks for; failures are told on stderr.
+pub fn run(project: &Project, line: &CommandLine) -> ExitCode {
+    match run::run(project, line) {
         Ok(code) => code,
         Err(failure) => {
             anstream::eprintln!("{failure:#}");

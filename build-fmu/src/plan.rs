@@ -6,6 +6,7 @@ use strut_model::ParameterSet;
 
 use crate::Project;
 use crate::cli::{Arguments, COMMANDS};
+use crate::custom;
 use crate::failure::{Failure, Result, similar};
 use crate::fmu::{Fmu, Set};
 use crate::system::{Adapter, Part, System, Theirs};
@@ -46,6 +47,19 @@ impl Plan {
         for (name, text) in project.parameter_sets {
             fmus.push(with_set(project, name, text, files)?);
         }
+        for name in arguments.names.iter().filter(|_| !arguments.set.is_empty()) {
+            let position = fmus.iter().position(|fmu| fmu.name == *name);
+            let position = position.ok_or_else(|| unknown(name, &fmus, &[]))?;
+            let custom =
+                custom::with_values(&fmus[position], &arguments.set, arguments.name.as_deref(), files)?;
+            check_identifier(&custom.name, "--name")?;
+            if custom.name == *name {
+                fmus[position] = custom;
+            } else {
+                fmus.push(custom);
+            }
+        }
+        let names = arguments.name.as_ref().map_or(&*arguments.names, std::slice::from_ref);
         let given_fmus = fmus.len();
         for path in &arguments.parameters {
             let folder = path.parent().unwrap_or(Path::new(""));
@@ -76,14 +90,14 @@ impl Plan {
         let user_fmus = fmus.len() - arguments.parameters.len()..fmus.len();
         let everything =
             arguments.names.is_empty() && arguments.parameters.is_empty() && arguments.systems.is_empty();
-        for name in &arguments.names {
+        for name in names {
             if !fmus.iter().any(|fmu| fmu.name == *name)
                 && !systems.iter().any(|(system, _)| system.name == *name)
             {
                 return Err(unknown(name, &fmus, &systems));
             }
         }
-        let named = |name: &String| everything || arguments.names.contains(name);
+        let named = |name: &String| everything || names.contains(name);
         let wanted =
             (0..fmus.len()).filter(|index| named(&fmus[*index].name) || user_fmus.contains(index)).collect();
         let mut index = 0;
@@ -214,13 +228,19 @@ fn with_set(project: &Project, file: &str, text: &str, folder: &Path) -> Result<
             .fold(failure, Failure::help)
     })?;
     let name = parsed.fmu.clone();
+    check_identifier(&name, &format!("the parameter set `{file}`"))?;
+    Ok(Fmu { name, entry: *entry, set: Some(Set { parsed, text: text.into(), folder: folder.into() }) })
+}
+
+/// The name of a library's functions begins with the FMU's.
+fn check_identifier(name: &str, who: &str) -> Result<()> {
     let identifier = name.starts_with(|c: char| c.is_ascii_alphabetic())
         && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-    if !identifier {
-        return Err(Failure::new(format!("the parameter set `{file}` names its FMU `{name}`"))
-            .help("the name must be an identifier of the language C: letters, digits and `_`"));
+    if identifier {
+        return Ok(());
     }
-    Ok(Fmu { name, entry: *entry, set: Some(Set { parsed, text: text.into(), folder: folder.into() }) })
+    Err(Failure::new(format!("{who} names its FMU `{name}`"))
+        .help("the name must be an identifier of the language C: letters, digits and `_`"))
 }
 
 /// Two files of one name would overwrite each other.

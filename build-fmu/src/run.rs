@@ -2,22 +2,21 @@
 
 use std::collections::BTreeMap;
 use std::io::{IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 
-use cargo_metadata::Metadata;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use strut_model::Entry;
 
 use crate::archive::Folder;
-use crate::cargo::{self, Libraries};
 use crate::cli::{Arguments, Command, CommandLine};
 use crate::failure::{Failure, Result};
 use crate::fmu::{Fmu, Packed};
+use crate::libraries::{self, Origin};
 use crate::needs::Needs;
 use crate::plan::{Component, Plan};
 use crate::platform::Platform;
 use crate::system::{self, Face, System};
-use crate::toolchain::{self, Toolchain};
 use crate::version::{Version, without_systems};
 use crate::{Project, Source, describe, foreign, list, table};
 #[cfg(feature = "tools")]
@@ -32,6 +31,7 @@ pub fn run(project: &Project, line: &CommandLine) -> Result<ExitCode> {
         None => &line.build.manifest_path,
         Some(Command::List(list)) => &list.models.manifest_path,
         Some(Command::Describe(describe)) => &describe.models.manifest_path,
+        Some(Command::Libraries(_)) => &None,
         #[cfg(feature = "tools")]
         Some(Command::Check(arguments)) => return Ok(check::check(arguments)),
         #[cfg(feature = "tools")]
@@ -55,17 +55,18 @@ pub fn run(project: &Project, line: &CommandLine) -> Result<ExitCode> {
             told.table
         }
         Some(Command::List(arguments)) => {
-            let (_, plan) = plan(project, &arguments.models.of(&arguments.names))?;
+            let plan = plan(project, &arguments.models.of(&arguments.names))?;
             list::text(&plan, arguments.json)?
         }
         Some(Command::Describe(arguments)) => {
             // All of them: what is described names the sets and systems that it is in.
-            let (_, plan) = plan(project, &arguments.models.of(&[]))?;
+            let plan = plan(project, &arguments.models.of(&[]))?;
             describe::text(&plan, &arguments.name, arguments.json)?
         }
+        Some(Command::Libraries(arguments)) => libraries::store(project, arguments)?,
         #[cfg(feature = "tools")]
         Some(Command::Completions { shell }) => {
-            let (_, plan) = plan(project, &Arguments::default())?;
+            let plan = plan(project, &Arguments::default())?;
             completions::script(*shell, &plan)
         }
         #[cfg(feature = "tools")]
@@ -75,19 +76,12 @@ pub fn run(project: &Project, line: &CommandLine) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// What cargo knows of the project, and what the arguments ask for.
-fn plan(project: &Project, arguments: &Arguments) -> Result<(Metadata, Plan)> {
-    let manifest = match project.source {
-        Source::Package { manifest, .. } => Some(PathBuf::from(manifest)),
-        Source::Workspace { .. } => arguments.manifest_path.clone().or_else(cargo::workspace_manifest),
-    };
-    let metadata = cargo::metadata(manifest.as_deref())?;
-    let files = match project.source {
-        Source::Workspace { files } => metadata.workspace_root.as_std_path().join(files),
-        Source::Package { .. } => metadata.workspace_root.as_std_path().into(),
-    };
-    let plan = Plan::new(project, arguments, &files)?;
-    Ok((metadata, plan))
+/// What the arguments ask for.
+///
+/// # Errors
+/// If a file is broken, a name unknown, or neither libraries nor a workspace are there.
+pub fn plan(project: &Project, arguments: &Arguments) -> Result<Plan> {
+    Plan::new(project, arguments, &Origin::new(project, arguments)?.files()?)
 }
 
 /// What is to be told of a build.
@@ -95,6 +89,8 @@ fn plan(project: &Project, arguments: &Arguments) -> Result<(Metadata, Plan)> {
 pub struct Told {
     /// What was built, or could be.
     pub table: String,
+    /// The names of the FMUs that were written.
+    pub fmus: Vec<String>,
     /// What the libraries of each platform need of a machine.
     pub notes: Vec<String>,
     /// What is wrong with the systems that were not built.
@@ -106,8 +102,9 @@ pub struct Told {
 /// # Errors
 /// Whatever goes wrong first.
 pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
-    let (metadata, mut plan) = plan(project, arguments)?;
-    let platforms = platforms(arguments)?;
+    let origin = Origin::new(project, arguments)?;
+    let mut plan = Plan::new(project, arguments, &origin.files()?)?;
+    let platforms = libraries::platforms(&arguments.targets)?;
     let versions = Version::wanted(&arguments.versions);
     let mut notes = Vec::new();
     if !versions.contains(&Version::Two) {
@@ -126,25 +123,16 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
     needed.extend(assemblies.iter().flat_map(Assembly::ours));
     needed.sort_unstable();
     needed.dedup();
+    let models: Vec<Entry> = needed.iter().map(|index| plan.fmus[*index].entry).collect();
+    let found = origin.find(&models, &platforms, arguments)?;
     let folder = Folder::open(&arguments.out)?;
     let paths: Vec<PathBuf> =
         versions.iter().map(|version| version.folder(&arguments.out, &versions)).collect();
     let opened = versions.iter().zip(&paths).map(|(version, path)| Ok((*version, path, Folder::open(path)?)));
     let places = opened.collect::<Result<Vec<_>>>()?;
-    let package = |fmu: &Fmu| match project.source {
-        Source::Workspace { .. } => cargo::package_of(fmu.entry.about.name),
-        Source::Package { name, .. } => name.to_owned(),
-    };
-    let mut packages: Vec<String> = needed.iter().map(|index| package(&plan.fmus[*index])).collect();
-    packages.sort();
-    packages.dedup();
-    let mut built: Vec<(Platform, Libraries)> = Vec::new();
-    for (platform, toolchain) in platforms {
-        let libraries = cargo::build(&metadata, &packages, &toolchain)?;
-        if !libraries.is_empty() {
-            notes.push(format!("{} needs {}", platform.folder, Needs::of(&platform, &libraries)?));
-        }
-        built.push((platform, libraries));
+    let built = found.into_iter().map(|found| origin.build(found)).collect::<Result<Vec<_>>>()?;
+    for (platform, libraries) in built.iter().filter(|(_, libraries)| !libraries.is_empty()) {
+        notes.push(format!("{} needs {}", platform.folder, Needs::of(platform, libraries)?));
     }
     let progress = progress(needed.len() + assemblies.len());
     let mut packed: BTreeMap<usize, Packed> = BTreeMap::new();
@@ -154,7 +142,9 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
         progress.set_message(fmu.name.clone());
         let libraries = built
             .iter()
-            .map(|(platform, libraries)| Ok((platform.clone(), library(&libraries[&package(fmu)])?)))
+            .map(|(platform, all)| {
+                Ok((platform.clone(), libraries::read(&all[&origin.package(&fmu.entry)])?))
+            })
             .collect::<Result<Vec<_>>>()?;
         let results = fmu.pack(&versions, &libraries, project.license)?;
         for (result, (version, path, folder)) in results.into_iter().zip(&places) {
@@ -189,29 +179,8 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
     }
     progress.finish_and_clear();
     let table = table::aligned(&["NAME", "KIND", "IN → OUT", "PARAMETERS", "SIZE", "PATH"], &[4], &rows);
-    Ok(Told { table, notes, failed })
-}
-
-/// The platforms to build for, and what builds: a target that is not installed is found out before the
-/// first is built.
-fn platforms(arguments: &Arguments) -> Result<Vec<(Platform, Toolchain)>> {
-    if arguments.targets.is_empty() {
-        return Ok(vec![(toolchain::host()?, Toolchain::HOST)]);
-    }
-    let mut platforms: Vec<(Platform, Toolchain)> = Vec::new();
-    for target in &arguments.targets {
-        let platform = Platform::of(target)?;
-        if let Some((other, _)) = platforms.iter().find(|(other, _)| other.folder == platform.folder) {
-            return Err(Failure::new(format!(
-                "`{}` and `{}` are both `{}` in an FMU",
-                other.given, platform.given, platform.folder
-            ))
-            .help("give one of them"));
-        }
-        let toolchain = Toolchain::of(&platform, arguments.cross.as_deref())?;
-        platforms.push((platform, toolchain));
-    }
-    Ok(platforms)
+    let fmus = plan.wanted.iter().map(|index| plan.fmus[*index].name.clone()).collect();
+    Ok(Told { table, fmus, notes, failed })
 }
 
 /// A system with all that it is made of.
@@ -224,11 +193,7 @@ struct Assembly {
 }
 
 /// Finds what the systems are made of and checks that it fits and runs somewhere; and what is wrong with the others.
-fn assemble(
-    project: &Project,
-    plan: &mut Plan,
-    platforms: &[(Platform, Toolchain)],
-) -> (Vec<Assembly>, Vec<Failure>) {
+fn assemble(project: &Project, plan: &mut Plan, platforms: &[Platform]) -> (Vec<Assembly>, Vec<Failure>) {
     let (mut assemblies, mut failures) = (Vec::new(), std::mem::take(&mut plan.broken));
     for (system, folder) in plan.systems.clone() {
         let assembly = Assembly::new(project, plan, system, &folder);
@@ -262,7 +227,7 @@ impl Assembly {
     }
 
     /// A system runs where each of its FMUs has a binary.
-    fn runs_on(&self, platforms: &[(Platform, Toolchain)]) -> Result<()> {
+    fn runs_on(&self, platforms: &[Platform]) -> Result<()> {
         let theirs = || {
             self.components.iter().filter_map(|component| match component {
                 Component::Ours(_) => None,
@@ -270,10 +235,10 @@ impl Assembly {
             })
         };
         let everywhere = |folder: &String| theirs().all(|theirs| theirs.platforms.contains(folder));
-        if platforms.iter().any(|(platform, _)| everywhere(&platform.folder)) {
+        if platforms.iter().any(|platform| everywhere(&platform.folder)) {
             return Ok(());
         }
-        let ours: Vec<&str> = platforms.iter().map(|(platform, _)| platform.folder.as_str()).collect();
+        let ours: Vec<&str> = platforms.iter().map(|platform| platform.folder.as_str()).collect();
         let failure = Failure::new(format!(
             "the system {} would run nowhere: ours are built for {}",
             self.system.name,
@@ -300,10 +265,6 @@ impl Assembly {
         let parts: Vec<system::Packed> = self.components.iter().map(part).collect();
         self.system.pack(&self.faces, &parts)
     }
-}
-
-fn library(path: &Path) -> Result<Vec<u8>> {
-    std::fs::read(path).map_err(|error| Failure::new(format!("cannot read `{}`: {error}", path.display())))
 }
 
 /// A bar on stderr; none if nobody looks.

@@ -125,19 +125,39 @@ fn rustc(compiler: &Path, arguments: &[&str]) -> Result<String> {
     }
 }
 
-/// The target of this machine.
+/// The target of this machine: the compiler's, and where there is none, that of this program.
 ///
 /// # Errors
-/// If rustc does not run.
+/// If FMUs are not made for it.
 pub fn host() -> Result<Platform> {
-    let version = rustc(&usual(), &["-vV"])?;
-    let host = version.lines().find_map(|line| line.strip_prefix("host: "));
-    Platform::of(host.ok_or_else(|| Failure::new("rustc does not tell its host"))?)
+    let version = rustc(&usual(), &["-vV"]).unwrap_or_default();
+    match version.lines().find_map(|line| line.strip_prefix("host: ")) {
+        Some(host) => Platform::of(host),
+        None => Platform::of(&own()),
+    }
+}
+
+/// The target of this program, as far as it names a platform.
+fn own() -> String {
+    let system = match std::env::consts::OS {
+        "linux" => "unknown-linux-gnu",
+        "windows" => "pc-windows-gnu",
+        "macos" => "apple-darwin",
+        other => other,
+    };
+    let arch = if cfg!(target_arch = "x86") { "i686" } else { std::env::consts::ARCH };
+    format!("{arch}-{system}")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// With a compiler or without.
+    #[test]
+    fn this_program_runs_on_the_platform_of_its_compiler() {
+        assert_eq!(Platform::of(&own()).unwrap().folder, host().unwrap().folder);
+    }
 
     #[test]
     fn the_script_is_named_where_it_helps() {

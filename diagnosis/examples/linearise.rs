@@ -7,9 +7,9 @@
 //! prints JSON: median time, what was derived, and the information on each parameter, which is the diagonal of JᵀJ
 //! after the states at the start have been eliminated.
 
-use std::path::Path;
 use std::time::Instant;
 
+use strut_diagnosis::data::Origin;
 use strut_diagnosis::data::map::Map;
 use strut_diagnosis::dataset::import::load;
 use strut_diagnosis::estimation::fit::{Coordinate, Fit, Handle, Point};
@@ -24,7 +24,7 @@ fn main() -> Result<(), String> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [rig, record] = &arguments[..] else { return Err("give the name of a rig and a record".into()) };
     let mut rig = Rig::published(rig)?;
-    let loaded = load(&mut rig, &[Path::new(record)], &Map::default())?;
+    let loaded = load(&mut rig, &[&Origin::File(record.into())], &Map::default())?;
     let record = loaded.records.into_iter().next().ok_or("the record cannot be used")?;
     let dynamics = rig.plant.prepare(&rig.choices)?;
     let base = rig.base();

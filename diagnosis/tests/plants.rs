@@ -4,6 +4,7 @@ use std::fs;
 
 use strut_diagnosis::app::virtual_rig::{self, Experiment};
 use strut_diagnosis::catalogue::naming::{handle, name};
+use strut_diagnosis::data::Origin;
 use strut_diagnosis::data::map::Map;
 use strut_diagnosis::dataset::import::{Loaded, load};
 use strut_diagnosis::dataset::split::Records;
@@ -79,8 +80,9 @@ impl Case {
         if self.stated {
             rig.stated.fill(true);
         }
-        let paths = [paths[0].as_path(), paths[1].as_path()];
-        let Loaded { mut records, problems } = load(&mut rig, &paths, &Map::default()).unwrap();
+        let origins = paths.map(Origin::File);
+        let [train, test] = &origins;
+        let Loaded { mut records, problems } = load(&mut rig, &[train, test], &Map::default()).unwrap();
         assert_eq!(records.len(), 2, "{problems:?}");
         let test = records.split_off(1);
         let records = Records::new(&records, test);

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use strut_blind::{cases, files, generate};
 use strut_diagnosis::app::virtual_rig::{self, Experiment};
+use strut_diagnosis::data::Origin;
 use strut_diagnosis::data::map::Map;
 use strut_diagnosis::dataset::import::load;
 use strut_diagnosis::dataset::split::Records;
@@ -57,7 +58,7 @@ fn found(rig: &str, hidden: &[(&str, f64)], change: impl Fn(&mut Table)) -> Vec<
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("record.csv");
     fs::write(&path, text(&table)).unwrap();
-    let records = load(&mut rig, &[&path], &Map::default()).unwrap().records;
+    let records = load(&mut rig, &[&Origin::File(path)], &Map::default()).unwrap().records;
     problems(&rig, &Records::new(&records, Vec::new()), &Options::default()).unwrap()
 }
 
@@ -126,9 +127,11 @@ fn nothing_in_the_blind_benchmark_is_taken_for_a_wrong_column() {
             paths
         };
         let (train, test) = (of("train"), of("test"));
-        let paths: Vec<&Path> = train.iter().chain(&test).map(PathBuf::as_path).collect();
-        let mut records = load(&mut rig, &paths, &Map::default()).unwrap().records;
-        let test = records.split_off(train.len());
+        let count = train.len();
+        let origins: Vec<Origin> = train.into_iter().chain(test).map(Origin::File).collect();
+        let origins: Vec<&Origin> = origins.iter().collect();
+        let mut records = load(&mut rig, &origins, &Map::default()).unwrap().records;
+        let test = records.split_off(count);
         assert_eq!(witness::notes(&records, &test), [], "{}", case.name);
         let problems = problems(&rig, &Records::new(&records, test), &Options::default()).unwrap();
         assert!(problems.is_empty(), "{}: {problems:?}", case.name);

@@ -61,6 +61,23 @@ fn a_limit_of_no_time_leaves_the_nominal_fit_and_says_what_was_not_done() {
 }
 
 #[test]
+fn a_file_that_cannot_be_written_takes_neither_the_verdict_nor_the_other_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let [train, test] = simulate(&folder.path().join("records"), &[]);
+    let out = folder.path().join("report");
+    fs::create_dir_all(out.join("report.html/taken")).unwrap();
+    let (output, report) = hasty(&train, &test, &out);
+    let (told, printed) = (String::from_utf8_lossy(&output.stderr), String::from_utf8_lossy(&output.stdout));
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    assert!(printed.starts_with("OUT OF TIME") && told.contains("report.html`"), "{printed}{told}");
+    assert!(out.join("extended.toml").exists() && out.join("extended.ssv").exists());
+    let provenance = &report["provenance"];
+    assert!(provenance["command"].as_str().unwrap().starts_with("diagnose --rig "), "{provenance}");
+    assert_eq!(provenance["records"][0]["path"], train.as_str());
+    assert_eq!(provenance["records"][1]["sha256"].as_str().unwrap().len(), 64);
+}
+
+#[test]
 fn one_record_for_both_is_no_validation() {
     let folder = tempfile::tempdir().unwrap();
     let [train, test] = simulate(&folder.path().join("records"), &[]);

@@ -16,9 +16,9 @@ In the workspace, write `cargo run --release --package strut-diagnosis --` for `
 
 /// Finds out what a simulation gets wrong, from measured data
 #[derive(Parser, Debug)]
-#[command(name = "diagnose", version, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
+#[command(name = "diagnose", version = build_fmu::VERSION, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
 pub struct Arguments {
-    /// Something else than a diagnosis.
+    /// Subcommands
     #[command(subcommand)]
     pub command: Option<Command>,
     /// The diagnosis.
@@ -102,6 +102,10 @@ pub struct DiagnosisArguments {
     /// Time after which the best answer so far is reported, in seconds; extended.fmu is built afterwards
     #[arg(long, value_name = "SECONDS", default_value_t = 600)]
     pub time_limit: u64,
+
+    /// Folder of prebuilt libraries for extended.fmu, from `build-fmu libraries` [env: STRUT_LIBRARIES=]
+    #[arg(long, value_name = "DIR")]
+    pub libraries: Option<PathBuf>,
 
     /// Do not build extended.fmu
     #[arg(long)]

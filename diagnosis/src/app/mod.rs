@@ -1,5 +1,6 @@
-//! The command line and the virtual rig.
+//! The command line, the whole diagnosis that it asks for, and the virtual rig.
 
 pub mod cli;
 pub mod run;
+pub mod study;
 pub mod virtual_rig;

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
+use crate::data::table::did_you_mean;
 use crate::dataset::recorded::derivative;
 use crate::plant::{Between, Drive};
 use crate::rig::Rig;
@@ -22,6 +23,33 @@ pub struct Experiment {
     pub step: f64,
     /// Length of a record in seconds.
     pub length: f64,
+}
+
+/// A parameter that differs from the rig's, e.g. `strut.coulomb.force=60` in its SI unit.
+///
+/// # Errors
+/// If the text is of another form, the rig has no parameter of the name, or the value is out of its bounds.
+pub fn hidden(rig: &Rig, text: &str) -> Result<(String, f64), String> {
+    let wrong = || format!("{text}: write NAME=VALUE, as in strut.coulomb.force=60");
+    let (name, value) = text.split_once('=').ok_or_else(wrong)?;
+    let (name, value) = (name.trim(), value.trim().parse::<f64>().map_err(|_| wrong())?);
+    let index = rig.plant.parameter(name).ok_or_else(|| {
+        let hint = did_you_mean(name, rig.plant.parameters.iter().map(|it| it.name.as_str()));
+        format!("{text}: {} has no parameter `{name}`{hint}", rig.name)
+    })?;
+    let declared = &rig.plant.parameters[index];
+    let (low, high) = (declared.min.unwrap_or(f64::MIN), declared.max.unwrap_or(f64::MAX));
+    if !(low..=high).contains(&value) {
+        let unit = declared.unit.symbol;
+        let limits = match (declared.min, declared.max) {
+            (Some(low), Some(high)) => format!("from {low} to {high} {unit}"),
+            (Some(low), None) => format!("at least {low} {unit}"),
+            (None, Some(high)) => format!("at most {high} {unit}"),
+            (None, None) => "finite".into(),
+        };
+        return Err(format!("{text}: {name} has to be {limits}"));
+    }
+    Ok((name.to_owned(), value))
 }
 
 /// A record as CSV; `number` tells its excitation: one for each.

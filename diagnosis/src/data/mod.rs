@@ -18,7 +18,7 @@ pub mod uniform;
 pub mod units;
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub use error::DataError;
 pub use table::TimeColumn;
@@ -57,6 +57,74 @@ impl Channel {
     /// Whether somebody means it by a name: its own, or as a header has it, with the unit in brackets.
     pub(crate) fn is_called(&self, name: &str) -> bool {
         name == self.name || csv::title(name.trim()) == (self.name.as_str(), self.unit.as_str())
+    }
+}
+
+/// Where a record comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Origin {
+    /// A file: CSV, ASAM MDF 4 or MATLAB 5 to 7.
+    File(PathBuf),
+    /// A table in memory.
+    Columns {
+        /// Its name.
+        name: String,
+        /// All columns, the time among them.
+        columns: Vec<Channel>,
+    },
+}
+
+impl Origin {
+    /// A table in memory of columns with titles such as `force [N]`.
+    ///
+    /// # Errors
+    /// If there are no samples, the columns are of several lengths, or a title is empty or there twice.
+    pub fn of_columns(name: &str, columns: Vec<(String, Vec<f64>)>) -> Result<Self, DataError> {
+        let count = columns.first().map_or(0, |(_, values)| values.len());
+        if count == 0 {
+            return Err(DataError::file(name, "has no samples"));
+        }
+        let mut all: Vec<Channel> = Vec::with_capacity(columns.len());
+        for (header, values) in columns {
+            let (title, unit) = csv::title(header.trim());
+            if title.is_empty() {
+                return Err(DataError::file(name, "a column has no name: write one, such as `force [N]`"));
+            }
+            if all.iter().any(|column| column.name == title && column.unit == unit) {
+                return Err(DataError::signal(name, title, "is there twice: rename one of the columns"));
+            }
+            if values.len() != count {
+                let text = format!("has {} samples, the first column {count}", values.len());
+                return Err(DataError::signal(name, title, text));
+            }
+            all.push(Channel { name: title.into(), unit: unit.into(), values });
+        }
+        Ok(Self::Columns { name: name.into(), columns: all })
+    }
+
+    /// The file's name without its folder, or the table's.
+    pub fn name(&self) -> String {
+        match self {
+            Self::File(path) => {
+                let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
+                name.unwrap_or_else(|| path.display().to_string())
+            }
+            Self::Columns { name, .. } => name.clone(),
+        }
+    }
+
+    /// The record, with the column that holds the time if it is not named so.
+    ///
+    /// # Errors
+    /// As [`read_with`].
+    pub fn read(&self, time: Option<&TimeColumn>) -> Result<Record, DataError> {
+        match self {
+            Self::File(path) => read_with(path, time),
+            Self::Columns { name, columns } => {
+                let table = table::Table { name: name.clone(), columns: columns.clone(), master: None };
+                table.into_record(time)
+            }
+        }
     }
 }
 

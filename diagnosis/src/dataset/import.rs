@@ -1,12 +1,11 @@
 //! Files of records on a rig's inputs and outputs.
 
 use std::ops::Range;
-use std::path::Path;
 
 use crate::data::check::{Checked, check, lines, noise_floor, rounding};
 use crate::data::map::{Map, Wanted, plain};
 use crate::data::{
-    self, Channel,
+    Channel, Origin, Record,
     uniform::{Uniform, uniform},
 };
 use crate::dataset::recorded::{Measured, Recorded, Source};
@@ -44,36 +43,39 @@ pub struct Loaded {
 ///
 /// # Errors
 /// If a file cannot be read, or has not the signals that the rig needs: what to do.
-pub fn load(rig: &mut Rig, paths: &[&Path], map: &Map) -> Result<Loaded, String> {
-    let has = names(rig, paths, map)?;
+pub fn load(rig: &mut Rig, origins: &[&Origin], map: &Map) -> Result<Loaded, String> {
+    let has = names(rig, origins, map)?;
     for by in rig.ways(&has) {
         rig.drive_by(by, &has)?;
         let Some(inverse) = by.inverse else { break };
-        if let Ok(loaded) = forward(rig, paths, map)
+        if let Ok(loaded) = forward(rig, origins, map)
             && let Some(Banded { records, note }) = inverse::banded(rig, &loaded.records, inverse)
         {
             let problems = loaded.problems.into_iter().chain([note]).collect();
             return Ok(Loaded { records, problems });
         }
     }
-    forward(rig, paths, map)
+    forward(rig, origins, map)
 }
 
 /// Whether the first of some files has a signal or a column of a name.
-fn names<'a>(rig: &Rig, paths: &[&Path], map: &'a Map) -> Result<impl Fn(&str) -> bool + use<'a>, String> {
-    let first = paths.first().filter(|_| !rig.kind.drives.is_empty());
-    let record =
-        first.map(|path| data::read_with(path, map.time.as_ref()).map_err(|error| error.to_string()));
+fn names<'a>(
+    rig: &Rig,
+    origins: &[&Origin],
+    map: &'a Map,
+) -> Result<impl Fn(&str) -> bool + use<'a>, String> {
+    let first = origins.first().filter(|_| !rig.kind.drives.is_empty());
+    let record = first.map(|origin| origin.read(map.time.as_ref()).map_err(|error| error.to_string()));
     let columns = record.transpose()?.map_or(Vec::new(), |it| it.channels);
     let columns: Vec<String> = columns.iter().map(|channel| plain(&channel.name)).collect();
     Ok(move |name: &str| map.signals.contains_key(name) || columns.contains(&plain(name)))
 }
 
 /// Reads all records as the rig is driven.
-fn forward(rig: &Rig, paths: &[&Path], map: &Map) -> Result<Loaded, String> {
+fn forward(rig: &Rig, origins: &[&Origin], map: &Map) -> Result<Loaded, String> {
     let (mut records, mut problems) = (Vec::new(), Vec::new());
-    for path in paths {
-        let imported = import(rig, path, map)?;
+    for origin in origins {
+        let imported = import(rig, origin, map)?;
         problems.extend(imported.problems);
         records.extend(imported.recorded);
     }
@@ -90,8 +92,8 @@ fn forward(rig: &Rig, paths: &[&Path], map: &Map) -> Result<Loaded, String> {
 ///
 /// # Errors
 /// If the file cannot be read, or has not the signals that the rig needs: what to do.
-fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
-    let mut record = data::read_with(path, map.time.as_ref()).map_err(|error| error.to_string())?;
+fn import(rig: &Rig, origin: &Origin, map: &Map) -> Result<Imported, String> {
+    let mut record = origin.read(map.time.as_ref()).map_err(|error| error.to_string())?;
     oppose(rig, &mut record, map);
     let mapped = map.apply(record, &wanted(rig)).map_err(|error| error.to_string())?;
     let name = mapped.record.name.clone();
@@ -195,7 +197,7 @@ fn import(rig: &Rig, path: &Path, map: &Map) -> Result<Imported, String> {
 /// Columns that no signal of the rig is, on the even grid of the record; none that is constant or has gaps.
 fn others(time: &[f64], unused: Vec<Channel>) -> Vec<Channel> {
     let on_grid = |channel: Channel| {
-        let record = data::Record { name: String::new(), time: time.to_vec(), channels: vec![channel] };
+        let record = Record { name: String::new(), time: time.to_vec(), channels: vec![channel] };
         let (even, _) = uniform(&record).ok()?;
         let channel = even.channels.into_iter().next()?;
         (channel.values.iter().all(|it| it.is_finite()) && !is_constant(&channel.values)).then_some(channel)
@@ -229,7 +231,7 @@ fn leave_out(values: &mut [f64], ranges: &[Range<usize>], time: &[f64], grid: &U
 }
 
 /// Turns a signal over that is recorded in the sense of another one, unless a map says what it is.
-fn oppose(rig: &Rig, record: &mut data::Record, map: &Map) {
+fn oppose(rig: &Rig, record: &mut Record, map: &Map) {
     let Some((column, signal)) = rig.kind.opposed else { return };
     let named = |name: &str, other: &str| name.trim().eq_ignore_ascii_case(other);
     if map.signals.is_empty() && record.channels.iter().any(|channel| named(&channel.name, column)) {
@@ -267,7 +269,7 @@ fn wanted(rig: &Rig) -> Vec<Wanted> {
 }
 
 /// Refuses a record that does not tell what drove the rig, or nothing of what it did.
-fn missing(rig: &Rig, record: &data::Record, name: &str, unused: &[String]) -> Result<(), String> {
+fn missing(rig: &Rig, record: &Record, name: &str, unused: &[String]) -> Result<(), String> {
     let has = |declared: &str| record.channels.iter().any(|channel| channel.name == declared);
     let hint = if unused.is_empty() {
         String::new()

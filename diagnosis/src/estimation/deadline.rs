@@ -1,5 +1,6 @@
 //! The time limit of a diagnosis.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
@@ -38,6 +39,8 @@ impl Stage {
 pub struct Deadline {
     limit: Option<Duration>,
     at: Option<Instant>,
+    /// Whether somebody has stopped it before.
+    ended: Arc<AtomicBool>,
     stopped: Arc<OnceLock<Stage>>,
 }
 
@@ -45,6 +48,12 @@ impl Deadline {
     /// A limit that starts now. Without one (the default) there is no end.
     pub fn after(limit: Duration) -> Self {
         Self { limit: Some(limit), at: Instant::now().checked_add(limit / PARTS * SEARCH), ..Self::default() }
+    }
+
+    /// The same limit, and an end as soon as somebody sets `ended`.
+    #[must_use]
+    pub fn or_when(self, ended: Arc<AtomicBool>) -> Self {
+        Self { ended, ..self }
     }
 
     /// The same end for another diagnosis, of which nothing is known yet.
@@ -60,7 +69,7 @@ impl Deadline {
 
     /// Whether the time is up. The first stage that asks too late is remembered as the one that was not finished.
     pub fn is_over(&self, stage: Stage) -> bool {
-        let over = self.at.is_some_and(|at| Instant::now() >= at);
+        let over = self.ended.load(Ordering::Relaxed) || self.at.is_some_and(|at| Instant::now() >= at);
         if over {
             self.stopped.get_or_init(|| stage);
         }
@@ -85,6 +94,15 @@ mod tests {
         assert!(!long.is_over(Stage::Search) && long.stopped().is_none());
         let left = Deadline::after(Duration::from_secs(1000)).instant().unwrap() - Instant::now();
         assert!(left > Duration::from_secs(800) && left <= Duration::from_secs(850), "{left:?}");
+    }
+
+    #[test]
+    fn somebody_may_end_it() {
+        let ended = Arc::new(AtomicBool::new(false));
+        let limit = Deadline::after(Duration::from_secs(1000)).or_when(ended.clone());
+        assert!(!limit.is_over(Stage::Nominal));
+        ended.store(true, Ordering::Relaxed);
+        assert!(limit.again().is_over(Stage::Search) && limit.is_over(Stage::Nominal));
     }
 
     #[test]

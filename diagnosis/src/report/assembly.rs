@@ -94,6 +94,7 @@ impl Diagnosis<'_> {
             data_problems,
             candidates: self.candidates(),
             seconds,
+            provenance: None,
         };
         findings.summary = summary::of(&findings);
         findings

@@ -16,7 +16,7 @@ pub const NAME: &str = "extended";
 
 impl Diagnosis<'_> {
     /// The extended model's parameter set, as `build-fmu --parameters` takes it.
-    pub fn parameter_set(&self) -> String {
+    fn parameter_set(&self) -> String {
         let rig = self.world.rig;
         let extended = &self.found.extended;
         let point = extended.point.within(&rig.plant);
@@ -87,7 +87,7 @@ impl Diagnosis<'_> {
     }
 
     /// The fitted values as a parameter set of SSP 1.0, for the starting model's FMU.
-    pub fn ssv(&self) -> String {
+    fn ssv(&self) -> String {
         let rig: &Rig = self.world.rig;
         let point = self.found.extended.point.within(&rig.plant);
         let mut text = String::from(
@@ -108,16 +108,42 @@ impl Diagnosis<'_> {
         text
     }
 
-    /// Writes `extended.toml` and `extended.ssv`, and `extended.fmu` if asked for.
+    /// The extended model's files.
+    pub fn extended(&self) -> Extended {
+        Extended { parameters: self.parameter_set(), ssv: self.ssv() }
+    }
+}
+
+/// The extended model's files.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Extended {
+    /// The parameter set in TOML, as `build-fmu --parameters` takes it.
+    pub parameters: String,
+    /// The fitted values as SSP's parameter set.
+    pub ssv: String,
+}
+
+impl Extended {
+    /// Writes `extended.toml` and `extended.ssv` into a folder that exists, and `extended.fmu` if asked for, of the library
+    /// in `libraries` or beside the program, or else by cargo. One failure does not keep the others from being written.
     ///
     /// # Errors
-    /// If a file cannot be written or the FMU cannot be built.
-    pub fn write_extended(&self, folder: &Path, fmu: bool) -> Result<(), String> {
+    /// Every file that cannot be written or built, with what to do.
+    pub fn write(&self, folder: &Path, fmu: bool, libraries: Option<&Path>) -> Result<(), Vec<String>> {
         let set = folder.join("extended.toml");
-        let files = [(set.clone(), self.parameter_set()), (folder.join("extended.ssv"), self.ssv())];
-        for (path, text) in files {
-            replace(&path, &text).map_err(|error| format!("cannot write `{}`: {error}", path.display()))?;
+        let mut failures = Vec::new();
+        for (path, text) in [(&set, &self.parameters), (&folder.join("extended.ssv"), &self.ssv)] {
+            if let Err(error) = replace(path, text) {
+                failures.push(format!("cannot write `{}`: {error}", path.display()));
+            }
         }
-        if fmu { build_fmu::pack(&build_fmu::strut(), &set, folder) } else { Ok(()) }
+        if fmu && failures.is_empty() {
+            let wanted = build_fmu::Wanted::Parameters(&set);
+            if let Err(error) = build_fmu::make(&build_fmu::strut(), wanted, folder, libraries) {
+                let error = error.strip_prefix("error: ").unwrap_or(&error);
+                failures.push(format!("no extended.fmu: {error}"));
+            }
+        }
+        if failures.is_empty() { Ok(()) } else { Err(failures) }
     }
 }

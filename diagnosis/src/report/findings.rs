@@ -10,6 +10,7 @@ use serde::Serialize;
 
 pub use crate::decision::evidence::Evidence;
 pub use crate::decision::verdict::Verdict;
+pub use crate::report::provenance::{Provenance, RecordOrigin};
 
 pub use disagreement::{Disagreement, RecordValue};
 pub use experiment::{DecidingExperiment, Distinction, Drive, ExperimentLimit, Setting, SourceFmu, Value};
@@ -66,6 +67,8 @@ pub struct Findings {
     pub pictures: Pictures,
     /// How long the diagnosis took, in seconds.
     pub seconds: f64,
+    /// Version, command, date and hashes of the records; none if nobody says.
+    pub provenance: Option<Provenance>,
 }
 
 impl Findings {
@@ -96,6 +99,7 @@ impl Findings {
             candidates: Vec::new(),
             pictures: Pictures::default(),
             seconds: 0.0,
+            provenance: None,
         }
     }
 }

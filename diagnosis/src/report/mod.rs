@@ -9,6 +9,7 @@ pub mod findings;
 mod json;
 mod page;
 mod plot;
+pub mod provenance;
 mod sheet;
 mod terminal;
 pub(crate) mod words;
@@ -16,7 +17,7 @@ pub(crate) mod words;
 pub use json::json;
 pub use page::html;
 pub use sheet::sheet;
-pub use terminal::terminal;
+pub use terminal::{shares, terminal};
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -47,27 +48,33 @@ pub enum ReportError {
 }
 
 /// Writes `report.html`, `report.json` and the files of an experiment into a folder, which is made if need be. Each file is
-/// either complete or as it was before.
+/// either complete or as it was before, and one that fails does not keep the others from being written.
 ///
 /// # Errors
-/// If the folder cannot be made or a file cannot be written.
-pub fn write(findings: &Findings, folder: &Path) -> Result<(), ReportError> {
+/// If the folder cannot be made, or every file that cannot be written.
+pub fn write(findings: &Findings, folder: &Path) -> Result<(), Vec<ReportError>> {
     std::fs::create_dir_all(folder)
-        .map_err(|cause| ReportError::Folder { folder: folder.to_owned(), cause })?;
+        .map_err(|cause| vec![ReportError::Folder { folder: folder.to_owned(), cause }])?;
+    let mut failures = Vec::new();
+    let mut note = |path: PathBuf, done: io::Result<()>| {
+        failures.extend(done.err().map(|cause| ReportError::File { path, cause }));
+    };
     let texts = [("report.json", json(findings)), ("report.html", html(findings))];
     let texts = texts.iter().map(|(name, text)| (*name, text));
     let experiment = findings.deciding.iter().flat_map(|it| &it.files).map(|(name, text)| (&name[..], text));
     for (name, text) in texts.chain(experiment) {
         let path = folder.join(name);
-        replace(&path, text).map_err(|cause| ReportError::File { path, cause })?;
+        let done = replace(&path, text);
+        note(path, done);
     }
     // An experiment of an earlier run would pass for this one's.
     let written = |name: &str| findings.deciding.iter().any(|it| it.files.iter().any(|(own, _)| own == name));
     for name in FILES.into_iter().filter(|name| !written(name)) {
         let path = folder.join(name);
         if path.exists() {
-            std::fs::remove_file(&path).map_err(|cause| ReportError::File { path, cause })?;
+            let done = std::fs::remove_file(&path);
+            note(path, done);
         }
     }
-    Ok(())
+    if failures.is_empty() { Ok(()) } else { Err(failures) }
 }

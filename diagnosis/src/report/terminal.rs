@@ -191,19 +191,26 @@ impl Lines {
 fn account_row(findings: &Findings, account: &SignalAccount) -> [String; 8] {
     let unit = findings.signals.iter().find(|it| it.name == account.signal).map_or("", |it| it.unit.as_str());
     let share = |share: f64| shortened(percent(share).trim_end_matches(" %"), CELL);
-    let (effects, curves): (Vec<&AccountItem>, Vec<&AccountItem>) =
-        account.effects.iter().partition(|item| effect_rank(findings, item).is_some());
-    let sum = |items: &[&AccountItem]| items.iter().map(|it| it.share).sum::<f64>();
+    let [noise, parameters, effects, unmodelled, unexplained] = shares(findings, account).map(share);
     [
         account.signal.clone(),
         shortened(&quantity(account.error, unit), CELL),
-        share(account.noise),
-        share(account.parameters),
-        share(sum(&effects)),
-        share(sum(&curves) + account.unmodelled),
-        share(account.unexplained),
+        noise,
+        parameters,
+        effects,
+        unmodelled,
+        unexplained,
         if account.open { "open".into() } else { String::new() },
     ]
+}
+
+/// Shares of a signal's error power: noise, parameters, effects, unmodelled (curves without a name among it), unexplained.
+pub fn shares(findings: &Findings, account: &SignalAccount) -> [f64; 5] {
+    let (effects, curves): (Vec<&AccountItem>, Vec<&AccountItem>) =
+        account.effects.iter().partition(|item| effect_rank(findings, item).is_some());
+    let sum = |items: &[&AccountItem]| items.iter().map(|it| it.share).sum::<f64>();
+    let unmodelled = sum(&curves) + account.unmodelled;
+    [account.noise, account.parameters, sum(&effects), unmodelled, account.unexplained]
 }
 
 /// The text in a field of `width` columns.

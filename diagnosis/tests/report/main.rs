@@ -257,7 +257,7 @@ fn a_gate_that_is_not_passed_is_marked_and_one_that_need_not_be_says_why() {
 fn a_folder_that_cannot_be_made_is_an_error_with_advice() {
     let file = tempfile::NamedTempFile::new().unwrap();
     let error = report::write(&empty(Verdict::NoEffect), &file.path().join("report")).unwrap_err();
-    assert!(error.to_string().contains("choose another with --out"), "{error}");
+    assert!(error[0].to_string().contains("choose another with --out"), "{error:?}");
 }
 
 #[test]

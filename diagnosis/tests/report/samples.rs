@@ -48,6 +48,7 @@ pub fn empty(verdict: Verdict) -> Findings {
         candidates: vec![],
         pictures: Pictures::default(),
         seconds: f64::NAN,
+        provenance: None,
     }
 }
 

@@ -99,7 +99,7 @@ impl Entry {
         (self.instance)(set, resources)
     }
 
-    /// Runs the default experiment.
+    /// Runs the default experiment; its inputs, and the outputs that it plots.
     ///
     /// # Errors
     /// If the model refuses the parameter set or the integration fails.
@@ -108,56 +108,152 @@ impl Entry {
         set: Option<&ParameterSet>,
         resources: Option<&Path>,
     ) -> Result<Trajectory, Error> {
+        let Experiment { stop, step, plot, .. } = self.about.experiment;
         let interface = self.interface(set, resources)?;
-        demonstrate(&self.about.experiment, &interface, &mut *self.instance(set, resources)?)
+        let driven = driven(&self.about.experiment, &interface);
+        let shown = |name: &str| plot.is_empty() || plot.contains(&name);
+        let signals = signals(&interface, &driven, shown);
+        run(&mut *self.instance(set, resources)?, &driven, signals, step, stop)
+    }
+
+    /// Simulates from zero to `stop` in communication steps of `step`, in seconds; its driven inputs and all outputs. Without
+    /// `inputs`, they do what they do in the default experiment; what is not driven rests at its start value.
+    ///
+    /// # Errors
+    /// If an input does not exist, its times do not rise, the model refuses the parameter set, or the integration fails.
+    pub fn simulate(
+        &self,
+        set: Option<&ParameterSet>,
+        resources: Option<&Path>,
+        inputs: Option<&Inputs>,
+        [step, stop]: [f64; 2],
+    ) -> Result<Trajectory, Error> {
+        let interface = self.interface(set, resources)?;
+        let driven = match inputs {
+            None => driven(&self.about.experiment, &interface),
+            Some(inputs) => inputs.driven(&interface)?,
+        };
+        if !(step > 0.0 && stop >= step && stop.is_finite() && stop / step < 1e9) {
+            return Err(Error::Refused(format!("a step of {step} s to {stop} s leads nowhere")));
+        }
+        let signals = signals(&interface, &driven, |_| true);
+        run(&mut *self.instance(set, resources)?, &driven, signals, step, stop)
     }
 }
 
-fn demonstrate(
-    experiment: &Experiment,
-    interface: &Interface,
-    simulation: &mut dyn Instance,
-) -> Result<Trajectory, Error> {
+/// What inputs do, as points.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Inputs {
+    /// Times in seconds, rising.
+    pub time: Vec<f64>,
+    /// Name and values of each input; straight lines between the points, held before and after them.
+    pub signals: Vec<(String, Vec<f64>)>,
+}
+
+impl Inputs {
+    fn driven<'a>(&'a self, interface: &Interface) -> Result<Vec<Driven<'a>>, Error> {
+        let is_input = |variable: &&crate::Variable| variable.causality == Causality::Input;
+        let rises = self.time.windows(2).all(|pair| pair[0] < pair[1]);
+        if self.time.is_empty() || !rises || !self.time.iter().all(|time| time.is_finite()) {
+            return Err(Error::Refused("the times of the inputs have to rise".into()));
+        }
+        let of = |(name, values): &'a (String, Vec<f64>)| {
+            let Some(variable) = interface.variable(name).filter(is_input) else {
+                let inputs = interface.variables.iter().filter(is_input).map(|it| it.name.as_str());
+                let inputs = inputs.collect::<Vec<_>>().join(", ");
+                let model = interface.about.name;
+                return Err(Error::Refused(format!(
+                    "{model} has no input `{name}`; its inputs are {inputs}"
+                )));
+            };
+            if values.len() != self.time.len() {
+                return Err(Error::Refused(format!(
+                    "the input `{name}` has {} values at {} times",
+                    values.len(),
+                    self.time.len()
+                )));
+            }
+            let at = |t: f64| between(&self.time, values, t);
+            Ok(Driven { reference: variable.reference, at: Box::new(at) })
+        };
+        self.signals.iter().map(of).collect()
+    }
+}
+
+/// The value at a time on straight lines between points.
+fn between(time: &[f64], values: &[f64], t: f64) -> f64 {
+    let next = time.partition_point(|time| *time <= t);
+    match (next.checked_sub(1), time.get(next)) {
+        (None, _) => values[0],
+        (Some(last), None) => values[last],
+        (Some(last), Some(after)) => {
+            let share = (t - time[last]) / (after - time[last]);
+            values[last] + share * (values[next] - values[last])
+        }
+    }
+}
+
+/// What an input does.
+struct Driven<'a> {
+    reference: u32,
+    /// Its value at a time.
+    at: Box<dyn Fn(f64) -> f64 + 'a>,
+}
+
+/// What the inputs do in an experiment.
+fn driven<'a>(experiment: &'a Experiment, interface: &Interface) -> Vec<Driven<'a>> {
     // A stimulus moves its input about where it starts.
-    let stimuli: Vec<_> = experiment
-        .stimuli
-        .iter()
-        .filter_map(|(name, stimulus)| {
-            let variable = interface.variable(name)?;
-            let VariableKind::Real { start, .. } = variable.kind else { return None };
-            Some((variable.reference, start.unwrap_or(0.0), *stimulus))
-        })
-        .collect();
-    let (inputs, outputs): (Vec<_>, Vec<_>) = interface
-        .variables
-        .iter()
-        .filter_map(|variable| match &variable.kind {
-            VariableKind::Real { unit, .. } => Some((variable, unit.symbol.to_string())),
-            _ => None,
-        })
-        .filter(|(variable, _)| {
-            let stimulated = experiment.stimuli.iter().any(|(name, _)| *name == variable.name);
-            let plotted = experiment.plot.is_empty() || experiment.plot.contains(&variable.name.as_str());
-            stimulated || (variable.causality == Causality::Output && plotted)
-        })
-        .partition(|(variable, _)| variable.causality == Causality::Input);
-    let shown: Vec<_> = inputs.into_iter().chain(outputs).collect();
-    let references: Vec<u32> = shown.iter().map(|(variable, _)| variable.reference).collect();
+    let of = |(name, stimulus): &'a (&str, crate::Stimulus)| {
+        let variable = interface.variable(name)?;
+        let VariableKind::Real { start, .. } = variable.kind else { return None };
+        let rest = start.unwrap_or(0.0);
+        Some(Driven { reference: variable.reference, at: Box::new(move |t| rest + stimulus.at(t)) })
+    };
+    experiment.stimuli.iter().filter_map(of).collect()
+}
+
+/// A signal that is written down.
+struct Signal {
+    reference: u32,
+    name: String,
+    unit: String,
+}
+
+/// The driven inputs, and the outputs that are to be shown.
+fn signals(interface: &Interface, driven: &[Driven], shown: impl Fn(&str) -> bool) -> Vec<Signal> {
+    let of = |variable: &crate::Variable| {
+        let VariableKind::Real { unit, .. } = &variable.kind else { return None };
+        let (reference, name) = (variable.reference, variable.name.clone());
+        Some(Signal { reference, name, unit: unit.symbol.to_string() })
+    };
+    let is_driven = |reference| driven.iter().any(|it| it.reference == reference);
+    let inputs = interface.variables.iter().filter(|it| it.causality == Causality::Input);
+    let inputs = inputs.filter(|it| is_driven(it.reference));
+    let outputs =
+        interface.variables.iter().filter(|it| it.causality == Causality::Output && shown(&it.name));
+    inputs.chain(outputs).filter_map(of).collect()
+}
+
+fn run(
+    simulation: &mut dyn Instance,
+    driven: &[Driven],
+    signals: Vec<Signal>,
+    step: f64,
+    stop: f64,
+) -> Result<Trajectory, Error> {
+    let references: Vec<u32> = signals.iter().map(|signal| signal.reference).collect();
     let mut values = vec![0.0; references.len()];
     let mut trajectory = Trajectory {
         time: Vec::new(),
-        signals: shown
-            .into_iter()
-            .map(|(variable, unit)| (variable.name.clone(), unit, Vec::new()))
-            .collect(),
+        signals: signals.into_iter().map(|signal| (signal.name, signal.unit, Vec::new())).collect(),
     };
     simulation.set_up(0.0, None)?;
     simulation.initialize()?;
-    let steps = (experiment.stop / experiment.step).round() as usize;
+    let steps = (stop / step).round() as usize;
     for index in 0..=steps {
-        let time = index as f64 * experiment.step;
-        for (reference, start, stimulus) in &stimuli {
-            simulation.set_real(&[*reference], &[start + stimulus.at(time)], Access::Continuous)?;
+        let time = index as f64 * step;
+        for Driven { reference, at } in driven {
+            simulation.set_real(&[*reference], &[at(time)], Access::Continuous)?;
         }
         simulation.real(&references, &mut values)?;
         trajectory.time.push(time);
@@ -165,8 +261,21 @@ fn demonstrate(
             signal.push(*value);
         }
         if index < steps {
-            simulation.step(time, experiment.step)?;
+            simulation.step(time, step)?;
         }
     }
     Ok(trajectory)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inputs_follow_straight_lines_and_are_held_outside() {
+        let (time, values) = ([1.0, 2.0, 4.0], [10.0, 20.0, 0.0]);
+        let at = |t| between(&time, &values, t);
+        assert_eq!([0.0, 1.0, 1.5, 2.0, 3.0, 4.0, 9.0].map(at), [10.0, 10.0, 15.0, 20.0, 10.0, 0.0, 0.0]);
+        assert_eq!(between(&[3.0], &[7.0], 0.0), 7.0);
+    }
 }

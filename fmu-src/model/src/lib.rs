@@ -29,7 +29,7 @@ pub mod unit;
 
 pub use bundle::{Bundle, Declaration, Declarations, Nothing};
 pub use dependencies::Dependencies;
-pub use entry::{Entry, Instance, Trajectory};
+pub use entry::{Entry, Inputs, Instance, Trajectory};
 pub use error::Error;
 pub use interface::{
     Causality, Dependency, Initial, Interface, Numbering, Structure, Table, Timely, Variability, Variable,

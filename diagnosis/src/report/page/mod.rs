@@ -13,7 +13,7 @@ mod unmodelled;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::words::{badge, count, digits, headline};
-use crate::report::findings::{Findings, Verdict};
+use crate::report::findings::{Findings, Provenance, Verdict};
 
 const STYLE: &str = include_str!("style.css");
 
@@ -98,6 +98,22 @@ fn footer(findings: &Findings) -> Markup {
             (count(findings.train.len(), "estimation record")) " and " (count(findings.test.len(), "validation record"))
             @if problems > 0 && findings.verdict != Verdict::BadData { ", with " (count(problems, "note")) " on the data" }
             ". " code { "report.json" } " holds the same findings for programs (format " (findings.format) ")."
+            @if let Some(it) = &findings.provenance { (provenance(it)) }
+        }
+    }
+}
+
+/// Version, command, date and the records with their hashes.
+fn provenance(it: &Provenance) -> Markup {
+    html! {
+        p {
+            "Strut " (it.version) ", " (it.date)
+            @if !it.command.is_empty() { ": " code { (it.command) } }
+        }
+        ul {
+            @for record in &it.records {
+                li { code { (record.path) } @if !record.sha256.is_empty() { " SHA-256 " code { (record.sha256) } } }
+            }
         }
     }
 }
