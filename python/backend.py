@@ -1,0 +1,70 @@
+"""Builds the wheel: maturin builds the module; the command and the libraries of all models are put beside it first.
+
+`STRUT_PROFILE=dev` compiles module and command by the development profile, which is faster to build and slower to run. The
+libraries in the FMUs are the same in either case.
+"""
+
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import maturin
+from maturin import (  # noqa: F401  (the hooks of PEP 517 that need nothing more)
+    build_sdist,
+    get_requires_for_build_editable,
+    get_requires_for_build_sdist,
+    get_requires_for_build_wheel,
+)
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGE = ROOT / "python" / "strut"
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    _prepare()
+    return maturin.build_wheel(wheel_directory, config_settings, metadata_directory)
+
+
+def build_editable(wheel_directory, config_settings=None, metadata_directory=None):
+    _prepare()
+    return maturin.build_editable(wheel_directory, config_settings, metadata_directory)
+
+
+def _prepare():
+    """Puts the command and the libraries into the package."""
+    profile = os.environ.get("STRUT_PROFILE", "release")
+    if profile != "dev":
+        os.environ.setdefault("STRUT_VERSION", _version())
+    os.environ.setdefault("MATURIN_PEP517_ARGS", f"--profile {profile}")
+    cargo = os.environ.get("CARGO", "cargo")
+    manifest = ["--manifest-path", str(ROOT / "Cargo.toml")]
+    # Both at once: of one package alone, cargo would choose other features of what they share, and compile it again.
+    packages = ["--package", "strut-command", "--package", "strut-python"]
+    _run([cargo, "build", "--profile", profile, *manifest, *packages])
+    metadata = subprocess.check_output([cargo, "metadata", "--no-deps", "--format-version=1", *manifest])
+    built = Path(json.loads(metadata)["target_directory"], "debug" if profile == "dev" else profile)
+    command = "strut.exe" if os.name == "nt" else "strut"
+    for folder in ("bin", "libraries"):
+        shutil.rmtree(PACKAGE / folder, ignore_errors=True)
+    (PACKAGE / "bin").mkdir()
+    shutil.copy2(built / command, PACKAGE / "bin" / command)
+    libraries = [str(PACKAGE / "bin" / command), "fmu", "libraries", "--out", str(PACKAGE / "libraries")]
+    _run(libraries, CARGO_MANIFEST_DIR=str(ROOT / "build-fmu"))
+
+
+def _run(command, **variables):
+    subprocess.run(command, cwd=ROOT, check=True, env=os.environ | variables)
+
+
+def _version():
+    """The version, with the commit if this is a checkout: `0.1.0 (1a2b3c4d5e6f)`."""
+    manifest = (ROOT / "Cargo.toml").read_text(encoding="utf-8")
+    version = manifest.split("[workspace.package]")[1].split('version = "')[1].split('"')[0]
+    git = ["git", "-C", str(ROOT), "describe", "--always", "--dirty=+", "--exclude=*", "--abbrev=12"]
+    try:
+        commit = subprocess.check_output(git, stderr=subprocess.DEVNULL, text=True).strip()
+    except (OSError, subprocess.CalledProcessError):
+        return version
+    return f"{version} ({commit})"

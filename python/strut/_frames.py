@@ -1,0 +1,42 @@
+"""Frames of pandas and polars, and mappings of columns, as titles and arrays of doubles."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+TIME = {"t", "time", "timestamp", "timestamps", "time_s"}
+
+
+def columns(frame: Any, name: str) -> list[tuple[str, np.ndarray]]:
+    """Title, with the unit in brackets if ``attrs["units"]`` has one, and values of each column.
+
+    A pandas index is the time if no column is, unless it only counts.
+    """
+    if isinstance(frame, Mapping):
+        found = [(str(title), values) for title, values in frame.items()]
+    elif hasattr(frame, "columns") and hasattr(frame, "__getitem__"):
+        found = [(str(title), frame[title]) for title in frame.columns]
+    else:
+        raise TypeError(f"{name}: neither a path nor a frame of pandas or polars, but a {type(frame).__name__}")
+    units = getattr(frame, "attrs", {}).get("units", {})
+    timed = any(title.partition(" [")[0].lower() in TIME for title, _ in found)
+    index = getattr(frame, "index", None)
+    if not timed and index is not None and not isinstance(frame, Mapping) and type(index).__name__ != "RangeIndex":
+        found.insert(0, ("time [s]", index))
+    return [
+        (title if "[" in title or title not in units else f"{title} [{units[title]}]", _doubles(title, values, name))
+        for title, values in found
+    ]
+
+
+def _doubles(title: str, values: Any, name: str) -> np.ndarray:
+    array = np.asarray(values)
+    if np.issubdtype(array.dtype, np.datetime64) or np.issubdtype(array.dtype, np.timedelta64):
+        return np.asarray((array - array[0]) / np.timedelta64(1, "ns"), dtype=np.float64) * 1e-9
+    try:
+        return np.ascontiguousarray(array, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name}: the column `{title}` is not of numbers: {error}") from None
