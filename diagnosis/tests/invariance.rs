@@ -24,7 +24,7 @@ fn changed(record: &str, change: impl Fn(usize, &str) -> Option<String>) -> Stri
 fn of(threads: &str, change: impl Fn(usize, &str) -> Option<String>) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| {
-        fs::write(Path::new(folder.path()).join(name), changed(text, &change)).unwrap()
+        fs::write(Path::new(folder.path()).join(name), changed(text, &change)).unwrap();
     };
     write("train.csv", &record(strokes, 20.0));
     write("test.csv", &record(sines, 12.0));
