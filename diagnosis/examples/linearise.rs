@@ -12,7 +12,7 @@ use std::time::Instant;
 use strut_diagnosis::data::Origin;
 use strut_diagnosis::data::map::Map;
 use strut_diagnosis::dataset::import::load;
-use strut_diagnosis::estimation::fit::{Coordinate, Fit, Handle, Point};
+use strut_diagnosis::estimation::fit::{Estimate, Fit, FreeParameter, Unknown};
 use strut_diagnosis::estimation::lsq::Problem;
 use strut_diagnosis::rig::Rig;
 use strut_diagnosis::signal::distortion::Correction;
@@ -28,13 +28,13 @@ fn main() -> Result<(), String> {
     let record = loaded.records.into_iter().next().ok_or("the record cannot be used")?;
     let dynamics = rig.plant.prepare(&rig.choices)?;
     let base = rig.base();
-    let coordinate = |index: &usize| Coordinate {
-        handle: Handle::Parameter(*index),
+    let coordinate = |index: &usize| FreeParameter {
+        handle: Unknown::Parameter(*index),
         bounds: (f64::NEG_INFINITY, f64::INFINITY),
         prior: None,
     };
     let start: Vec<f64> = rig.plant.states.iter().map(|state| state.start).collect();
-    let point = Point {
+    let point = Estimate {
         parameters: rig.parameters.clone(),
         inputs: vec![Correction::default(); rig.plant.inputs.len()],
         outputs: vec![Correction::default(); rig.plant.outputs.len()],

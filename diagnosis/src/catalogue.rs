@@ -30,7 +30,7 @@ const FRICTION_VELOCITY: (f64, f64) = (5e-3, 1.0);
 
 /// An effect with a name that acts through a plant's parameters.
 #[derive(Clone, Copy, Debug)]
-pub struct Cause {
+pub struct Effect {
     /// Its number, unique within the element.
     pub id: &'static str,
     /// The element that it acts on.
@@ -59,7 +59,7 @@ pub struct Cause {
 }
 
 /// An effect that acts always, that not every rig has, and that contains no other.
-const PLAIN: Cause = Cause {
+const PLAIN: Effect = Effect {
     id: "",
     element: Element::Strut,
     name: "",
@@ -104,7 +104,7 @@ pub struct Replaced {
     pub distortion: Fault,
 }
 
-impl Cause {
+impl Effect {
     /// Whether a plant can have it.
     pub fn is_in(&self, plant: &Plant) -> bool {
         self.parts.iter().all(|part| plant.parameter(part.parameter).is_some())
@@ -307,12 +307,12 @@ const fn beyond(part: Part, beyond: Beyond) -> Part {
 }
 
 /// Every named effect that acts through parameters.
-fn all() -> impl Iterator<Item = &'static Cause> {
-    [strut::CAUSES, tire::CAUSES, guided::CAUSES, periphery::CAUSES].into_iter().flatten()
+fn all() -> impl Iterator<Item = &'static Effect> {
+    [strut::EFFECTS, tire::EFFECTS, guided::EFFECTS, periphery::EFFECTS].into_iter().flatten()
 }
 
 /// Every named effect that acts through a plant's parameters.
-pub fn causes(plant: &Plant) -> impl Iterator<Item = &'static Cause> {
+pub fn effects(plant: &Plant) -> impl Iterator<Item = &'static Effect> {
     all().filter(|effect| effect.is_in(plant))
 }
 
@@ -324,5 +324,5 @@ pub fn tables(plant: &Plant) -> impl Iterator<Item = &'static Table> {
 /// Whether an effect of the plant stands for a distortion of an input.
 pub fn is_replaced(plant: &Plant, input: &str, fault: Fault) -> bool {
     let stands_for = |it: Replaced| it.distortion == fault && input.starts_with(it.inputs);
-    causes(plant).filter_map(|effect| effect.replaces).any(stands_for)
+    effects(plant).filter_map(|effect| effect.replaces).any(stands_for)
 }

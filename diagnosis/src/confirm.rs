@@ -14,8 +14,8 @@ use crate::decision::criteria::CRITERIA;
 use crate::decision::evidence::Evidence;
 use crate::decision::rules::{Amount, is_determined};
 use crate::estimation::deadline::Stage;
-use crate::estimation::fit::{Handle, Point};
-use crate::estimation::hypothesis::{Fitted, Term, World};
+use crate::estimation::fit::{Estimate, Unknown};
+use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::lsq::Stop;
 use crate::explain::selection::Proposal;
 use crate::signal::distortion::Fault;
@@ -55,14 +55,14 @@ pub struct Confirmed {
     pub fitted: Fitted,
 }
 
-impl World<'_> {
+impl Baseline<'_> {
     fn tried(&self, base: &Fitted, null: &Fitted, proposal: &Proposal) -> Tried {
         let mut terms = null.terms.clone();
         terms.push(proposal.term);
         // From where the fit without the effect is, and from where the smoother is.
         let own = self.own_coordinates(proposal.term);
-        let with = |start: &Point, parameters: &[f64]| {
-            let mut point = Point { parameters: parameters.to_vec(), ..null.point.clone() };
+        let with = |start: &Estimate, parameters: &[f64]| {
+            let mut point = Estimate { parameters: parameters.to_vec(), ..null.point.clone() };
             own.iter().for_each(|it| point.set(it.handle, start.get(it.handle)));
             point
         };
@@ -96,14 +96,14 @@ impl World<'_> {
     fn amounts(&self, term: Term, fitted: &Fitted, base: &Fitted) -> Vec<Amount> {
         let covariance = fitted.linear.robust_covariance(&fitted.trace.scores);
         let half = |index: usize| CRITERIA.certain * covariance[(index, index)].max(0.0).sqrt();
-        let of = |handle: Handle| {
+        let of = |handle: Unknown| {
             let index = fitted.coordinates.iter().position(|it| it.handle == handle)?;
             let value = fitted.point.get(handle) - base.point.get(handle);
             let (low, high) = fitted.coordinates[index].bounds;
             // The end of a parameter's meaning is a possible value: a sharp limit has a ratio of one.
             let end = match handle {
-                Handle::Parameter(parameter) => self.rig.plant.parameters[parameter].max,
-                Handle::Input(..) | Handle::Output(..) => None,
+                Unknown::Parameter(parameter) => self.rig.plant.parameters[parameter].max,
+                Unknown::Input(..) | Unknown::Output(..) => None,
             };
             let high = if end.is_some_and(|end| end <= high) { f64::INFINITY } else { high };
             Some(Amount { value, bounds: (low, high), half: half(index) })
@@ -112,17 +112,17 @@ impl World<'_> {
     }
 
     /// What of a term says how much of it there is; of a curve and of a limit nothing does.
-    pub fn sizes(&self, term: Term) -> Vec<Handle> {
+    pub fn sizes(&self, term: Term) -> Vec<Unknown> {
         let own = self.own_coordinates(term);
         match term {
-            Term::Cause(cause) => {
+            Term::Effect(effect) => {
                 let adds = |part: &Part| part.addend;
                 let parts =
-                    cause.parts.iter().enumerate().filter(|(number, part)| *number == 0 || adds(part));
+                    effect.parts.iter().enumerate().filter(|(number, part)| *number == 0 || adds(part));
                 let index = |(_, part): (usize, &Part)| self.rig.plant.parameter(part.parameter);
-                parts.filter_map(index).map(Handle::Parameter).collect()
+                parts.filter_map(index).map(Unknown::Parameter).collect()
             }
-            Term::Fault(Handle::Input(_, Fault::Limit)) | Term::Table(_) | Term::Response(_) => Vec::new(),
+            Term::Fault(Unknown::Input(_, Fault::Limit)) | Term::Table(_) | Term::Response(_) => Vec::new(),
             Term::Fault(_) => own.into_iter().map(|it| it.handle).collect(),
         }
     }
@@ -162,17 +162,17 @@ pub(crate) fn has_no_name(term: Term) -> bool {
 }
 
 /// Whether a term can do all that another one can: by what it changes, or as the catalogue says.
-fn contains(larger: Term, smaller: Term, more: &BTreeSet<Handle>, fewer: &BTreeSet<Handle>) -> bool {
+fn contains(larger: Term, smaller: Term, more: &BTreeSet<Unknown>, fewer: &BTreeSet<Unknown>) -> bool {
     contains_by_name(larger, smaller) || fewer.is_subset(more)
 }
 
 /// Whether the catalogue says that a term has another one as a limit.
 fn contains_by_name(larger: Term, smaller: Term) -> bool {
     match (larger, smaller) {
-        (Term::Cause(larger), Term::Cause(smaller)) => {
+        (Term::Effect(larger), Term::Effect(smaller)) => {
             larger.element == smaller.element && larger.contains.contains(&smaller.id)
         }
-        (Term::Response(output), Term::Fault(Handle::Output(of, fault))) => {
+        (Term::Response(output), Term::Fault(Unknown::Output(of, fault))) => {
             output == of && RESPONSE.contains.contains(&fault)
         }
         _ => false,
@@ -180,7 +180,7 @@ fn contains_by_name(larger: Term, smaller: Term) -> bool {
 }
 
 /// What a fit has changed.
-fn parts(fitted: &Fitted) -> BTreeSet<Handle> {
+fn parts(fitted: &Fitted) -> BTreeSet<Unknown> {
     fitted.coordinates.iter().map(|it| it.handle).collect()
 }
 
@@ -189,7 +189,7 @@ pub(crate) fn worth(base: &Fitted) -> f64 {
     12.0_f64.max(0.005 * 2.0 * base.cost)
 }
 
-/// Well enough to compare a cause to a fit without it, as long as the cause promises anything.
+/// Well enough to compare an effect to a fit without it, as long as the effect promises anything.
 fn comparing(base: &Fitted, null: &Fitted) -> Stop {
     Stop { below: null.cost - 0.5 * HINT * worth(base), ..Stop::ROUGH }
 }

@@ -5,11 +5,11 @@ mod nominal;
 mod search;
 
 use crate::confirm::{Accepted, Tried};
-use crate::dataset::recorded::Recorded;
-use crate::dataset::split::Records;
+use crate::dataset::recorded::Dataset;
+use crate::dataset::split::Split;
 use crate::estimation::deadline::Deadline;
-use crate::estimation::fit::{Handle, Point};
-use crate::estimation::hypothesis::{Fitted, Term, World};
+use crate::estimation::fit::{Estimate, Unknown};
+use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::intervals::Interval;
 use crate::explain::describe::{MissingSignal, Unmodelled};
 use crate::explain::selection::Score;
@@ -20,17 +20,17 @@ use crate::screening::rms;
 /// A diagnosis that has come to its end.
 pub struct Diagnosis<'a> {
     /// What it was about.
-    pub world: World<'a>,
+    pub baseline: Baseline<'a>,
     /// The held-out records as they were measured.
-    pub measured: &'a [Recorded],
+    pub measured: &'a [Dataset],
     /// The starting model as it was given.
-    pub before: Point,
+    pub before: Estimate,
     /// What was found.
     pub found: Found,
     /// How sure each coordinate of the extended model is.
     pub intervals: Vec<Interval>,
     /// Signals that had to be turned over before anything fitted.
-    pub reversed: Vec<Handle>,
+    pub reversed: Vec<Unknown>,
 }
 
 /// What was found.
@@ -72,45 +72,45 @@ pub struct Options {
 /// If the model refuses its parameters or diverges on the records.
 pub fn diagnose<'a>(
     rig: &'a Rig,
-    records: &'a Records,
+    records: &'a Split,
     options: Options,
     progress: &(dyn Fn(&str) + Sync),
 ) -> Result<Diagnosis<'a>, String> {
-    let mut world = World::new(rig, records, options);
+    let mut baseline = Baseline::new(rig, records, options);
     progress("fitting the nominal parameters");
-    let (before, base, reversed) = nominal::fit(&mut world)?;
-    world.look_at(&base)?;
+    let (before, base, reversed) = nominal::fit(&mut baseline)?;
+    baseline.look_at(&base)?;
     let mut found = Found::nothing(base);
     let intervals = loop {
         // After a retraction, the second-best effect gets its turn.
-        world.identify(&mut found, progress)?;
-        if let Some(harmful) = world.harmful(&found, &records.measured) {
-            world.retract(&mut found, harmful)?;
+        baseline.identify(&mut found, progress)?;
+        if let Some(harmful) = baseline.harmful(&found, &records.measured) {
+            baseline.retract(&mut found, harmful)?;
             continue;
         }
         progress("comparing what each excitation says");
-        let intervals = world.intervals(&found.extended)?;
-        match world.doubtful(&found, &intervals) {
-            Some(doubtful) => world.retract(&mut found, doubtful)?,
+        let intervals = baseline.intervals(&found.extended)?;
+        match baseline.doubtful(&found, &intervals) {
+            Some(doubtful) => baseline.retract(&mut found, doubtful)?,
             None => break intervals,
         }
     };
-    Ok(Diagnosis { world, measured: &records.measured, before, found, intervals, reversed })
+    Ok(Diagnosis { baseline, measured: &records.measured, before, found, intervals, reversed })
 }
 
 /// All outputs of the plant on records, from the starts that the point has for them; not a number between sections.
 pub(crate) fn simulated(
-    world: &World<'_>,
+    baseline: &Baseline<'_>,
     terms: &[Term],
-    point: &Point,
-    records: &[Recorded],
+    point: &Estimate,
+    records: &[Dataset],
 ) -> Vec<Vec<Vec<f64>>> {
-    let Ok(dynamics) = world.dynamics(terms) else { return Vec::new() };
+    let Ok(dynamics) = baseline.dynamics(terms) else { return Vec::new() };
     let mut starts = point.starts.iter();
     records
         .iter()
         .map(|record| {
-            let mut whole = vec![vec![f64::NAN; record.len()]; world.rig.plant.outputs.len()];
+            let mut whole = vec![vec![f64::NAN; record.len()]; baseline.rig.plant.outputs.len()];
             for section in &record.sections {
                 let drive: Drive = record.drive(section, &point.inputs);
                 let Some(start) = starts.next() else { continue };

@@ -7,14 +7,14 @@
 mod kinematics;
 
 use crate::data::units::conversion;
-use crate::dataset::recorded::{Measured, Recorded, Source};
-use crate::dataset::split::Records;
+use crate::dataset::recorded::{Dataset, Measured, Source};
+use crate::dataset::split::Split;
 use crate::decision::plausible::{
     Alternative, FACTOR, Likeness, Plausible, Reading, chosen, is_exchanged, usual_units,
 };
 use crate::diagnosis::{Options, root_mean_square};
-use crate::estimation::fit::{Handle, Point};
-use crate::estimation::hypothesis::World;
+use crate::estimation::fit::{Estimate, Unknown};
+use crate::estimation::hypothesis::Baseline;
 use crate::plant::Dynamics;
 use crate::report::findings::DataProblem;
 use crate::report::words::{digits, unit};
@@ -36,7 +36,7 @@ const VAGUE: f64 = 0.5;
 ///
 /// # Errors
 /// If the model refuses its settings.
-pub fn problems(rig: &Rig, records: &Records, options: &Options) -> Result<Vec<DataProblem>, String> {
+pub fn problems(rig: &Rig, records: &Split, options: &Options) -> Result<Vec<DataProblem>, String> {
     let records_of = || records.train.iter().chain(&records.test);
     let mut problems: Vec<DataProblem> = records_of().flat_map(|it| kinematics::problems(rig, it)).collect();
     if !problems.is_empty() {
@@ -63,40 +63,40 @@ pub fn problems(rig: &Rig, records: &Records, options: &Options) -> Result<Vec<D
 }
 
 /// The first seconds of a record.
-fn shortened(record: &Recorded, seconds: f64) -> Recorded {
+fn shortened(record: &Dataset, seconds: f64) -> Dataset {
     let end = (seconds / record.step) as usize;
     let sections = record.sections.iter().filter(|it| it.start < end).map(|it| it.start..it.end.min(end));
     let sections: Vec<_> = sections.collect();
-    if sections.is_empty() { record.clone() } else { Recorded { sections, ..record.clone() } }
+    if sections.is_empty() { record.clone() } else { Dataset { sections, ..record.clone() } }
 }
 
 /// A record to be compared with the nominal model.
 struct Compared<'a> {
     rig: &'a Rig,
-    record: &'a Recorded,
-    world: World<'a>,
+    record: &'a Dataset,
+    baseline: Baseline<'a>,
     dynamics: &'a dyn Dynamics,
 }
 
 impl<'a> Compared<'a> {
     fn new(
         rig: &'a Rig,
-        record: &'a Recorded,
-        records: &'a Records,
+        record: &'a Dataset,
+        records: &'a Split,
         options: &Options,
         dynamics: &'a dyn Dynamics,
     ) -> Self {
-        let mut world = World::new(rig, records, options.clone());
+        let mut baseline = Baseline::new(rig, records, options.clone());
         for (row, measured) in record.measured.iter().enumerate() {
-            world.sigma[measured.output] = bent_rms(std::slice::from_ref(record), row);
+            baseline.sigma[measured.output] = bent_rms(std::slice::from_ref(record), row);
         }
-        Self { rig, record, world, dynamics }
+        Self { rig, record, baseline, dynamics }
     }
 
-    fn nominal(&self) -> Point {
-        let starts = self.world.starts(std::slice::from_ref(self.record));
-        let mut nominal = Point { starts, ..self.world.origin() };
-        for (parameter, value, _) in &self.world.known {
+    fn nominal(&self) -> Estimate {
+        let starts = self.baseline.starts(std::slice::from_ref(self.record));
+        let mut nominal = Estimate { starts, ..self.baseline.origin() };
+        for (parameter, value, _) in &self.baseline.known {
             nominal.parameters[*parameter] = *value;
         }
         nominal
@@ -133,7 +133,7 @@ impl<'a> Compared<'a> {
             }
             for reading in readings(self.rig.plant.inputs[index].unit.symbol) {
                 let mut point = self.nominal();
-                point.set(Handle::Input(index, Fault::Gain), 1.0 / reading.factor - 1.0);
+                point.set(Unknown::Input(index, Fault::Gain), 1.0 / reading.factor - 1.0);
                 let then = self.outputs(&self.simulated(point));
                 others.push(Alternative::new(Some((index, reading)), &then));
             }
@@ -142,8 +142,8 @@ impl<'a> Compared<'a> {
     }
 
     /// The measured outputs as the model has them, each from the states at the start that fit best.
-    fn simulated(&self, point: Point) -> Recorded {
-        let fit = self.world.fit(self.dynamics, std::slice::from_ref(self.record), Vec::new());
+    fn simulated(&self, point: Estimate) -> Dataset {
+        let fit = self.baseline.fit(self.dynamics, std::slice::from_ref(self.record), Vec::new());
         let point = fit.settled(point);
         let signals = fit.predictions(&point).swap_remove(0);
         let measured = self.record.measured.iter().zip(signals).map(|(measured, mut values)| {
@@ -155,11 +155,11 @@ impl<'a> Compared<'a> {
             }
             Measured { values, ..measured.clone() }
         });
-        Recorded { measured: measured.collect(), ..self.record.clone() }
+        Dataset { measured: measured.collect(), ..self.record.clone() }
     }
 
     /// The likeness of each output to the model's, and the units that it may have.
-    fn outputs(&self, simulated: &Recorded) -> Vec<(Likeness, Vec<Reading>)> {
+    fn outputs(&self, simulated: &Dataset) -> Vec<(Likeness, Vec<Reading>)> {
         let of = |row: usize| {
             let unit = self.rig.plant.outputs[self.record.measured[row].output].unit.symbol;
             (likeness(&self.record.bent(row), &simulated.bent(row)), readings(unit))
@@ -168,7 +168,7 @@ impl<'a> Compared<'a> {
     }
 
     /// Pairs of outputs that look exchanged.
-    fn exchanged(&self, simulated: &Recorded) -> Vec<DataProblem> {
+    fn exchanged(&self, simulated: &Dataset) -> Vec<DataProblem> {
         let declared = |row: usize| &self.rig.plant.outputs[self.record.measured[row].output];
         let of = |row: usize, other: usize| likeness(&self.record.bent(row), &simulated.bent(other));
         let rows = self.record.measured.len();

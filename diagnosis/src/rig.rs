@@ -368,8 +368,8 @@ impl Rig {
     /// already. How wide its friction's transition is counts among them: who holds it finds its error elsewhere.
     pub fn base(&self) -> Vec<usize> {
         let mut base: Vec<usize> = self.nominal().filter_map(|name| self.plant.parameter(name)).collect();
-        for cause in catalogue::causes(&self.plant) {
-            let parts = || cause.parts.iter().filter_map(|part| self.plant.parameter(part.parameter));
+        for effect in catalogue::effects(&self.plant) {
+            let parts = || effect.parts.iter().filter_map(|part| self.plant.parameter(part.parameter));
             if parts().next().is_some_and(|amount| self.parameters[amount] != 0.0) {
                 let more: Vec<usize> = parts().filter(|index| !base.contains(index)).collect();
                 base.extend(more);

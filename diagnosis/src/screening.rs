@@ -1,4 +1,4 @@
-//! Which causes the residuals of a fit may contain: every term is tried out, and compared to what is missing.
+//! Which effects the residuals of a fit may contain: every term is tried out, and compared to what is missing.
 
 mod looks;
 mod probes;
@@ -12,9 +12,9 @@ use rayon::prelude::*;
 
 use crate::catalogue::naming::name;
 use crate::catalogue::{self, Signal};
-use crate::dataset::recorded::{Recorded, Source};
-use crate::estimation::fit::{Handle, Normal, Point};
-use crate::estimation::hypothesis::{Fitted, Term, World};
+use crate::dataset::recorded::{Dataset, Source};
+use crate::estimation::fit::{Estimate, Normal, Unknown};
+use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::plant::{Dynamics, Signals};
 use crate::signal::distortion::{AFTER, Correction};
 
@@ -35,20 +35,20 @@ pub struct TriedOut {
     pub normal: Normal,
 }
 
-impl World<'_> {
+impl Baseline<'_> {
     /// Every term that the records allow to be judged.
     pub fn terms(&self) -> Vec<Term> {
         let plant = &self.rig.plant;
         let mut terms: Vec<Term> = Vec::new();
-        for cause in catalogue::causes(plant) {
-            let amount = cause.parts.first().and_then(|part| plant.parameter(part.parameter));
-            let there = match (amount, cause.setting.and_then(|name| plant.setting(name))) {
+        for effect in catalogue::effects(plant) {
+            let amount = effect.parts.first().and_then(|part| plant.parameter(part.parameter));
+            let there = match (amount, effect.setting.and_then(|name| plant.setting(name))) {
                 (Some(index), _) => self.rig.parameters[index] != 0.0,
                 (None, Some(setting)) => self.rig.choices[setting] == strut_model::Value::Boolean(true),
                 (None, None) => true,
             };
             if !there {
-                terms.push(Term::Cause(cause));
+                terms.push(Term::Effect(effect));
             }
         }
         terms.extend(catalogue::tables(plant).map(Term::Table));
@@ -56,7 +56,7 @@ impl World<'_> {
         for measured in &record.measured {
             let name = &plant.outputs[measured.output].name;
             let faults = catalogue::distortions(Signal::Output, name);
-            terms.extend(faults.map(|fault| Term::Fault(Handle::Output(measured.output, fault))));
+            terms.extend(faults.map(|fault| Term::Fault(Unknown::Output(measured.output, fault))));
             if self.stretches() > MEMORIES * AFTER[AFTER.len() - 1] {
                 terms.push(Term::Response(measured.output));
             }
@@ -66,7 +66,7 @@ impl World<'_> {
                 let name = &plant.inputs[input].name;
                 let faults = catalogue::distortions(Signal::of_input(name), name);
                 let own = faults.filter(|fault| !catalogue::is_replaced(plant, name, *fault));
-                terms.extend(own.map(|fault| Term::Fault(Handle::Input(input, fault))));
+                terms.extend(own.map(|fault| Term::Fault(Unknown::Input(input, fault))));
             }
         }
         terms.retain(|term| self.only.is_empty() || self.only.contains(&name(*term, plant).id));
@@ -81,7 +81,7 @@ impl World<'_> {
     }
 
     /// Whether an input is measured as a position and as a velocity: one of them wrong would contradict the other.
-    fn twofold(&self, record: &Recorded, input: usize) -> bool {
+    fn twofold(&self, record: &Dataset, input: usize) -> bool {
         let plant = &self.rig.plant;
         let name = &plant.inputs[input].name;
         let other = |from: &str, to: &str| Some(format!("{}{to}", name.strip_suffix(from)?));
@@ -110,14 +110,14 @@ impl World<'_> {
         let dynamics: Vec<Option<Box<dyn Dynamics>>> = terms.iter().map(with).collect();
         let own = self.dynamics(&fitted.terms)?;
         let fit = self.fit(&*own, self.train, fitted.coordinates.clone());
-        let unseen = Point { outputs: vec![Correction::default(); at.outputs.len()], ..at.clone() };
+        let unseen = Estimate { outputs: vec![Correction::default(); at.outputs.len()], ..at.clone() };
         let diverging: Vec<AtomicBool> = probes.iter().map(|_| AtomicBool::new(false)).collect();
-        let changes = |index: usize, record: &Recorded, section: &Range<usize>| -> Vec<Signals> {
+        let changes = |index: usize, record: &Dataset, section: &Range<usize>| -> Vec<Signals> {
             let start = &at.starts[index];
             let [before, unseen] = [at, &unseen].map(|it| fit.predicted(it, start, record, section));
-            let changed = |term: usize, point: &Point| -> Option<Signals> {
+            let changed = |term: usize, point: &Estimate| -> Option<Signals> {
                 let signals = match terms[term] {
-                    Term::Fault(Handle::Output(output, _)) | Term::Response(output) => {
+                    Term::Fault(Unknown::Output(output, _)) | Term::Response(output) => {
                         seen(&point.outputs[output], &unseen, &before, (record, section, output))
                     }
                     _ => {
@@ -154,8 +154,8 @@ impl World<'_> {
         probe: &Probe,
         amounts: &DVector<f64>,
         gain: f64,
-        at: &Point,
-    ) -> (f64, Point) {
+        at: &Estimate,
+    ) -> (f64, Estimate) {
         let Some(mut point) = probe.points.first().cloned() else { return (0.0, at.clone()) };
         let own = self.own_coordinates(term);
         match probe.points.as_slice() {
@@ -190,7 +190,7 @@ fn seen(
     correction: &Correction,
     unseen: &Signals,
     before: &Signals,
-    (record, section, output): (&Recorded, &Range<usize>, usize),
+    (record, section, output): (&Dataset, &Range<usize>, usize),
 ) -> Signals {
     let of = |(row, (unseen, before)): (usize, (&Vec<f64>, &Vec<f64>))| {
         if record.measured[row].output != output {
@@ -208,7 +208,7 @@ fn groups(probes: &[(Probe, Range<usize>)]) -> Vec<Range<usize>> {
 }
 
 /// Root mean square of what a model has to tell of a measured output: without the straight line through each section.
-pub fn bent_rms(records: &[Recorded], row: usize) -> f64 {
+pub fn bent_rms(records: &[Dataset], row: usize) -> f64 {
     rms(&records.iter().flat_map(|record| record.bent(row)).collect::<Vec<_>>()).max(f64::MIN_POSITIVE)
 }
 

@@ -22,7 +22,7 @@ impl Regression<'_> {
 }
 
 impl Problem for Regression<'_> {
-    type Point = DVector<f64>;
+    type Estimate = DVector<f64>;
     type Trace = ();
 
     fn cost(&self, point: &DVector<f64>) -> f64 {

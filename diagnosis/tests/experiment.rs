@@ -4,12 +4,12 @@ mod common;
 
 use strut_diagnosis::catalogue::naming::name;
 use strut_diagnosis::data;
-use strut_diagnosis::dataset::recorded::{Measured, Recorded, Source, derivative};
-use strut_diagnosis::dataset::split::Records;
+use strut_diagnosis::dataset::recorded::{Dataset, Measured, Source, derivative};
+use strut_diagnosis::dataset::split::Split;
 use strut_diagnosis::decision::verdict::Verdict;
 use strut_diagnosis::diagnosis::{Diagnosis, Options, diagnose};
-use strut_diagnosis::estimation::fit::Point;
-use strut_diagnosis::estimation::hypothesis::World;
+use strut_diagnosis::estimation::fit::Estimate;
+use strut_diagnosis::estimation::hypothesis::Baseline;
 use strut_diagnosis::estimation::lsq::Stop;
 use strut_diagnosis::experiment::{Excitation, Limits, Rival, Shape, TABLE, Trial, Wave, excitations};
 use strut_diagnosis::plant::{Between, Drive};
@@ -22,14 +22,14 @@ const STEP: f64 = 2.5e-3;
 const NOISE: f64 = 60.0;
 
 /// A record of a strut on a bench: its lower end moves, its force is measured with noise.
-fn record(rig: &Rig, parameters: &[f64], motion: Vec<f64>, seed: u64) -> Recorded {
+fn record(rig: &Rig, parameters: &[f64], motion: Vec<f64>, seed: u64) -> Dataset {
     let (count, velocity) = (motion.len(), derivative(&motion, STEP));
     let drive =
         Drive { step: STEP, inputs: vec![motion.clone(), velocity], finer: 1, between: Between::Lines };
     let outputs = rig.plant.prepare(&rig.choices).unwrap().outputs(parameters, &rig.start, &drive);
     let (output, mut noise) = (rig.plant.output("force").unwrap(), noise(seed));
     let values = outputs[output].iter().map(|force| force + NOISE * noise()).collect();
-    Recorded {
+    Dataset {
         name: format!("{seed}"),
         step: STEP,
         inputs: vec![Source::Measured(motion), Source::DerivativeOf(0)],
@@ -54,13 +54,13 @@ fn case() -> (Rig, Vec<f64>) {
     (rig, truth)
 }
 
-fn records(rig: &Rig, truth: &[f64]) -> Records {
+fn records(rig: &Rig, truth: &[f64]) -> Split {
     let sine = |frequency: f64| Shape::Sine { frequency }.signal(0.015, STEP, 2400);
-    Records::new(&[record(rig, truth, sine(1.5), 1)], vec![record(rig, truth, sine(1.6), 2)])
+    Split::new(&[record(rig, truth, sine(1.5), 1)], vec![record(rig, truth, sine(1.6), 2)])
 }
 
 /// A knee of the damper explains the force at one speed as well as an orifice.
-fn diagnosed<'a>(rig: &'a Rig, records: &'a Records) -> Diagnosis<'a> {
+fn diagnosed<'a>(rig: &'a Rig, records: &'a Split) -> Diagnosis<'a> {
     let only = ["05", "06"].map(str::to_owned).to_vec();
     let diagnosis = diagnose(rig, records, Options { only, ..Options::default() }, &|_| {}).unwrap();
     let accepted = &diagnosis.found.accepted;
@@ -113,15 +113,15 @@ fn the_right_model_wins_on_the_experiment() {
     for right in 0..models.len() {
         for seed in 10..14 {
             let motion = best.excitation.signal(&rig, 0, STEP, 2400);
-            let choices = diagnosis.world.choices(&models[right].fitted.terms);
+            let choices = diagnosis.baseline.choices(&models[right].fitted.terms);
             assert_eq!(choices, rig.choices);
             let measured = record(&rig, &models[right].fitted.point.parameters, motion, seed);
             assert_eq!(measured.measured[0].output, output);
             let records = [measured];
-            let world = World { train: &records, test: &[], ..diagnosis.world.clone() };
+            let baseline = Baseline { train: &records, test: &[], ..diagnosis.baseline.clone() };
             let cost = |it: &Rival| {
-                let start = Point { starts: world.starts(&records), ..it.fitted.point.clone() };
-                world.fitted(&it.fitted.terms, &[start], Stop::NOISY).unwrap().cost
+                let start = Estimate { starts: baseline.starts(&records), ..it.fitted.point.clone() };
+                baseline.fitted(&it.fitted.terms, &[start], Stop::NOISY).unwrap().cost
             };
             let costs: Vec<f64> = models.iter().map(cost).collect();
             assert!((0..models.len()).all(|it| costs[right] <= costs[it]), "{right} is right: {costs:?}");

@@ -7,9 +7,9 @@ use strut_diagnosis::catalogue::naming::{handle, name};
 use strut_diagnosis::data::Origin;
 use strut_diagnosis::data::map::Map;
 use strut_diagnosis::dataset::import::{Loaded, load};
-use strut_diagnosis::dataset::split::Records;
+use strut_diagnosis::dataset::split::Split;
 use strut_diagnosis::diagnosis::{Options, diagnose};
-use strut_diagnosis::estimation::fit::Handle;
+use strut_diagnosis::estimation::fit::Unknown;
 use strut_diagnosis::rig::Rig;
 
 /// A plant whose record is made, read and diagnosed.
@@ -85,12 +85,12 @@ impl Case {
         let Loaded { mut records, problems } = load(&mut rig, &[train, test], &Map::default()).unwrap();
         assert_eq!(records.len(), 2, "{problems:?}");
         let test = records.split_off(1);
-        let records = Records::new(&records, test);
+        let records = Split::new(&records, test);
         let diagnosis = diagnose(&rig, &records, Options::default(), &|_| {}).unwrap();
         let terms = diagnosis.found.accepted.iter().map(|it| name(it.term, &rig.plant).short()).collect();
-        let named = |of: Handle| handle(of, &rig.plant).0;
+        let named = |of: Unknown| handle(of, &rig.plant).0;
         let (extended, intervals) = (&diagnosis.found.extended, &diagnosis.intervals);
-        let parameters = (0..rig.plant.parameters.len()).map(Handle::Parameter);
+        let parameters = (0..rig.plant.parameters.len()).map(Unknown::Parameter);
         let all = parameters.chain(extended.coordinates.iter().map(|it| it.handle));
         Said {
             terms,

@@ -9,7 +9,7 @@ use strut_diagnosis::app::virtual_rig::{self, Experiment};
 use strut_diagnosis::data::Origin;
 use strut_diagnosis::data::map::Map;
 use strut_diagnosis::dataset::import::load;
-use strut_diagnosis::dataset::split::Records;
+use strut_diagnosis::dataset::split::Split;
 use strut_diagnosis::dataset::witness;
 use strut_diagnosis::diagnosis::Options;
 use strut_diagnosis::plausibility::problems;
@@ -59,7 +59,7 @@ fn found(rig: &str, hidden: &[(&str, f64)], change: impl Fn(&mut Table)) -> Vec<
     let path = folder.path().join("record.csv");
     fs::write(&path, text(&table)).unwrap();
     let records = load(&mut rig, &[&Origin::File(path)], &Map::default()).unwrap().records;
-    problems(&rig, &Records::new(&records, Vec::new()), &Options::default()).unwrap()
+    problems(&rig, &Split::new(&records, Vec::new()), &Options::default()).unwrap()
 }
 
 fn fatal(problems: &[DataProblem]) -> Vec<&str> {
@@ -133,7 +133,7 @@ fn nothing_in_the_blind_benchmark_is_taken_for_a_wrong_column() {
         let mut records = load(&mut rig, &origins, &Map::default()).unwrap().records;
         let test = records.split_off(count);
         assert_eq!(witness::notes(&records, &test), [], "{}", case.name);
-        let problems = problems(&rig, &Records::new(&records, test), &Options::default()).unwrap();
+        let problems = problems(&rig, &Split::new(&records, test), &Options::default()).unwrap();
         assert!(problems.is_empty(), "{}: {problems:?}", case.name);
     }
 }

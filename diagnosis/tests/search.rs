@@ -3,10 +3,10 @@
 mod common;
 
 use strut_diagnosis::catalogue::naming::name;
-use strut_diagnosis::dataset::recorded::{Measured, Recorded, Source, derivative};
-use strut_diagnosis::dataset::split::Records;
+use strut_diagnosis::dataset::recorded::{Dataset, Measured, Source, derivative};
+use strut_diagnosis::dataset::split::Split;
 use strut_diagnosis::diagnosis::{Diagnosis, Options, diagnose};
-use strut_diagnosis::estimation::fit::Handle;
+use strut_diagnosis::estimation::fit::Unknown;
 use strut_diagnosis::plant::{Between, Drive};
 use strut_diagnosis::rig::Rig;
 use strut_diagnosis::screening::rms;
@@ -32,18 +32,18 @@ fn multisine(n: usize, seed: u64, lines: &[(f64, f64)]) -> Vec<f64> {
         .collect()
 }
 
-fn record(rig: &Rig, seed: u64, changes: &[(&str, f64)]) -> Recorded {
+fn record(rig: &Rig, seed: u64, changes: &[(&str, f64)]) -> Dataset {
     pushed(rig, seed, changes, 1.0)
 }
 
 /// The same with the actuator's force so many times as large.
-fn pushed(rig: &Rig, seed: u64, changes: &[(&str, f64)], push: f64) -> Recorded {
+fn pushed(rig: &Rig, seed: u64, changes: &[(&str, f64)], push: f64) -> Dataset {
     let sensors = ["body.acceleration", "wheel.acceleration", "suspension.deflection", "wheel.force"];
     seen(rig, seed, changes, push, &sensors)
 }
 
 /// The same as these sensors see it.
-fn seen(rig: &Rig, seed: u64, changes: &[(&str, f64)], push: f64, sensors: &[&str]) -> Recorded {
+fn seen(rig: &Rig, seed: u64, changes: &[(&str, f64)], push: f64, sensors: &[&str]) -> Dataset {
     let mut parameters = rig.parameters.clone();
     for (name, value) in changes {
         parameters[rig.plant.parameter(name).unwrap()] = *value;
@@ -93,7 +93,7 @@ fn seen(rig: &Rig, seed: u64, changes: &[(&str, f64)], push: f64, sensors: &[&st
         let values = signal.iter().map(|y| y + floor * noise()).collect();
         Measured { output, values, noise_floor: floor }
     });
-    Recorded {
+    Dataset {
         name: format!("{seed}"),
         step: STEP,
         inputs,
@@ -107,13 +107,13 @@ fn seen(rig: &Rig, seed: u64, changes: &[(&str, f64)], push: f64, sensors: &[&st
 /// Numbers and places of all that is told.
 fn told(diagnosis: &Diagnosis<'_>) -> Vec<String> {
     let all = diagnosis.found.accepted.iter();
-    all.map(|it| name(it.term, &diagnosis.world.rig.plant).short()).collect()
+    all.map(|it| name(it.term, &diagnosis.baseline.rig.plant).short()).collect()
 }
 
 /// Numbers and places of what is found on held-out data, and the values of the extended model's parameters.
 fn found(changes: &[(&str, f64)]) -> (Vec<String>, Vec<(String, f64)>) {
     let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
-    let records = Records::new(&[record(&rig, 1, changes)], [record(&rig, 20, changes)].to_vec());
+    let records = Split::new(&[record(&rig, 1, changes)], [record(&rig, 20, changes)].to_vec());
     let diagnosis = diagnose(&rig, &records, Options::default(), &|_| {}).unwrap();
     let terms = diagnosis.found.accepted.iter().map(|it| name(it.term, &rig.plant).short());
     let point = &diagnosis.found.extended.point;
@@ -172,10 +172,10 @@ fn one_late_actuator_is_simpler_than_every_sensor_being_late() {
         }
         record
     };
-    let records = Records::new(&[late(1)], [late(20)].to_vec());
+    let records = Split::new(&[late(1)], [late(20)].to_vec());
     let diagnosis = diagnose(&rig, &records, Options::default(), &|_| {}).unwrap();
     assert_eq!(told(&diagnosis), ["23 actuator.force"]);
-    let delay = Handle::Input(rig.plant.input("actuator.force").unwrap(), Fault::Delay);
+    let delay = Unknown::Input(rig.plant.input("actuator.force").unwrap(), Fault::Delay);
     assert!((diagnosis.found.extended.point.get(delay) - 2.0 * STEP).abs() < 0.2 * STEP);
 }
 
@@ -186,13 +186,13 @@ fn what_was_weighed_is_believed() {
     let mut rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
     let mass = rig.plant.parameter("sprung_mass").unwrap();
     let record = |seed: u64| record(&rig, seed, &[("sprung_mass", 100.0)]);
-    let records = Records::new(&[record(1)], [record(20)].to_vec());
+    let records = Split::new(&[record(1)], [record(20)].to_vec());
     for (sheet, value) in [(94.38, 100.0), (2.0, 100.0)] {
         rig.parameters[mass] = sheet;
         let options = Options { known: vec![(mass, value, 0.1)], ..Options::default() };
         let diagnosis = diagnose(&rig, &records, options, &|_| {}).unwrap();
         assert!(told(&diagnosis).is_empty(), "{value} kg, {sheet} kg in the sheet");
-        let interval = diagnosis.intervals.iter().find(|it| it.handle == Handle::Parameter(mass)).unwrap();
+        let interval = diagnosis.intervals.iter().find(|it| it.handle == Unknown::Parameter(mass)).unwrap();
         assert!(
             interval.low() >= value - 0.3 - 1e-9 && interval.high() <= value + 0.3 + 1e-9,
             "{interval:?}"
@@ -205,7 +205,7 @@ fn what_was_weighed_is_believed() {
 fn a_small_input_is_turned_over_before_anything_is_claimed() {
     let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
     let force = rig.plant.input("actuator.force").unwrap();
-    for (sign, reversed) in [(1.0, vec![]), (-1.0, vec![Handle::Input(force, Fault::Gain)])] {
+    for (sign, reversed) in [(1.0, vec![]), (-1.0, vec![Unknown::Input(force, Fault::Gain)])] {
         let record = |seed: u64| {
             let mut record = pushed(&rig, seed, &[("strut.coulomb.force", 60.0)], 0.15);
             if let Source::Measured(values) = &mut record.inputs[force] {
@@ -213,7 +213,7 @@ fn a_small_input_is_turned_over_before_anything_is_claimed() {
             }
             record
         };
-        let records = Records::new(&[record(1)], [record(20)].to_vec());
+        let records = Split::new(&[record(1)], [record(20)].to_vec());
         let diagnosis = diagnose(&rig, &records, Options::default(), &|_| {}).unwrap();
         assert_eq!(diagnosis.reversed, reversed);
         assert_eq!(told(&diagnosis), ["01 strut"]);

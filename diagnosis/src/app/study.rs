@@ -11,8 +11,8 @@ use crate::data::Origin;
 use crate::data::map::Map;
 use crate::data::table::did_you_mean;
 use crate::dataset::import::{Loaded, load};
-use crate::dataset::recorded::Recorded;
-use crate::dataset::split::Records;
+use crate::dataset::recorded::Dataset;
+use crate::dataset::split::Split;
 use crate::dataset::witness;
 use crate::diagnosis::{Diagnosis, Options};
 use crate::estimation::deadline::{Deadline, Stage};
@@ -106,11 +106,11 @@ impl Study {
         if let Some(outcome) = self.refused(&problems) {
             return Ok(outcome);
         }
-        let test: Vec<Recorded> = records.split_off(self.train.len());
+        let test: Vec<Dataset> = records.split_off(self.train.len());
         problems.extend(witness::notes(&records, &test));
         let options = Options { known: self.known.clone(), only: self.effects.clone(), deadline };
         progress("removing the noise of the inputs");
-        let whole = Records::new(&records, test);
+        let whole = Split::new(&records, test);
         progress("comparing each column with the model");
         problems.extend(plausibility::problems(&self.rig, &whole, &options)?);
         if let Some(outcome) = self.refused(&problems) {
@@ -124,7 +124,7 @@ impl Study {
                 break;
             }
             let Some(parts) = last.in_parts(&self.rig) else { break };
-            if diagnosis.world.deadline.is_over(Stage::Segments) {
+            if diagnosis.baseline.deadline.is_over(Stage::Segments) {
                 break;
             }
             last = cell.get_or_init(|| parts);

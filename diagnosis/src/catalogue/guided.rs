@@ -1,6 +1,6 @@
 //! Effects in the guides of drives and in pivots.
 
-use super::{Cause, Element, FRICTION_VELOCITY, Onset, PLAIN, Prevalence, Scale, part, within};
+use super::{Effect, Element, FRICTION_VELOCITY, Onset, PLAIN, Prevalence, Scale, part, within};
 
 /// Pole pitches and spindle pitches in m: so close that over a stroke of some periods no phase is lost between two of them.
 const PERIODS: &[f64] = &[
@@ -8,8 +8,8 @@ const PERIODS: &[f64] = &[
     0.0245, 0.028, 0.032, 0.037, 0.043, 0.049, 0.057,
 ];
 
-pub(super) const CAUSES: &[Cause] = &[
-    Cause {
+pub(super) const EFFECTS: &[Effect] = &[
+    Effect {
         id: "33",
         element: Element::Guide,
         name: "constant force",
@@ -19,7 +19,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "hold several positions: what remains of the force at all of them is the load's",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "02",
         element: Element::Guide,
         name: "Stribeck friction of the guide",
@@ -36,7 +36,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "creep through zero velocity below 5 mm/s",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "08",
         element: Element::Guide,
         name: "spring to the ground",
@@ -47,7 +47,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "hold several positions, and compare the forces",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "27",
         element: Element::Guide,
         name: "cogging",
@@ -63,7 +63,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "traverse slowly, and draw the force over the position",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "01",
         element: Element::Pivot,
         name: "pivot friction",

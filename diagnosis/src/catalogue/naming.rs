@@ -3,8 +3,8 @@
 use strut_model::Declaration;
 
 use super::signals::At;
-use super::{Distortion, Onset, Prevalence, RESPONSE, Signal, causes, distortion, distortions, tables};
-use crate::estimation::fit::Handle;
+use super::{Distortion, Onset, Prevalence, RESPONSE, Signal, distortion, distortions, effects, tables};
+use crate::estimation::fit::Unknown;
 use crate::estimation::hypothesis::Term;
 use crate::plant::Plant;
 use crate::signal::distortion::Fault;
@@ -38,7 +38,7 @@ impl Name {
 /// What a term is called.
 pub fn name(term: Term, plant: &Plant) -> Name {
     match term {
-        Term::Cause(effect) => Name {
+        Term::Effect(effect) => Name {
             id: effect.id.into(),
             element: effect.element.name().into(),
             name: effect.name.into(),
@@ -65,7 +65,7 @@ pub fn name(term: Term, plant: &Plant) -> Name {
 /// How common a term's effect is.
 pub fn prevalence(term: Term, plant: &Plant) -> Prevalence {
     match term {
-        Term::Cause(effect) => effect.prevalence,
+        Term::Effect(effect) => effect.prevalence,
         Term::Table(table) => table.law.prevalence,
         Term::Fault(handle) => {
             let (fault, signal, _) = distorted(handle, plant);
@@ -78,9 +78,9 @@ pub fn prevalence(term: Term, plant: &Plant) -> Prevalence {
 /// When a term's effect acts.
 pub fn onset(term: Term) -> Onset {
     match term {
-        Term::Cause(effect) => effect.onset,
-        Term::Fault(Handle::Input(_, fault) | Handle::Output(_, fault)) => distortion(fault).onset,
-        Term::Table(_) | Term::Response(_) | Term::Fault(Handle::Parameter(_)) => Onset::Always,
+        Term::Effect(effect) => effect.onset,
+        Term::Fault(Unknown::Input(_, fault) | Unknown::Output(_, fault)) => distortion(fault).onset,
+        Term::Table(_) | Term::Response(_) | Term::Fault(Unknown::Parameter(_)) => Onset::Always,
     }
 }
 
@@ -88,15 +88,15 @@ pub fn onset(term: Term) -> Onset {
 pub fn numbers(plant: &Plant) -> Vec<String> {
     let inputs = plant.inputs.iter().enumerate().flat_map(|(index, declared)| {
         let faults = distortions(Signal::of_input(&declared.name), &declared.name);
-        faults.map(move |fault| Handle::Input(index, fault))
+        faults.map(move |fault| Unknown::Input(index, fault))
     });
     let outputs = plant.outputs.iter().enumerate().flat_map(|(index, declared)| {
         let faults = distortions(Signal::Output, &declared.name);
-        faults.map(move |fault| Handle::Output(index, fault))
+        faults.map(move |fault| Unknown::Output(index, fault))
     });
     let faults = inputs.chain(outputs).map(Term::Fault);
     let responses = (0..plant.outputs.len()).map(Term::Response);
-    let plants = causes(plant).map(Term::Cause).chain(tables(plant).map(Term::Table));
+    let plants = effects(plant).map(Term::Effect).chain(tables(plant).map(Term::Table));
     let terms = plants.chain(faults).chain(responses);
     let mut numbers: Vec<String> = terms.map(|term| name(term, plant).id).collect();
     numbers.sort();
@@ -105,14 +105,14 @@ pub fn numbers(plant: &Plant) -> Vec<String> {
 }
 
 /// A distortion with its signal; a parameter is as wrong as a sensor's gain.
-fn distorted(handle: Handle, plant: &Plant) -> (Fault, Signal, &Declaration) {
+fn distorted(handle: Unknown, plant: &Plant) -> (Fault, Signal, &Declaration) {
     match handle {
-        Handle::Input(index, fault) => {
+        Unknown::Input(index, fault) => {
             let declared = &plant.inputs[index];
             (fault, Signal::of_input(&declared.name), declared)
         }
-        Handle::Output(index, fault) => (fault, Signal::Output, &plant.outputs[index]),
-        Handle::Parameter(index) => (Fault::Gain, Signal::Output, &plant.parameters[index]),
+        Unknown::Output(index, fault) => (fault, Signal::Output, &plant.outputs[index]),
+        Unknown::Parameter(index) => (Fault::Gain, Signal::Output, &plant.parameters[index]),
     }
 }
 
@@ -130,14 +130,14 @@ fn of_signal(own: &'static Distortion, signal: Signal, declared: &Declaration) -
 }
 
 /// Name and unit of what a fit changes.
-pub fn handle(handle: Handle, plant: &Plant) -> (String, String) {
+pub fn handle(handle: Unknown, plant: &Plant) -> (String, String) {
     match handle {
-        Handle::Parameter(index) => {
+        Unknown::Parameter(index) => {
             let declared = &plant.parameters[index];
             (declared.name.clone(), declared.unit.symbol.to_owned())
         }
-        Handle::Input(index, fault) => amount(&plant.inputs[index], fault),
-        Handle::Output(index, fault) => amount(&plant.outputs[index], fault),
+        Unknown::Input(index, fault) => amount(&plant.inputs[index], fault),
+        Unknown::Output(index, fault) => amount(&plant.outputs[index], fault),
     }
 }
 

@@ -8,7 +8,7 @@ use super::literature::Work;
 use super::signals::{Among, DISTORTIONS};
 use super::tables::{TABLES, UNNAMED};
 use super::{
-    Bounds, Cause, Distortion, Element, Onset, Part, Prevalence, RESPONSE, Scale, Signal, all, is_replaced,
+    Bounds, Distortion, Effect, Element, Onset, Part, Prevalence, RESPONSE, Scale, Signal, all, is_replaced,
 };
 use crate::estimation::hypothesis::POINTS;
 use crate::plant::Plant;
@@ -64,12 +64,12 @@ impl Page<'_> {
     fn element(&mut self, element: Element) {
         let (title, text) = about(element);
         self.section(title, text);
-        let mut effects: Vec<&Cause> = all().filter(|it| it.element == element).collect();
+        let mut effects: Vec<&Effect> = all().filter(|it| it.element == element).collect();
         effects.sort_by_key(|it| it.id);
         effects.into_iter().for_each(|effect| self.effect(effect));
     }
 
-    fn effect(&mut self, effect: &Cause) {
+    fn effect(&mut self, effect: &Effect) {
         let models: Vec<&(&str, Plant)> = self.models.iter().filter(|(_, it)| effect.is_in(it)).collect();
         self.head(effect.id, effect.name, effect.equation);
         for part in effect.parts {

@@ -1,15 +1,15 @@
 //! Effects around strut and tyre: in the frame, in actuator, valve and pump, and in the cell that measures the
 //! force.
 
-use super::{Cause, Element, FRICTION_VELOCITY, Onset, PLAIN, Replaced, Scale, part};
+use super::{Effect, Element, FRICTION_VELOCITY, Onset, PLAIN, Replaced, Scale, part};
 use crate::signal::distortion::Fault;
 
 /// Natural frequencies in Hz, so close that a lightly damped mode between two of them still shows.
 const FREQUENCIES: &[f64] =
     &[10.0, 11.5, 13.2, 15.2, 17.5, 20.0, 23.0, 26.5, 30.5, 35.0, 40.0, 46.0, 53.0, 61.0, 70.0, 80.0];
 
-pub(super) const CAUSES: &[Cause] = &[
-    Cause {
+pub(super) const EFFECTS: &[Effect] = &[
+    Effect {
         id: "18",
         element: Element::Frame,
         name: "frame mode",
@@ -23,7 +23,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "dwell on sines about the resonance, and tap the frame",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "26",
         element: Element::Actuator,
         name: "saturation of the actuator",
@@ -39,7 +39,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "repeat the run with half the command",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "26s",
         element: Element::Actuator,
         name: "slew limit of the actuator",
@@ -50,7 +50,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "command steps of several sizes: larger ones take longer",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "28",
         element: Element::Valve,
         name: "overlap of the valve",
@@ -60,7 +60,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "drive the valve by a random signal of small amplitude",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "28h",
         element: Element::Valve,
         name: "hysteresis of the valve",
@@ -70,7 +70,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "drive the valve slowly up and down with the pressures balanced, and compare the flows",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "30",
         element: Element::Pump,
         name: "leakage of the pump",
@@ -80,7 +80,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "hold piston and motor under load: the force decays; hold the torque: the motor creeps",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "32c",
         element: Element::Pump,
         name: "friction of the pump",
@@ -93,7 +93,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "turn the motor slowly to and fro without load: the torques differ by twice the friction",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "41",
         element: Element::ForceCell,
         name: "inertia of the force cell",
@@ -103,7 +103,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "lift the wheel off the road and shake it: what the cell shows then is its own",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "41h",
         element: Element::ForceCell,
         name: "hysteresis of the force cell",

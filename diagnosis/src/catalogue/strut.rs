@@ -1,7 +1,7 @@
 //! Effects in the strut and in the guides.
 
 use super::{
-    Beyond, Cause, Element, FRICTION_VELOCITY, Onset, PLAIN, Prevalence, Replaced, Scale, addend, beyond,
+    Beyond, Effect, Element, FRICTION_VELOCITY, Onset, PLAIN, Prevalence, Replaced, Scale, addend, beyond,
     part,
 };
 use crate::signal::distortion::Fault;
@@ -9,8 +9,8 @@ use crate::signal::distortion::Fault;
 /// Clearances of a stop: the strut reaches its ends now and then, at most.
 const CLEARANCES: &[f64] = &[1.2, 1.8, 2.4, 3.2];
 
-pub(super) const CAUSES: &[Cause] = &[
-    Cause {
+pub(super) const EFFECTS: &[Effect] = &[
+    Effect {
         id: "01",
         element: Element::Strut,
         name: "Coulomb friction",
@@ -23,7 +23,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "sweep the amplitude at one frequency, or drive a slow triangle",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "02",
         element: Element::Strut,
         name: "Stribeck friction",
@@ -41,7 +41,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "creep through zero velocity below 5 mm/s",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "03",
         element: Element::Strut,
         name: "friction with presliding (Dahl)",
@@ -56,7 +56,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "drive a multisine of less than 0.2 mm stroke",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "03b",
         element: Element::Strut,
         name: "friction with presliding behind play",
@@ -72,7 +72,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "reverse slowly at several places: the force rests at zero over the play",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "04",
         element: Element::Strut,
         name: "asymmetric damper",
@@ -82,7 +82,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "stand still, and compare the ride height with that in motion",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "05",
         element: Element::Strut,
         name: "damper knee",
@@ -100,7 +100,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "sweep the velocity",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "06",
         element: Element::Strut,
         name: "orifice damping",
@@ -110,7 +110,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "sweep the amplitude",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "07",
         element: Element::Strut,
         name: "Maxwell branch",
@@ -125,7 +125,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "excite by the road with the actuator off, and by the actuator with the road locked",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "08",
         element: Element::Strut,
         name: "nonlinear spring",
@@ -139,7 +139,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "move through the whole stroke quasi-statically",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "09",
         element: Element::Strut,
         name: "bump or rebound stop",
@@ -161,7 +161,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "move slowly to both ends of the stroke",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "10",
         element: Element::Strut,
         name: "damper fade",
@@ -174,7 +174,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "repeat the run cold and hot",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "11",
         element: Element::Strut,
         name: "load-dependent friction",
@@ -189,7 +189,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "repeat with two preloads",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "12",
         element: Element::Strut,
         name: "play in a damper bush",
@@ -204,7 +204,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "compare small and large strokes",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "13",
         element: Element::Strut,
         name: "soft damper mount",
@@ -215,7 +215,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "sweep to high frequencies",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "14",
         element: Element::Strut,
         name: "kinematic ratio",
@@ -225,7 +225,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "measure the wheel's travel over the strut's",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "32f",
         element: Element::Strut,
         name: "dry yield force with hysteresis",
@@ -240,7 +240,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "hold the coil's voltage and compare slow and fast strokes",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "33",
         element: Element::Strut,
         name: "constant force",
@@ -251,7 +251,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "stand still with the force cell unloaded: what remains is the cell's",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "15",
         element: Element::Guide,
         name: "viscous guide",
@@ -261,7 +261,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "sweep the amplitude",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "16",
         element: Element::Guide,
         name: "guide friction",
@@ -274,7 +274,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "heave the body slowly",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "15",
         element: Element::WheelGuide,
         name: "viscous wheel guide",
@@ -284,7 +284,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "sweep the amplitude",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "17",
         element: Element::WheelGuide,
         name: "wheel-guide friction",

@@ -9,7 +9,7 @@ use super::*;
 use crate::rig::Rig;
 
 /// What is wrong with entries, in words.
-fn mistakes(effects: &[Cause], models: &[(&str, Plant)]) -> Vec<String> {
+fn mistakes(effects: &[Effect], models: &[(&str, Plant)]) -> Vec<String> {
     let mut mistakes = Vec::new();
     let mut seen = BTreeSet::new();
     let keys: Vec<String> = Work::all().into_iter().map(|work| work.key).collect();
@@ -71,7 +71,7 @@ fn mistakes(effects: &[Cause], models: &[(&str, Plant)]) -> Vec<String> {
 #[test]
 fn every_entry_is_complete_and_means_what_models_have() {
     let models: Vec<(&str, Plant)> = Rig::models().collect();
-    let effects: Vec<Cause> = all().copied().collect();
+    let effects: Vec<Effect> = all().copied().collect();
     assert_eq!(mistakes(&effects, &models), Vec::<String>::new());
 }
 
@@ -79,22 +79,22 @@ fn every_entry_is_complete_and_means_what_models_have() {
 fn a_wrong_entry_is_noticed() {
     let models: Vec<(&str, Plant)> = Rig::models().collect();
     let right = *all().next().unwrap();
-    let told = |effect: Cause, text: &str| {
+    let told = |effect: Effect, text: &str| {
         let mistakes = mistakes(&[right, effect], &models);
         assert!(mistakes.iter().any(|it| it.contains(text)), "{text}: {mistakes:?}");
     };
     const MISTYPED: &[Part] = &[part("strut.coulomb.forse", Scale::FORCE, (0.0, 1.0), &[0.1])];
-    let other = Cause { id: "99", ..right };
+    let other = Effect { id: "99", ..right };
     assert_eq!(mistakes(&[right, other], &models), Vec::<String>::new());
     told(right, "twice");
-    told(Cause { parts: MISTYPED, ..other }, "`strut.coulomb.forse`");
-    told(Cause { setting: Some("tire.liftoff"), ..other }, "`tire.liftoff`");
-    told(Cause { parts: &[], ..other }, "nothing switches it on");
-    told(Cause { contains: &["98"], ..other }, "`98`");
-    told(Cause { replaces: Some(Replaced { inputs: "rode", distortion: Fault::Lag }), ..other }, "`rode…`");
-    told(Cause { literature: &[], ..other }, "no literature");
-    told(Cause { literature: &["Nobody1900"], ..other }, "`Nobody1900`");
-    told(Cause { experiment: "", ..other }, "no experiment");
+    told(Effect { parts: MISTYPED, ..other }, "`strut.coulomb.forse`");
+    told(Effect { setting: Some("tire.liftoff"), ..other }, "`tire.liftoff`");
+    told(Effect { parts: &[], ..other }, "nothing switches it on");
+    told(Effect { contains: &["98"], ..other }, "`98`");
+    told(Effect { replaces: Some(Replaced { inputs: "rode", distortion: Fault::Lag }), ..other }, "`rode…`");
+    told(Effect { literature: &[], ..other }, "no literature");
+    told(Effect { literature: &["Nobody1900"], ..other }, "`Nobody1900`");
+    told(Effect { experiment: "", ..other }, "no experiment");
 }
 
 #[test]

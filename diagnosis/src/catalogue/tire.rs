@@ -1,10 +1,10 @@
 //! Effects in the tyre.
 
-use super::{Cause, Element, LIFT_OFF, Onset, PLAIN, Prevalence, Replaced, Scale, part};
+use super::{Effect, Element, LIFT_OFF, Onset, PLAIN, Prevalence, Replaced, Scale, part};
 use crate::signal::distortion::Fault;
 
-pub(super) const CAUSES: &[Cause] = &[
-    Cause {
+pub(super) const EFFECTS: &[Effect] = &[
+    Effect {
         id: "19",
         element: Element::Tire,
         name: "progressive tyre",
@@ -14,7 +14,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "compare two static loads",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "20",
         element: Element::Tire,
         name: "lift-off",
@@ -25,7 +25,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "drop the wheel, or drive over a large bump",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "21",
         element: Element::Tire,
         name: "tyre friction",
@@ -38,7 +38,7 @@ pub(super) const CAUSES: &[Cause] = &[
         experiment: "sweep the frequency",
         ..PLAIN
     },
-    Cause {
+    Effect {
         id: "22",
         element: Element::Tire,
         name: "enveloping (low-pass of the road)",

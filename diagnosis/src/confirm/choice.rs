@@ -4,12 +4,12 @@ use rayon::prelude::*;
 
 use crate::decision::criteria::CRITERIA;
 use crate::decision::evidence::Evidence;
-use crate::estimation::hypothesis::{Fitted, Term, World};
+use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::lsq::Stop;
 
 use super::{Tried, contains, has_no_name, parts};
 
-impl World<'_> {
+impl Baseline<'_> {
     /// The best of those with a name that pass; without any, the best table.
     pub(super) fn chosen<'b>(&self, base: &Fitted, passing: &[&'b Tried]) -> Option<&'b Tried> {
         let named = passing.iter().find(|it| !has_no_name(it.term));

@@ -2,8 +2,8 @@
 //! to the right rate. So every rate is compared with the signal's own simulation.
 
 use crate::diagnosis::{root_mean_square, simulated};
-use crate::estimation::fit::{Handle, Point};
-use crate::estimation::hypothesis::{Fitted, Term, World};
+use crate::estimation::fit::{Estimate, Unknown};
+use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::signal::distortion::Fault;
 
 /// Share of a period of the fastest signal by which neighbouring rates may differ at a record's end.
@@ -11,10 +11,10 @@ const PHASE: f64 = 0.25;
 /// Highest frequency in Hz whose phase counts.
 const FASTEST: f64 = 20.0;
 
-impl World<'_> {
+impl Baseline<'_> {
     /// A fit's point with the clock error that brings an output's simulation nearest to its signal; none for other terms.
-    pub(super) fn by_clock(&self, null: &Fitted, term: Term) -> Option<Point> {
-        let Term::Fault(handle @ Handle::Output(output, Fault::Rate)) = term else { return None };
+    pub(super) fn by_clock(&self, null: &Fitted, term: Term) -> Option<Estimate> {
+        let Term::Fault(handle @ Unknown::Output(output, Fault::Rate)) = term else { return None };
         let row = self.train.first()?.measured.iter().position(|it| it.output == output)?;
         let plain = simulated(self, &null.terms, &null.point, self.train);
         let longest = self.train.iter().map(|it| it.step * it.len() as f64).fold(0.0, f64::max);

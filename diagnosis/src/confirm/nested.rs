@@ -3,8 +3,8 @@
 
 use rayon::prelude::*;
 
-use crate::estimation::fit::Point;
-use crate::estimation::hypothesis::{Fitted, World};
+use crate::estimation::fit::Estimate;
+use crate::estimation::hypothesis::{Baseline, Fitted};
 use crate::explain::selection::Proposal;
 
 use super::{Tried, comparing, contains_by_name, parts};
@@ -14,7 +14,7 @@ const SLIGHTLY: f64 = 0.1;
 /// Costs that differ by less are the same minimum.
 const SAME_MINIMUM: f64 = 1e-3;
 
-impl World<'_> {
+impl Baseline<'_> {
     /// Fits once more, from a limit's minimum, what leaves more than one of its limits does or than the model without it, and
     /// keeps what leaves less.
     pub(super) fn beside_their_limits(
@@ -39,7 +39,7 @@ impl World<'_> {
     }
 
     /// Where a limit is, with a little of what a law has more.
-    fn beside(&self, limit: &Fitted, screened: &Proposal) -> Option<Point> {
+    fn beside(&self, limit: &Fitted, screened: &Proposal) -> Option<Estimate> {
         let first = &screened.start;
         let mut start = limit.point.clone();
         let known = parts(limit);

@@ -2,12 +2,12 @@
 
 use crate::catalogue::naming::{name, prevalence};
 use crate::catalogue::{Element, Prevalence};
-use crate::dataset::recorded::Recorded;
+use crate::dataset::recorded::Dataset;
 use crate::decision::account::account;
 use crate::decision::evidence::Evidence;
 use crate::estimation::comparison::{Errors, Student, student};
-use crate::estimation::fit::{Handle, Residuals, strain};
-use crate::estimation::hypothesis::{Fitted, TIMING, Term, World};
+use crate::estimation::fit::{Residuals, Unknown, strain};
+use crate::estimation::hypothesis::{Baseline, Fitted, TIMING, Term};
 use crate::screening::{bent_rms, rms};
 use crate::signal::distortion::Fault;
 
@@ -16,9 +16,9 @@ use super::has_threshold;
 /// Standard deviations of a channel's timing beyond which a signal is late.
 const LATE: f64 = 5.0;
 
-impl World<'_> {
+impl Baseline<'_> {
     fn block(&self) -> usize {
-        self.train.first().map_or(1, Recorded::block)
+        self.train.first().map_or(1, Dataset::block)
     }
 
     pub(crate) fn errors<'b>(&'b self, residuals: &'b Residuals) -> Errors<'b> {
@@ -68,9 +68,9 @@ impl World<'_> {
     }
 
     /// A parameter that a data sheet states and that cannot be zero, as a stiffness or a mass, which a fit has driven to its end
-    /// where the one without the cause has not: what needs that is not the cause.
+    /// where the one without the effect has not: what needs that is not the effect.
     pub(super) fn driven_off(&self, null: &Fitted, fitted: &Fitted) -> Option<&str> {
-        let at_its_end = |of: &Fitted, handle: Handle| {
+        let at_its_end = |of: &Fitted, handle: Unknown| {
             let own = of.coordinates.iter().find(|it| it.handle == handle);
             let value = of.point.get(handle);
             own.is_some_and(|it| value <= it.bounds.0 || value >= it.bounds.1)
@@ -79,7 +79,7 @@ impl World<'_> {
         let cannot_be_zero = |index: &usize| declared[*index].min.is_some_and(|least| least > 0.0);
         let mut stated = self.rig.base().into_iter().filter(|index| self.rig.stated[*index]);
         let gone = stated.find(|index| {
-            let handle = Handle::Parameter(*index);
+            let handle = Unknown::Parameter(*index);
             cannot_be_zero(index) && at_its_end(fitted, handle) && !at_its_end(null, handle)
         });
         gone.map(|index| declared[index].name.as_str())
@@ -89,7 +89,7 @@ impl World<'_> {
     /// what signals usually have.
     fn is_usual(&self, term: Term, fitted: &Fitted) -> bool {
         let plant = &self.rig.plant;
-        let driving = matches!(term, Term::Fault(Handle::Input(..)));
+        let driving = matches!(term, Term::Fault(Unknown::Input(..)));
         let timing = is_in_time(term, fitted).is_some_and(|it| driving && (name(term, plant).sensor || it));
         prevalence(term, plant) == Prevalence::Background || timing
     }
@@ -113,7 +113,7 @@ impl World<'_> {
     /// The largest rise of Φ among the signals: on the training and on the held-out data. It is of what the model has to tell:
     /// over a short stretch, a moving drive's position is mostly a straight line.
     fn phi_gains(&self, null: &Fitted, fitted: &Fitted) -> [f64; 2] {
-        let of = |records: &[Recorded], null: &Residuals, fitted: &Residuals| {
+        let of = |records: &[Dataset], null: &Residuals, fitted: &Residuals| {
             let roots = |it: &Residuals| self.errors(it).mean_squares().into_iter().map(f64::sqrt);
             let rows = roots(null).zip(roots(fitted)).enumerate();
             let gains = rows.map(|(row, (before, after))| (before - after) / bent_rms(records, row));
@@ -182,7 +182,7 @@ impl World<'_> {
     /// small effects around it show in the others.
     fn shares_of(&self, term: Term, unit: &Fitted, fitted: &Fitted) -> [f64; 2] {
         let Term::Response(output) = term else { return self.shares(unit, fitted) };
-        let of = |record: &Recorded| record.measured.iter().position(|it| it.output == output);
+        let of = |record: &Dataset| record.measured.iter().position(|it| it.output == output);
         let row = self.train.first().and_then(of);
         [(&unit.train, &fitted.train), (&unit.test, &fitted.test)]
             .map(|(unit, fitted)| row.map_or(1.0, |row| self.each(unit, fitted)[row]))
@@ -199,8 +199,8 @@ impl World<'_> {
 pub(super) fn is_in_time(term: Term, fitted: &Fitted) -> Option<bool> {
     match term {
         Term::Fault(
-            handle @ (Handle::Input(_, Fault::Lag | Fault::Delay)
-            | Handle::Output(_, Fault::Lag | Fault::Delay)),
+            handle @ (Unknown::Input(_, Fault::Lag | Fault::Delay)
+            | Unknown::Output(_, Fault::Lag | Fault::Delay)),
         ) => Some(fitted.point.get(handle).abs() < LATE * TIMING),
         _ => None,
     }
@@ -214,5 +214,5 @@ fn everywhere(term: Term, [train, test]: [f64; 2]) -> f64 {
 /// Whether records that do not excite it show nothing of a term: how large it is, those tell that do. Whether it is there at
 /// all, the held-out data have to tell as of any other.
 fn is_resonance(term: Term) -> bool {
-    matches!(term, Term::Cause(cause) if cause.element == Element::Frame)
+    matches!(term, Term::Effect(effect) if effect.element == Element::Frame)
 }

@@ -12,7 +12,7 @@ use rustfft::num_complex::Complex;
 
 use crate::data::Channel;
 use crate::data::check::noise_floor;
-use crate::dataset::recorded::{Measured, Recorded, Source};
+use crate::dataset::recorded::{Dataset, Measured, Source};
 use crate::plant::Between;
 use crate::signal::spectral::{about_line, filled};
 
@@ -28,7 +28,7 @@ const SMOOTHING: usize = 20;
 /// What is let through of it would count where a model takes the derivative of a measured position.
 const BEYOND_CHANCE: f64 = 1.5;
 
-impl Recorded {
+impl Dataset {
     /// The record without its inputs' noise, and thinned.
     pub fn conditioned(&self) -> Self {
         // In a record that is thinned to its band already, noise and signal look alike.

@@ -8,7 +8,7 @@ use crate::data::{
     Channel, Origin, Record,
     uniform::{Uniform, uniform},
 };
-use crate::dataset::recorded::{Measured, Recorded, Source};
+use crate::dataset::recorded::{Dataset, Measured, Source};
 use crate::plant::Between;
 use crate::report::findings::DataProblem;
 use crate::rig::Rig;
@@ -24,7 +24,7 @@ const MOST_LEFT_OUT: f64 = 0.2;
 /// A record on a rig, with what is to be said about the data.
 struct Imported {
     /// The record; none if it cannot be used.
-    recorded: Option<Recorded>,
+    recorded: Option<Dataset>,
     /// What is wrong with the data.
     problems: Vec<DataProblem>,
 }
@@ -33,7 +33,7 @@ struct Imported {
 #[derive(Clone, Debug)]
 pub struct Loaded {
     /// The records, in the order of their files; none where a problem is fatal.
-    pub records: Vec<Recorded>,
+    pub records: Vec<Dataset>,
     /// What is wrong with the data.
     pub problems: Vec<DataProblem>,
 }
@@ -181,7 +181,7 @@ fn import(rig: &Rig, origin: &Origin, map: &Map) -> Result<Imported, String> {
     }
     let sections = sections(&uniform.segments, uniform.step, rig.section());
     Ok(Imported {
-        recorded: Some(Recorded {
+        recorded: Some(Dataset {
             name,
             step: uniform.step,
             inputs,
@@ -312,7 +312,7 @@ fn sections(segments: &[Range<usize>], step: f64, seconds: f64) -> Vec<Range<usi
 ///
 /// # Errors
 /// If there are none.
-fn align(records: &mut [Recorded]) -> Result<(), String> {
+fn align(records: &mut [Dataset]) -> Result<(), String> {
     let Some(first) = records.first() else { return Err("there is no record".into()) };
     let mut common: Vec<usize> = first.measured.iter().map(|measured| measured.output).collect();
     for record in records.iter() {

@@ -11,7 +11,7 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 use rustfft::num_complex::Complex;
 
-use super::recorded::{Recorded, Source};
+use super::recorded::{Dataset, Source};
 use crate::data::check::noise_floor;
 use crate::report::findings::DataProblem;
 use crate::report::words::digits;
@@ -40,13 +40,13 @@ const REST: f64 = 0.1;
 #[derive(Clone, Debug)]
 pub struct Banded {
     /// The records: every signal behind the same filter without phase, and thinned.
-    pub records: Vec<Recorded>,
+    pub records: Vec<Dataset>,
     /// What the user has to know of it.
     pub note: DataProblem,
 }
 
 /// The records in the widest band in which the position's noise makes up little of the force, if most of the force is in it.
-pub fn banded(rig: &Rig, records: &[Recorded], inverse: Inverse) -> Option<Banded> {
+pub fn banded(rig: &Rig, records: &[Dataset], inverse: Inverse) -> Option<Banded> {
     let signals = Signals {
         force: rig.plant.output(inverse.force)?,
         acceleration: rig.plant.input(inverse.acceleration)?,
@@ -55,8 +55,8 @@ pub fn banded(rig: &Rig, records: &[Recorded], inverse: Inverse) -> Option<Bande
     let ends = records.iter().map(|record| Some(relevant(record, signals.force(record)?)));
     let mut top = ends.collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::min)?.max(LOWEST);
     let banded = loop {
-        let banded: Vec<Recorded> = records.iter().map(|it| below(it, top)).collect();
-        let covered = |(record, banded): (&Recorded, &Recorded)| {
+        let banded: Vec<Dataset> = records.iter().map(|it| below(it, top)).collect();
+        let covered = |(record, banded): (&Dataset, &Dataset)| {
             Some(power(signals.force(banded)?) >= COVERED * power(signals.force(record)?))
         };
         if !records.iter().zip(&banded).all(|pair| covered(pair).unwrap_or(false)) {
@@ -82,7 +82,7 @@ pub fn banded(rig: &Rig, records: &[Recorded], inverse: Inverse) -> Option<Bande
 }
 
 /// A record below a frequency in Hz, with the exact rates of its motion.
-fn below(record: &Recorded, top: f64) -> Recorded {
+fn below(record: &Dataset, top: f64) -> Dataset {
     let mut banded = record.below(top);
     for source in &mut banded.inputs {
         if let Some(motion) = source.motion() {
@@ -102,12 +102,12 @@ struct Signals {
 }
 
 impl Signals {
-    fn force(self, record: &Recorded) -> Option<&[f64]> {
+    fn force(self, record: &Dataset) -> Option<&[f64]> {
         record.measured.iter().find(|it| it.output == self.force).map(|it| &it.values[..])
     }
 
     /// Share of the force's power that the noise of the position makes up by way of the mass.
-    fn noise(self, (record, banded): (&Recorded, &Recorded), top: f64) -> Option<f64> {
+    fn noise(self, (record, banded): (&Dataset, &Dataset), top: f64) -> Option<f64> {
         let (motion, force) = (motion(banded), self.force(banded)?);
         let noisier = self::motion(&below(&with_noise_again(record), top));
         let pairs = motion[self.acceleration].iter().zip(&noisier[self.acceleration]);
@@ -117,7 +117,7 @@ impl Signals {
     }
 
     /// The record without the force at rest.
-    fn moving(self, mut record: Recorded) -> Recorded {
+    fn moving(self, mut record: Dataset) -> Dataset {
         let motion = motion(&record);
         if let Some(velocity) = record.inputs[self.acceleration].motion() {
             let rests = resting(&motion[velocity], record.step);
@@ -152,7 +152,7 @@ fn power(values: &[f64]) -> f64 {
 }
 
 /// The frequency above which a signal has no power worth a comparison, in Hz: the highest over the record's sections.
-fn relevant(record: &Recorded, values: &[f64]) -> f64 {
+fn relevant(record: &Dataset, values: &[f64]) -> f64 {
     let of = |section: &Range<usize>| {
         let part = filled(&values[section.clone()]).filter(|it| it.len() >= 16)?;
         let mut top = 0.0;
@@ -173,7 +173,7 @@ fn relevant(record: &Recorded, values: &[f64]) -> f64 {
 }
 
 /// Every input at the samples of a record.
-fn motion(record: &Recorded) -> Vec<Vec<f64>> {
+fn motion(record: &Dataset) -> Vec<Vec<f64>> {
     let neutral = vec![Correction::default(); record.inputs.len()];
     let mut inputs = vec![Vec::with_capacity(record.len()); record.inputs.len()];
     for section in &record.sections {
@@ -206,14 +206,14 @@ fn coefficient(inputs: &[Vec<f64>], signal: &[f64], wanted: usize) -> Option<f64
 }
 
 /// The record with as much noise on its measured inputs once more.
-fn with_noise_again(record: &Recorded) -> Recorded {
+fn with_noise_again(record: &Dataset) -> Dataset {
     let mut inputs = record.inputs.clone();
     for (channel, source) in (1..).zip(&mut inputs) {
         if let Source::Measured(values) = source {
             *values = with_noise(values, noise_floor(values), channel);
         }
     }
-    Recorded { inputs, ..record.clone() }
+    Dataset { inputs, ..record.clone() }
 }
 
 #[cfg(test)]
@@ -226,7 +226,7 @@ mod tests {
     use crate::signal::random::Random;
 
     /// A mass and 30 N of friction, moved by 10 mm at 2 Hz, 3 mm at 6.2 Hz and 0.1 mm at 40 Hz.
-    fn record(rig: &Rig, mass: f64, noise: f64) -> Recorded {
+    fn record(rig: &Rig, mass: f64, noise: f64) -> Dataset {
         const SINES: [(f64, f64); 3] = [(0.01, 2.0), (3e-3, 6.2), (1e-4, 40.0)];
         let mut random = Random::new(7);
         let step = 1e-3;
@@ -241,7 +241,7 @@ mod tests {
             _ => rig.rate_of(&declared.name).map_or(Source::Constant(0.0), Source::DerivativeOf),
         });
         let output = rig.plant.output("motor.force").unwrap();
-        Recorded {
+        Dataset {
             name: String::new(),
             step,
             inputs: inputs.collect(),

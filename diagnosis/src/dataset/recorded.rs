@@ -9,7 +9,7 @@ use crate::signal::spectral::{FINER, in_band, refined};
 
 /// A record on a plant's inputs and outputs, evenly sampled.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Recorded {
+pub struct Dataset {
     /// The file's name.
     pub name: String,
     /// Time between two samples in seconds.
@@ -64,7 +64,7 @@ pub struct Measured {
 /// Length of the blocks of time over which errors and scores are summed, in seconds: longer than the residuals' memory.
 pub const BLOCK: f64 = 0.5;
 
-impl Recorded {
+impl Dataset {
     /// Number of samples in such a block.
     pub fn block(&self) -> usize {
         ((BLOCK / self.step).round() as usize).max(4)
@@ -222,7 +222,7 @@ mod tests {
         let rate = |omega: f64, between: Between| {
             let position: Vec<f64> = (0..80).map(|k| (omega * time(k)).sin()).collect();
             let inputs = vec![Source::Measured(position), Source::DerivativeOf(0)];
-            let record = Recorded {
+            let record = Dataset {
                 name: String::new(),
                 step,
                 inputs,

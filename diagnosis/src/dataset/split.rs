@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::dataset::recorded::Recorded;
+use crate::dataset::recorded::Dataset;
 use crate::diagnosis::{Diagnosis, Options, diagnose};
 use crate::report::findings::DataProblem;
 use crate::rig::Rig;
@@ -14,29 +14,28 @@ const DRIFTING: f64 = 10.0;
 const PARTS: usize = 3;
 
 /// What is learnt from and what judges, without the noise of the inputs; and the latter as it was measured.
-pub struct Records {
+pub struct Split {
     /// Estimation records, ready for the search.
-    pub train: Vec<Recorded>,
+    pub train: Vec<Dataset>,
     /// Validation records, ready for the search.
-    pub test: Vec<Recorded>,
+    pub test: Vec<Dataset>,
     /// Validation records as they were measured.
-    pub measured: Vec<Recorded>,
+    pub measured: Vec<Dataset>,
     /// Both, estimation records first, without divisions.
-    pub whole: Vec<Recorded>,
+    pub whole: Vec<Dataset>,
 }
 
-impl Records {
+impl Split {
     /// Records as they were measured.
-    pub fn new(train: &[Recorded], measured: Vec<Recorded>) -> Self {
-        let conditioned =
-            |records: &[Recorded]| records.iter().map(Recorded::conditioned).collect::<Vec<_>>();
+    pub fn new(train: &[Dataset], measured: Vec<Dataset>) -> Self {
+        let conditioned = |records: &[Dataset]| records.iter().map(Dataset::conditioned).collect::<Vec<_>>();
         let whole = train.iter().chain(&measured).map(|it| it.joined().conditioned()).collect();
         Self { train: conditioned(train), test: conditioned(&measured), measured, whole }
     }
 
     /// The same in shorter stretches, each with states of its own at the start; none if the rig's models keep to long ones.
     pub fn in_parts(&self, rig: &Rig) -> Option<Self> {
-        let cut = |records: &[Recorded]| records.iter().map(in_parts).collect::<Vec<_>>();
+        let cut = |records: &[Dataset]| records.iter().map(in_parts).collect::<Vec<_>>();
         let drifts = rig.section() <= DRIFTING;
         drifts.then(|| Self {
             train: cut(&self.train),
@@ -79,13 +78,13 @@ impl Records {
 }
 
 /// A record with each of its sections in parts.
-fn in_parts(record: &Recorded) -> Recorded {
+fn in_parts(record: &Dataset) -> Dataset {
     let parts = |section: &Range<usize>| {
         let (start, length) = (section.start, section.len());
         (0..PARTS).map(move |part| start + length * part / PARTS..start + length * (part + 1) / PARTS)
     };
     let sections = record.sections.iter().flat_map(parts).filter(|part| !part.is_empty()).collect();
-    Recorded { sections, ..record.clone() }
+    Dataset { sections, ..record.clone() }
 }
 
 #[cfg(test)]
@@ -96,7 +95,7 @@ mod tests {
     #[test]
     fn parts_leave_nothing_out() {
         let (name, inputs, between, measured) = (String::new(), vec![], Between::Lines, vec![]);
-        let record = Recorded {
+        let record = Dataset {
             name,
             step: 1e-3,
             inputs,

@@ -1,7 +1,7 @@
 //! Whether records are witnesses of their own: of different excitations, each long enough to say something.
 
 use crate::data::check::noise_floor;
-use crate::dataset::recorded::{BLOCK, Recorded, Source};
+use crate::dataset::recorded::{BLOCK, Dataset, Source};
 use crate::diagnosis::root_mean_square;
 use crate::report::findings::DataProblem;
 use crate::report::words::digits;
@@ -26,7 +26,7 @@ enum Compared {
 }
 
 /// Whether every measured input is the same in two records but for noise, and one of them moves. One record may be longer.
-pub fn same_excitation(one: &Recorded, two: &Recorded) -> bool {
+pub fn same_excitation(one: &Dataset, two: &Dataset) -> bool {
     let pairs: Vec<Compared> = one
         .inputs
         .iter()
@@ -60,7 +60,7 @@ fn compared(one: &[f64], two: &[f64]) -> Compared {
 }
 
 /// Whether two records hold the same values.
-fn same_record(one: &Recorded, two: &Recorded) -> bool {
+fn same_record(one: &Dataset, two: &Dataset) -> bool {
     let same = |one: &[f64], two: &[f64]| {
         one.len() == two.len() && one.iter().zip(two).all(|(one, two)| one.to_bits() == two.to_bits())
     };
@@ -75,12 +75,12 @@ fn same_record(one: &Recorded, two: &Recorded) -> bool {
 }
 
 /// Notes on records that do not validate: too short ones, and repetitions of an earlier one.
-pub fn notes(train: &[Recorded], test: &[Recorded]) -> Vec<DataProblem> {
+pub fn notes(train: &[Dataset], test: &[Dataset]) -> Vec<DataProblem> {
     let mut notes = Vec::new();
-    let mut note = |record: &Recorded, signal: &str, text: String| {
+    let mut note = |record: &Dataset, signal: &str, text: String| {
         notes.push(DataProblem { record: record.name.clone(), signal: signal.into(), text, fatal: false });
     };
-    let all: Vec<&Recorded> = train.iter().chain(test).collect();
+    let all: Vec<&Dataset> = train.iter().chain(test).collect();
     for (index, record) in all.iter().enumerate() {
         let earlier = || all[..index].iter();
         if earlier().any(|it| it.name == record.name && same_record(it, record)) {
@@ -131,10 +131,10 @@ mod tests {
     use crate::plant::Between;
     use proptest::prelude::*;
 
-    fn record(name: &str, inputs: Vec<Vec<f64>>, seed: u64) -> Recorded {
+    fn record(name: &str, inputs: Vec<Vec<f64>>, seed: u64) -> Dataset {
         let length = inputs[0].len();
         let values: Vec<f64> = noise(seed, length);
-        Recorded {
+        Dataset {
             name: name.into(),
             step: 1e-3,
             inputs: inputs.into_iter().map(Source::Measured).collect(),
@@ -149,7 +149,7 @@ mod tests {
         signal.iter().zip(noise(seed, signal.len())).map(|(signal, noise)| signal + sigma * noise).collect()
     }
 
-    fn texts(train: &[Recorded], test: &[Recorded]) -> Vec<String> {
+    fn texts(train: &[Dataset], test: &[Dataset]) -> Vec<String> {
         notes(train, test).into_iter().map(|it| format!("{} {}: {}", it.record, it.signal, it.text)).collect()
     }
 
@@ -188,11 +188,11 @@ mod tests {
     #[test]
     fn what_is_no_witness_is_told_once() {
         let [a, b] = [1, 2].map(|seed| record("a.csv", vec![multisine(seed, 3000)], seed));
-        let b = Recorded { name: "b.csv".into(), ..b };
+        let b = Dataset { name: "b.csv".into(), ..b };
         assert!(texts(std::slice::from_ref(&a), std::slice::from_ref(&b)).is_empty());
         let same = texts(std::slice::from_ref(&a), std::slice::from_ref(&a));
         assert!(same.len() == 1 && same[0].contains("they validate nothing"), "{same:?}");
-        let again = Recorded { name: "c.csv".into(), ..record("", vec![multisine(1, 3000)], 9) };
+        let again = Dataset { name: "c.csv".into(), ..record("", vec![multisine(1, 3000)], 9) };
         let again = texts(&[b.clone(), a.clone()], &[again]);
         assert!(again.len() == 1 && again[0].contains("the same excitation as the estimation record a.csv"));
         let twice = texts(&[a.clone(), a], &[b]);

@@ -11,7 +11,7 @@ pub struct Evidence {
     pub delta_bic: f64,
     /// Student's t of the gain over the blocks of the training data.
     pub block_t: f64,
-    /// Chance that of as many causes as were compared the best one's gain is as steady, where none of them is there.
+    /// Chance that of as many effects as were compared the best one's gain is as steady, where none of them is there.
     pub chance: f64,
     /// Student's t of the gain over the blocks of the held-out data.
     pub held_out_t: f64,
@@ -70,7 +70,7 @@ impl Evidence {
         self.doubt().or_else(|| self.smallness())
     }
 
-    /// Whether it passes beside another cause that has passed: whether anything is there is no question then, and its gains
+    /// Whether it passes beside another effect that has passed: whether anything is there is no question then, and its gains
     /// may be less steady.
     pub fn passes_beside_another(&self) -> bool {
         let steady = self.block_t > CRITERIA.certain;

@@ -1,19 +1,19 @@
 //! Effects that are taken back: their amount may be zero, or their simulation runs away.
 
-use crate::dataset::recorded::Recorded;
+use crate::dataset::recorded::Dataset;
 use crate::decision::rules::{Amount, is_determined, lowers};
-use crate::estimation::fit::{Handle, Point, Residuals};
-use crate::estimation::hypothesis::{Fitted, Term, World};
+use crate::estimation::fit::{Estimate, Residuals, Unknown};
+use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::intervals::Interval;
 use crate::estimation::lsq::Stop;
 use crate::signal::distortion::Fault;
 
 use super::{Found, phi};
 
-impl World<'_> {
+impl Baseline<'_> {
     /// The last effect whose interval holds zero.
     pub(super) fn doubtful(&self, found: &Found, intervals: &[Interval]) -> Option<usize> {
-        let amount = |handle: Handle| {
+        let amount = |handle: Unknown| {
             let it = intervals.iter().find(|it| it.handle == handle)?;
             let value = it.value - found.base.point.get(handle);
             Some(Amount { value, bounds: (f64::NEG_INFINITY, f64::INFINITY), half: it.half })
@@ -25,7 +25,7 @@ impl World<'_> {
     }
 
     /// The first effect that lowers the fit of a signal of the records as measured, in the simulation that an importer makes.
-    pub(super) fn harmful(&self, found: &Found, measured: &[Recorded]) -> Option<usize> {
+    pub(super) fn harmful(&self, found: &Found, measured: &[Dataset]) -> Option<usize> {
         let rows = measured.first().map_or(0, |record| record.measured.len());
         let fits = |stage: &Fitted| -> Vec<f64> {
             let Some((_, residuals)) = self.as_measured(measured, (&stage.terms, &stage.point), stage) else {
@@ -40,17 +40,17 @@ impl World<'_> {
     /// The point of records as they were measured, and the errors there of a model whose coordinates are a fit's.
     pub(crate) fn as_measured(
         &self,
-        measured: &[Recorded],
-        (terms, point): (&[Term], &Point),
+        measured: &[Dataset],
+        (terms, point): (&[Term], &Estimate),
         fitted: &Fitted,
-    ) -> Option<(Point, Residuals)> {
+    ) -> Option<(Estimate, Residuals)> {
         let dynamics = self.dynamics(terms).ok()?;
         let fit = self.fit(&*dynamics, measured, Vec::new());
-        let mut point = Point { starts: self.starts(measured), ..point.within(&self.rig.plant) };
+        let mut point = Estimate { starts: self.starts(measured), ..point.within(&self.rig.plant) };
         // An importer's simulation of the extended model has no timing of channels, except where the report gives it: a
         // signal's delay and lag go together.
         let output = |term: &Term| match term {
-            Term::Fault(Handle::Output(output, Fault::Delay | Fault::Lag)) | Term::Response(output) => {
+            Term::Fault(Unknown::Output(output, Fault::Delay | Fault::Lag)) | Term::Response(output) => {
                 Some(*output)
             }
             _ => None,
@@ -90,7 +90,7 @@ impl World<'_> {
 }
 
 /// The fit of a measured output by its residuals; not a number where the simulation runs away.
-fn fit_of(measured: &[Recorded], residuals: &Residuals, row: usize) -> f64 {
+fn fit_of(measured: &[Dataset], residuals: &Residuals, row: usize) -> f64 {
     let (mut left, mut values) = (Vec::new(), Vec::new());
     for (record, residuals) in measured.iter().zip(residuals) {
         for section in &record.sections {
@@ -114,7 +114,7 @@ mod tests {
     #[test]
     fn what_runs_away_is_no_perfect_fit() {
         let values: Vec<f64> = (0..100).map(|k| f64::from(k).sin()).collect();
-        let with = |values: Vec<f64>| Recorded {
+        let with = |values: Vec<f64>| Dataset {
             name: String::new(),
             step: 1e-3,
             inputs: vec![],

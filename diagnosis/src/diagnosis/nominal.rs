@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use crate::dataset::recorded::{Recorded, Source};
+use crate::dataset::recorded::{Dataset, Source};
 use crate::decision::criteria::CRITERIA;
 use crate::estimation::deadline::Stage;
-use crate::estimation::fit::{Handle, Point, Residuals};
-use crate::estimation::hypothesis::{Fitted, World};
+use crate::estimation::fit::{Estimate, Residuals, Unknown};
+use crate::estimation::hypothesis::{Baseline, Fitted};
 use crate::estimation::lsq::Stop;
 use crate::rig::Rig;
 use crate::screening::rms;
@@ -23,45 +23,45 @@ const HOPELESS: f64 = 1.5;
 const CLEARLY: f64 = 0.8;
 
 /// The starting model as it was given, the fit of its nominal parameters, and the signals that had to be turned over.
-pub(super) fn fit(world: &mut World<'_>) -> Result<(Point, Fitted, Vec<Handle>), String> {
-    let dynamics = world.dynamics(&[])?;
-    world.sigma = measured_sigma(world.rig, world.train);
-    world.floor = floors(world.train);
-    let before = world.fit(&*dynamics, world.train, Vec::new()).settled(world.origin());
+pub(super) fn fit(baseline: &mut Baseline<'_>) -> Result<(Estimate, Fitted, Vec<Unknown>), String> {
+    let dynamics = baseline.dynamics(&[])?;
+    baseline.sigma = measured_sigma(baseline.rig, baseline.train);
+    baseline.floor = floors(baseline.train);
+    let before = baseline.fit(&*dynamics, baseline.train, Vec::new()).settled(baseline.origin());
     let mut start = before.clone();
-    for (parameter, value, _) in &world.known {
+    for (parameter, value, _) in &baseline.known {
         start.parameters[*parameter] = *value;
     }
     let mut reversed = Vec::new();
     let mut starts = vec![start.clone()];
-    if world.rig.base().into_iter().any(|index| world.is_of_unknown_order(index)) {
+    if baseline.rig.base().into_iter().any(|index| baseline.is_of_unknown_order(index)) {
         // A simulation from a mass that nobody gave shows nothing; a balance of forces does not simulate.
-        world.sheet = world.balanced(&start)?;
-        starts.push(Point { parameters: world.sheet.clone(), ..start.clone() });
+        baseline.sheet = baseline.balanced(&start)?;
+        starts.push(Estimate { parameters: baseline.sheet.clone(), ..start.clone() });
     }
-    let mut base = world.fitted(&[], &starts, Stop::NOISY)?;
-    if !fits(world, &base)
-        && !world.deadline.is_over(Stage::Nominal)
-        && let Some(other) = shot(world, &start)
+    let mut base = baseline.fitted(&[], &starts, Stop::NOISY)?;
+    if !fits(baseline, &base)
+        && !baseline.deadline.is_over(Stage::Nominal)
+        && let Some(other) = shot(baseline, &start)
         && other.cost < base.cost
     {
         base = other;
     }
-    for handle in signals(world.train) {
-        if world.deadline.is_over(Stage::Nominal) {
+    for handle in signals(baseline.train) {
+        if baseline.deadline.is_over(Stage::Nominal) {
             break;
         }
         let mut turned = start.clone();
         turned.set(handle, -2.0);
-        if let Some(other) = turned_over(world, &base, &turned, handle) {
+        if let Some(other) = turned_over(baseline, &base, &turned, handle) {
             (base, start) = (other, turned);
             reversed.push(handle);
         }
     }
     // Weights from the residuals, twice: then the fit is the likeliest for errors of these magnitudes.
     for _ in 0..2 {
-        world.sigma = left_sigma(world, &base.train);
-        base = world.fitted(&[], &[base.point.clone()], Stop::NOISY)?;
+        baseline.sigma = left_sigma(baseline, &base.train);
+        base = baseline.fitted(&[], &[base.point.clone()], Stop::NOISY)?;
     }
     Ok((before, base, reversed))
 }
@@ -69,55 +69,55 @@ pub(super) fn fit(world: &mut World<'_>) -> Result<(Point, Fitted, Vec<Handle>),
 /// The base fit from where many short stretches lead, each with states of its own at the start: over a long stretch, a
 /// model that is far off loses the data's phase, or drifts away, and the way to the minimum is lost with it (multiple
 /// shooting; H. G. Bock, Recent advances in parameter identification techniques for o.d.e., 1983).
-fn shot(world: &World<'_>, start: &Point) -> Option<Fitted> {
-    let cut = |record: &Recorded| {
+fn shot(baseline: &Baseline<'_>, start: &Estimate) -> Option<Fitted> {
+    let cut = |record: &Dataset| {
         let length = ((SHOT / record.step) as usize).max(record.block());
         let pieces = |section: &Range<usize>| {
             let ends = (section.start..section.end).step_by(length).skip(1).chain([section.end]);
             let starts = (section.start..section.end).step_by(length);
             starts.zip(ends.collect::<Vec<_>>()).map(|(start, end)| start..end).collect::<Vec<_>>()
         };
-        Recorded { sections: record.sections.iter().flat_map(pieces).collect(), ..record.clone() }
+        Dataset { sections: record.sections.iter().flat_map(pieces).collect(), ..record.clone() }
     };
-    let train: Vec<Recorded> = world.train.iter().map(cut).collect();
-    let short = World { train: &train, test: &[], ..world.clone() };
+    let train: Vec<Dataset> = baseline.train.iter().map(cut).collect();
+    let short = Baseline { train: &train, test: &[], ..baseline.clone() };
     let starts = short.origin().starts;
-    let near = short.fitted(&[], &[Point { starts, ..start.clone() }], Stop::NOISY).ok()?;
-    let point = Point { starts: start.starts.clone(), ..near.point };
-    world.fitted(&[], &[point], Stop::NOISY).ok()
+    let near = short.fitted(&[], &[Estimate { starts, ..start.clone() }], Stop::NOISY).ok()?;
+    let point = Estimate { starts: start.starts.clone(), ..near.point };
+    baseline.fitted(&[], &[point], Stop::NOISY).ok()
 }
 
 /// The fit with a signal turned over, if that is clearly better. An output's sign is doubted only where something does not fit
 /// at all. An input's always: where another one does most, all fits roughly with it the wrong way round.
-fn turned_over(world: &World<'_>, base: &Fitted, turned: &Point, handle: Handle) -> Option<Fitted> {
-    let fits = fits(world, base);
-    if fits && matches!(handle, Handle::Output(..)) {
+fn turned_over(baseline: &Baseline<'_>, base: &Fitted, turned: &Estimate, handle: Unknown) -> Option<Fitted> {
+    let fits = fits(baseline, base);
+    if fits && matches!(handle, Unknown::Output(..)) {
         return None;
     }
     let hasty = Stop { iterations: 8, ..Stop::NOISY };
-    let other = world.fitted(&[], std::slice::from_ref(turned), hasty).ok()?;
+    let other = baseline.fitted(&[], std::slice::from_ref(turned), hasty).ok()?;
     if other.cost < 0.5 * base.cost {
         return Some(other);
     }
     if !fits || other.cost > HOPELESS * base.cost {
         return None;
     }
-    let other = world.fitted(&[], &[other.point], Stop::NOISY).ok()?;
-    (other.cost < CLEARLY * base.cost && world.apart(&other, base) > CRITERIA.apart).then_some(other)
+    let other = baseline.fitted(&[], &[other.point], Stop::NOISY).ok()?;
+    (other.cost < CLEARLY * base.cost && baseline.apart(&other, base) > CRITERIA.apart).then_some(other)
 }
 
 /// Whether every signal is met at least roughly.
-fn fits(world: &World<'_>, fitted: &Fitted) -> bool {
-    let records = world.train.iter().zip(&fitted.train);
+fn fits(baseline: &Baseline<'_>, fitted: &Fitted) -> bool {
+    let records = baseline.train.iter().zip(&fitted.train);
     let mut signals = records.flat_map(|(record, left)| record.measured.iter().zip(left));
     signals.all(|(measured, left)| phi(left, &measured.values) > 0.3)
 }
 
 /// Root mean square of each output's residuals, at least its noise.
-fn left_sigma(world: &World<'_>, residuals: &Residuals) -> Vec<f64> {
-    let mut sigma = world.sigma.clone();
-    for (row, floor) in world.floor.iter().enumerate() {
-        let output = world.train[0].measured[row].output;
+fn left_sigma(baseline: &Baseline<'_>, residuals: &Residuals) -> Vec<f64> {
+    let mut sigma = baseline.sigma.clone();
+    for (row, floor) in baseline.floor.iter().enumerate() {
+        let output = baseline.train[0].measured[row].output;
         let left: Vec<f64> = residuals.iter().flat_map(|record| record[row].iter().copied()).collect();
         sigma[output] = root_mean_square(&left).max(*floor);
     }
@@ -125,16 +125,16 @@ fn left_sigma(world: &World<'_>, residuals: &Residuals) -> Vec<f64> {
 }
 
 /// Every signal that may have been recorded with the wrong sign.
-fn signals(train: &[Recorded]) -> Vec<Handle> {
+fn signals(train: &[Dataset]) -> Vec<Unknown> {
     let Some(record) = train.first() else { return Vec::new() };
     let inputs = record.inputs.iter().enumerate().filter(|(_, source)| matches!(source, Source::Measured(_)));
-    let inputs = inputs.map(|(index, _)| Handle::Input(index, Fault::Gain));
-    let outputs = record.measured.iter().map(|measured| Handle::Output(measured.output, Fault::Gain));
+    let inputs = inputs.map(|(index, _)| Unknown::Input(index, Fault::Gain));
+    let outputs = record.measured.iter().map(|measured| Unknown::Output(measured.output, Fault::Gain));
     inputs.chain(outputs).collect()
 }
 
 /// Root mean square of each output's signal.
-fn measured_sigma(rig: &Rig, records: &[Recorded]) -> Vec<f64> {
+fn measured_sigma(rig: &Rig, records: &[Dataset]) -> Vec<f64> {
     let mut sigma = vec![1.0; rig.plant.outputs.len()];
     for record in records {
         for measured in &record.measured {
@@ -144,7 +144,7 @@ fn measured_sigma(rig: &Rig, records: &[Recorded]) -> Vec<f64> {
     sigma
 }
 
-fn floors(train: &[Recorded]) -> Vec<f64> {
+fn floors(train: &[Dataset]) -> Vec<f64> {
     let Some(first) = train.first() else { return Vec::new() };
     first
         .measured

@@ -3,8 +3,8 @@
 use crate::confirm::{Confirmed, Tried};
 use crate::decision::criteria::CRITERIA;
 use crate::estimation::deadline::Stage;
-use crate::estimation::fit::Point;
-use crate::estimation::hypothesis::{Fitted, Term, World};
+use crate::estimation::fit::Estimate;
+use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::explain::describe::{MissingSignal, Unmodelled};
 use crate::explain::selection::{Choice, Compared, MOST as MOST_TRIED, Score, choose};
 use crate::missing::innovations::Noise;
@@ -44,7 +44,7 @@ struct Looked<'a> {
     compared: Compared,
 }
 
-impl World<'_> {
+impl Baseline<'_> {
     /// Typical magnitudes along the trajectory, and how many independent comparisons all effects amount to.
     pub(super) fn look_at(&mut self, base: &Fitted) -> Result<(), String> {
         let frame = self.frame(&[], &self.unbent(base))?;
@@ -57,8 +57,8 @@ impl World<'_> {
     }
 
     /// A fit with the parameters as they were before it: it has bent them to what it lacks.
-    fn unbent(&self, fitted: &Fitted) -> Point {
-        Point { parameters: self.sheet.clone(), ..fitted.point.clone() }
+    fn unbent(&self, fitted: &Fitted) -> Estimate {
+        Estimate { parameters: self.sheet.clone(), ..fitted.point.clone() }
     }
 
     /// Repeats place, law and confirmation until no error worth reporting remains.

@@ -7,8 +7,8 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::confirm::worth;
 use crate::decision::criteria::CRITERIA;
-use crate::estimation::fit::{Handle, Normal};
-use crate::estimation::hypothesis::{Fitted, POINTS, Term, World};
+use crate::estimation::fit::{Normal, Unknown};
+use crate::estimation::hypothesis::{Baseline, Fitted, POINTS, Term};
 use crate::screening::TriedOut;
 use crate::signal::distortion::Fault;
 
@@ -29,7 +29,7 @@ pub struct Assumed {
     pub twins: Vec<Vec<Term>>,
 }
 
-impl World<'_> {
+impl Baseline<'_> {
     /// How far each coordinate would move beside each effect that is not in the model, the effect being in the shape in which
     /// the errors contain most of it, of effects that are worth a fit; and which effects do what a coordinate does.
     ///
@@ -38,7 +38,7 @@ impl World<'_> {
     pub fn assumed(&self, fitted: &Fitted) -> Result<Assumed, String> {
         let TriedOut { terms, probes, normal: Normal { h, g, .. } } = self.tried_out(fitted)?;
         let mut most: Vec<Option<Pull>> = vec![None; terms.len()];
-        let amounts: Vec<Handle> = fitted.terms.iter().flat_map(|term| self.sizes(*term)).collect();
+        let amounts: Vec<Unknown> = fitted.terms.iter().flat_map(|term| self.sizes(*term)).collect();
         let effects = fitted.coordinates.iter().map(|it| amounts.contains(&it.handle)).collect::<Vec<_>>();
         let beside = Beside { h: &h, g: &g, effects: &effects, left: 2.0 * fitted.cost };
         let mut twins: Vec<Vec<Term>> = vec![Vec::new(); fitted.coordinates.len()];
@@ -72,7 +72,7 @@ impl World<'_> {
 }
 
 fn is_gain(term: Term) -> bool {
-    matches!(term, Term::Fault(Handle::Input(_, Fault::Gain) | Handle::Output(_, Fault::Gain)))
+    matches!(term, Term::Fault(Unknown::Input(_, Fault::Gain) | Unknown::Output(_, Fault::Gain)))
 }
 
 /// What an assumed effect does to a fit.

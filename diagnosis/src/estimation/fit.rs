@@ -8,7 +8,7 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::dataset::recorded::Recorded;
+use crate::dataset::recorded::Dataset;
 use crate::estimation::lsq::{Linear, Problem};
 use crate::plant::{Dynamics, Plant, Signals};
 use crate::signal::distortion::{Correction, Fault};
@@ -36,7 +36,7 @@ const FAR: f64 = 3.0;
 
 /// Something that a fit may change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Handle {
+pub enum Unknown {
     /// A parameter of the plant, by its index.
     Parameter(usize),
     /// A correction of an input's signal, by the input's index.
@@ -47,9 +47,9 @@ pub enum Handle {
 
 /// Something that a fit changes, within bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Coordinate {
+pub struct FreeParameter {
     /// What.
-    pub handle: Handle,
+    pub handle: Unknown,
     /// Smallest and largest value.
     pub bounds: (f64, f64),
     /// What was known before, as mean and standard deviation.
@@ -58,7 +58,7 @@ pub struct Coordinate {
 
 /// A plant's parameters, corrections and states at the start of every section.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Point {
+pub struct Estimate {
     /// The plant's parameters.
     pub parameters: Vec<f64>,
     /// Of each input.
@@ -69,22 +69,22 @@ pub struct Point {
     pub starts: Vec<Vec<f64>>,
 }
 
-impl Point {
+impl Estimate {
     /// The value of what can be changed.
-    pub fn get(&self, handle: Handle) -> f64 {
+    pub fn get(&self, handle: Unknown) -> f64 {
         match handle {
-            Handle::Parameter(index) => self.parameters[index],
-            Handle::Input(index, fault) => self.inputs[index].get(fault),
-            Handle::Output(index, fault) => self.outputs[index].get(fault),
+            Unknown::Parameter(index) => self.parameters[index],
+            Unknown::Input(index, fault) => self.inputs[index].get(fault),
+            Unknown::Output(index, fault) => self.outputs[index].get(fault),
         }
     }
 
     /// Changes it.
-    pub fn set(&mut self, handle: Handle, value: f64) {
+    pub fn set(&mut self, handle: Unknown, value: f64) {
         match handle {
-            Handle::Parameter(index) => self.parameters[index] = value,
-            Handle::Input(index, fault) => self.inputs[index].set(fault, value),
-            Handle::Output(index, fault) => self.outputs[index].set(fault, value),
+            Unknown::Parameter(index) => self.parameters[index] = value,
+            Unknown::Input(index, fault) => self.inputs[index].set(fault, value),
+            Unknown::Output(index, fault) => self.outputs[index].set(fault, value),
         }
     }
 }
@@ -104,7 +104,7 @@ pub struct Normal {
 }
 
 /// Changes of the signals predicted of a section, by its number over all records.
-pub type Changes<'a> = dyn Fn(usize, &Recorded, &Range<usize>) -> Vec<Signals> + 'a;
+pub type Changes<'a> = dyn Fn(usize, &Dataset, &Range<usize>) -> Vec<Signals> + 'a;
 
 /// The fit of a plant to records as a least-squares problem.
 pub struct Fit<'a> {
@@ -113,9 +113,9 @@ pub struct Fit<'a> {
     /// Its equations.
     pub dynamics: &'a dyn Dynamics,
     /// What was measured.
-    pub records: &'a [Recorded],
+    pub records: &'a [Dataset],
     /// What may be changed.
-    pub coordinates: Vec<Coordinate>,
+    pub coordinates: Vec<FreeParameter>,
     /// Standard deviation of the residuals of each output.
     pub sigma: Vec<f64>,
     /// States whose values at the start are estimated.
@@ -137,8 +137,8 @@ impl<'a> Fit<'a> {
     pub fn new(
         plant: &'a Plant,
         dynamics: &'a dyn Dynamics,
-        records: &'a [Recorded],
-        coordinates: Vec<Coordinate>,
+        records: &'a [Dataset],
+        coordinates: Vec<FreeParameter>,
         sigma: Vec<f64>,
     ) -> Self {
         let bounds = coordinates.iter().map(|coordinate| coordinate.bounds).collect();
@@ -150,7 +150,7 @@ impl<'a> Fit<'a> {
         Self { plant, dynamics, records, coordinates, sigma, states, ridge, bounds }
     }
 
-    fn sections(&self) -> Vec<(usize, &'a Recorded, &'a Range<usize>)> {
+    fn sections(&self) -> Vec<(usize, &'a Dataset, &'a Range<usize>)> {
         let all = self.records.iter().flat_map(|record| record.sections.iter().map(move |it| (record, it)));
         all.enumerate().map(|(index, (record, section))| (index, record, section)).collect()
     }
@@ -158,9 +158,9 @@ impl<'a> Fit<'a> {
     /// The measured outputs as predicted in a section.
     pub fn predicted(
         &self,
-        point: &Point,
+        point: &Estimate,
         start: &[f64],
-        record: &Recorded,
+        record: &Dataset,
         section: &Range<usize>,
     ) -> Signals {
         let drive = record.drive(section, &point.inputs);
@@ -180,7 +180,7 @@ impl<'a> Fit<'a> {
     }
 
     /// Half the weighted sum of squares of a section.
-    fn section_cost(&self, point: &Point, start: &[f64], record: &Recorded, section: &Range<usize>) -> f64 {
+    fn section_cost(&self, point: &Estimate, start: &[f64], record: &Dataset, section: &Range<usize>) -> f64 {
         let predicted = self.predicted(point, start, record, section);
         let signals = record.measured.iter().zip(predicted).map(|(measured, signal)| {
             let weight = self.sigma[measured.output].powi(-2);
@@ -192,7 +192,7 @@ impl<'a> Fit<'a> {
     }
 
     /// Predicted signals of each record, whole.
-    pub fn predictions(&self, point: &Point) -> Residuals {
+    pub fn predictions(&self, point: &Estimate) -> Residuals {
         let sections = self.sections();
         let parts: Vec<Signals> = sections
             .par_iter()
@@ -214,7 +214,7 @@ impl<'a> Fit<'a> {
     }
 
     /// Measured less predicted.
-    pub fn residuals(&self, point: &Point) -> Residuals {
+    pub fn residuals(&self, point: &Estimate) -> Residuals {
         let mut all = self.predictions(point);
         for (record, signals) in self.records.iter().zip(&mut all) {
             for (measured, signal) in record.measured.iter().zip(signals) {
@@ -229,7 +229,7 @@ impl<'a> Fit<'a> {
     /// The normal equations of the coordinates and of the amounts of changes of the predicted signals, without
     /// the states at the start. The changes are asked for section by section, since they are many, and entries of changes in
     /// different groups are not computed.
-    pub fn beside(&self, point: &Point, changes: &Changes<'_>, groups: &[Range<usize>]) -> Normal {
+    pub fn beside(&self, point: &Estimate, changes: &Changes<'_>, groups: &[Range<usize>]) -> Normal {
         let own = self.coordinates.len();
         let all = own + groups.last().map_or(0, |last| last.end);
         let (mut h, mut g, mut scores) = (DMatrix::zeros(all, all), DVector::zeros(all), Vec::new());
@@ -273,7 +273,7 @@ pub fn contained(normal: &Normal, own: usize) -> Normal {
 }
 
 /// Half the squared distance of a point from what was known of the coordinates before, in its standard deviations.
-pub fn strain(coordinates: &[Coordinate], point: &Point) -> f64 {
+pub fn strain(coordinates: &[FreeParameter], point: &Estimate) -> f64 {
     let each = coordinates.iter().filter_map(|coordinate| {
         let (mean, deviation) = coordinate.prior?;
         Some(0.5 * ((point.get(coordinate.handle) - mean) / deviation).powi(2))
@@ -282,14 +282,14 @@ pub fn strain(coordinates: &[Coordinate], point: &Point) -> f64 {
 }
 
 impl Problem for Fit<'_> {
-    type Point = Point;
+    type Estimate = Estimate;
     type Trace = Trace;
 
-    fn is_possible(&self, point: &Point) -> bool {
+    fn is_possible(&self, point: &Estimate) -> bool {
         self.dynamics.check(&point.parameters).is_ok()
     }
 
-    fn cost(&self, point: &Point) -> f64 {
+    fn cost(&self, point: &Estimate) -> f64 {
         if !self.is_possible(point) {
             return f64::INFINITY;
         }
@@ -301,7 +301,7 @@ impl Problem for Fit<'_> {
         parts.iter().sum::<f64>() + strain(&self.coordinates, point)
     }
 
-    fn linearise(&self, point: &Point) -> (Linear, Trace) {
+    fn linearise(&self, point: &Estimate) -> (Linear, Trace) {
         let n = self.coordinates.len();
         let (mut h, mut g) = (DMatrix::zeros(n, n), DVector::zeros(n));
         let mut trace = Trace { sections: Vec::new(), scores: Vec::new() };
@@ -322,14 +322,14 @@ impl Problem for Fit<'_> {
         (Linear::by_cholesky(&h, &g), trace)
     }
 
-    fn coordinates(&self, point: &Point) -> DVector<f64> {
+    fn coordinates(&self, point: &Estimate) -> DVector<f64> {
         DVector::from_iterator(
             self.coordinates.len(),
             self.coordinates.iter().map(|coordinate| point.get(coordinate.handle)),
         )
     }
 
-    fn moved(&self, point: &Point, trace: &Trace, coordinates: &DVector<f64>) -> Point {
+    fn moved(&self, point: &Estimate, trace: &Trace, coordinates: &DVector<f64>) -> Estimate {
         let step = coordinates - self.coordinates(point);
         let mut moved = point.clone();
         for (coordinate, value) in self.coordinates.iter().zip(coordinates.iter()) {

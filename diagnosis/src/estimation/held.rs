@@ -2,7 +2,7 @@
 //!
 //! The search looks for them in the signals, where a delay is exact and costs nothing; the extended model has them inside.
 
-use crate::estimation::fit::Point;
+use crate::estimation::fit::Estimate;
 use crate::plant::Plant;
 use crate::signal::distortion::Fault;
 
@@ -34,7 +34,7 @@ impl Held {
     }
 }
 
-impl Point {
+impl Estimate {
     /// The same with all inside of the model that it can hold: a command that is measured late, say, it cannot make earlier.
     #[must_use]
     pub fn within(&self, plant: &Plant) -> Self {
@@ -64,8 +64,8 @@ mod tests {
     use crate::signal::distortion::Correction;
 
     /// A point of the TUM rig with some faults of its actuator.
-    fn point(rig: &Rig, faults: &[(Fault, f64)]) -> (Point, usize) {
-        let mut point = Point {
+    fn point(rig: &Rig, faults: &[(Fault, f64)]) -> (Estimate, usize) {
+        let mut point = Estimate {
             parameters: rig.parameters.clone(),
             inputs: vec![Correction::default(); rig.plant.inputs.len()],
             outputs: Vec::new(),

@@ -2,12 +2,12 @@
 
 use strut_model::{Value, unit};
 
-use crate::catalogue::{self, Bounds, Cause, Element, Part, Scale, Signal, Table, Typical};
-use crate::dataset::recorded::{Recorded, Source};
-use crate::dataset::split::Records;
+use crate::catalogue::{self, Bounds, Effect, Element, Part, Scale, Signal, Table, Typical};
+use crate::dataset::recorded::{Dataset, Source};
+use crate::dataset::split::Split;
 use crate::diagnosis::Options;
 use crate::estimation::deadline::Deadline;
-use crate::estimation::fit::{Coordinate, Fit, Handle, Point, Residuals, Trace};
+use crate::estimation::fit::{Estimate, Fit, FreeParameter, Residuals, Trace, Unknown};
 use crate::estimation::lsq::{self, Linear, Problem, Stop};
 use crate::plant::Dynamics;
 use crate::rig::Rig;
@@ -37,12 +37,12 @@ const START: (f64, f64) = (10.0, f64::INFINITY);
 /// Something that is added to the starting model.
 #[derive(Clone, Copy, Debug)]
 pub enum Term {
-    /// A cause with a name.
-    Cause(&'static Cause),
+    /// An effect with a name.
+    Effect(&'static Effect),
     /// A force without a name.
     Table(&'static Table),
     /// What a sensor or an actuator makes of a signal.
-    Fault(Handle),
+    Fault(Unknown),
     /// A linear response of a sensor without a name, by its output's index.
     Response(usize),
 }
@@ -50,7 +50,7 @@ pub enum Term {
 impl PartialEq for Term {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
-            (Self::Cause(a), Self::Cause(b)) => std::ptr::eq(*a, *b),
+            (Self::Effect(a), Self::Effect(b)) => std::ptr::eq(*a, *b),
             (Self::Table(a), Self::Table(b)) => std::ptr::eq(*a, *b),
             (Self::Fault(a), Self::Fault(b)) => a == b,
             (Self::Response(a), Self::Response(b)) => a == b,
@@ -61,24 +61,24 @@ impl PartialEq for Term {
 
 /// The world that hypotheses are about.
 #[derive(Clone)]
-pub struct World<'a> {
+pub struct Baseline<'a> {
     /// The rig.
     pub rig: &'a Rig,
     /// The records that are learnt from.
-    pub train: &'a [Recorded],
+    pub train: &'a [Dataset],
     /// The records that judge.
-    pub test: &'a [Recorded],
+    pub test: &'a [Dataset],
     /// Both, estimation records first, without divisions.
-    pub whole: &'a [Recorded],
+    pub whole: &'a [Dataset],
     /// Typical magnitudes of each element.
     pub typical: Vec<(Element, Typical)>,
     /// Parameters before any simulation is fitted: the rig's, and where it states none those of a balance.
     pub sheet: Vec<f64>,
     /// What was known of parameters before: index, value, standard deviation.
     pub known: Vec<(usize, f64, f64)>,
-    /// Numbers of the causes that are looked at; none: all.
+    /// Numbers of the effects that are looked at; none: all.
     pub only: Vec<String>,
-    /// Number of independent looks at the errors that comparing every cause to them amounts to.
+    /// Number of independent looks at the errors that comparing every effect to them amounts to.
     pub looks: f64,
     /// Standard deviation of each output's residuals.
     pub sigma: Vec<f64>,
@@ -94,9 +94,9 @@ pub struct Fitted {
     /// What was added to the starting model.
     pub terms: Vec<Term>,
     /// The coordinates of the fit.
-    pub coordinates: Vec<Coordinate>,
+    pub coordinates: Vec<FreeParameter>,
     /// Values, with the states at the start of the training sections.
-    pub point: Point,
+    pub point: Estimate,
     /// The linearisation there.
     pub linear: Linear,
     /// What linearising left behind.
@@ -109,9 +109,9 @@ pub struct Fitted {
     pub test: Residuals,
 }
 
-impl<'a> World<'a> {
+impl<'a> Baseline<'a> {
     /// What hypotheses are about, before anything is known of it.
-    pub fn new(rig: &'a Rig, records: &'a Records, options: Options) -> Self {
+    pub fn new(rig: &'a Rig, records: &'a Split, options: Options) -> Self {
         Self {
             rig,
             train: &records.train,
@@ -129,7 +129,7 @@ impl<'a> World<'a> {
     }
 }
 
-impl World<'_> {
+impl Baseline<'_> {
     /// Typical magnitudes of an element.
     pub fn typical(&self, element: Element) -> Typical {
         let found = self.typical.iter().find(|(of, _)| *of == element);
@@ -137,8 +137,8 @@ impl World<'_> {
     }
 
     /// The point that everything starts from.
-    pub fn origin(&self) -> Point {
-        Point {
+    pub fn origin(&self) -> Estimate {
+        Estimate {
             parameters: self.rig.parameters.clone(),
             inputs: vec![Correction::default(); self.rig.plant.inputs.len()],
             outputs: vec![Correction::default(); self.rig.plant.outputs.len()],
@@ -148,9 +148,9 @@ impl World<'_> {
 
     /// A first guess of the states at the start of each section: what was measured of them or follows from it,
     /// otherwise the rig's own.
-    pub fn starts(&self, records: &[Recorded]) -> Vec<Vec<f64>> {
+    pub fn starts(&self, records: &[Dataset]) -> Vec<Vec<f64>> {
         let plant = &self.rig.plant;
-        let of = |record: &Recorded, at: usize| {
+        let of = |record: &Dataset, at: usize| {
             let mut start = self.rig.start.clone();
             for measured in &record.measured {
                 let (output, value) = (&plant.outputs[measured.output].name, measured.values[at]);
@@ -181,7 +181,7 @@ impl World<'_> {
     pub fn choices(&self, terms: &[Term]) -> Vec<Value> {
         let mut choices = self.rig.choices.clone();
         for term in terms {
-            if let Term::Cause(Cause { setting: Some(setting), .. }) = term
+            if let Term::Effect(Effect { setting: Some(setting), .. }) = term
                 && let Some(index) = self.rig.plant.setting(setting)
             {
                 choices[index] = Value::Boolean(true);
@@ -202,26 +202,26 @@ impl World<'_> {
     pub fn fit<'b>(
         &'b self,
         dynamics: &'b dyn Dynamics,
-        records: &'b [Recorded],
-        coordinates: Vec<Coordinate>,
+        records: &'b [Dataset],
+        coordinates: Vec<FreeParameter>,
     ) -> Fit<'b> {
         Fit::new(&self.rig.plant, dynamics, records, coordinates, self.sigma.clone())
     }
 
     /// Standard deviation of what any measurement does to a signal; none for what would be a fault.
-    pub fn usual(&self, handle: Handle) -> Option<f64> {
+    pub fn usual(&self, handle: Unknown) -> Option<f64> {
         let filtered = |output: usize| self.rig.plant.outputs[output].name.ends_with("acceleration");
         match handle {
-            Handle::Output(_, Fault::Delay) => Some(TIMING),
-            Handle::Output(output, Fault::Lag) if filtered(output) => Some(TIMING),
+            Unknown::Output(_, Fault::Delay) => Some(TIMING),
+            Unknown::Output(output, Fault::Lag) if filtered(output) => Some(TIMING),
             _ => None,
         }
     }
 
     /// What is fitted with the terms: base parameters first, then the terms' own, each once.
-    pub fn coordinates(&self, terms: &[Term]) -> Vec<Coordinate> {
+    pub fn coordinates(&self, terms: &[Term]) -> Vec<FreeParameter> {
         let plant = &self.rig.plant;
-        let mut coordinates: Vec<Coordinate> = Vec::new();
+        let mut coordinates: Vec<FreeParameter> = Vec::new();
         for index in self.rig.base() {
             let (declared, value) = (&plant.parameters[index], self.rig.parameters[index]);
             let (low, high) =
@@ -240,16 +240,16 @@ impl World<'_> {
             // It is right within a factor where the data do not know better; of what nobody knows it says zero.
             let sheet = (value != 0.0).then_some((value, deviation * value.abs()));
             let prior = known.map(|(_, mean, deviation)| (*mean, *deviation)).or(sheet);
-            coordinates.push(Coordinate { handle: Handle::Parameter(index), bounds, prior });
+            coordinates.push(FreeParameter { handle: Unknown::Parameter(index), bounds, prior });
         }
         for measured in self.train.first().map_or(&[][..], |record| &record.measured) {
-            for handle in [Fault::Delay, Fault::Lag].map(|fault| Handle::Output(measured.output, fault)) {
+            for handle in [Fault::Delay, Fault::Lag].map(|fault| Unknown::Output(measured.output, fault)) {
                 let bounds = self.fault_bounds(handle);
                 let Some(deviation) = self.usual(handle) else { continue };
                 // A signal that is later than that has a fault, which is a term of its own.
                 let most = IN_TIME * deviation;
                 let bounds = (bounds.0.max(-most), bounds.1.min(most));
-                coordinates.push(Coordinate { handle, bounds, prior: Some((0.0, deviation)) });
+                coordinates.push(FreeParameter { handle, bounds, prior: Some((0.0, deviation)) });
             }
         }
         for term in terms {
@@ -263,35 +263,39 @@ impl World<'_> {
         coordinates
     }
 
-    /// The bounds of a velocity that nobody states and that is part of a cause's law: where it would be looked for if the rig did
-    /// not have the cause already. Of friction that turns over in no time at all, no derivative tells anything.
+    /// The bounds of a velocity that nobody states and that is part of an effect's law: where it would be looked for if the rig did
+    /// not have the effect already. Of friction that turns over in no time at all, no derivative tells anything.
     fn sought(&self, index: usize) -> Option<(f64, f64)> {
         if self.rig.stated[index] {
             return None;
         }
         let plant = &self.rig.plant;
-        let mut parts = catalogue::causes(plant).flat_map(|it| it.parts.iter().map(move |part| (it, part)));
+        let mut parts = catalogue::effects(plant).flat_map(|it| it.parts.iter().map(move |part| (it, part)));
         let own =
             |part: &Part| part.scale == Scale::VELOCITY && plant.parameter(part.parameter) == Some(index);
-        let (cause, part) = parts.find(|(_, part)| own(part))?;
-        let unit = part.scale.of(&self.typical(cause.element));
+        let (effect, part) = parts.find(|(_, part)| own(part))?;
+        let unit = part.scale.of(&self.typical(effect.element));
         Some((part.bounds.0 * unit, part.bounds.1 * unit))
     }
 
     /// The coordinates that a term brings.
-    pub fn own_coordinates(&self, term: Term) -> Vec<Coordinate> {
+    pub fn own_coordinates(&self, term: Term) -> Vec<FreeParameter> {
         let plant = &self.rig.plant;
         match term {
-            Term::Cause(cause) => {
-                let typical = self.typical(cause.element);
-                let parts = cause.parts.iter().filter_map(|part| {
+            Term::Effect(effect) => {
+                let typical = self.typical(effect.element);
+                let parts = effect.parts.iter().filter_map(|part| {
                     let (index, unit) = (plant.parameter(part.parameter)?, part.scale.of(&typical));
                     let declared = &plant.parameters[index];
                     let low = (part.bounds.0 * unit).max(declared.min.unwrap_or(f64::NEG_INFINITY));
                     let within = part.within.map_or(f64::INFINITY, |(scale, most)| most * scale.of(&typical));
                     let high = (part.bounds.1 * unit).min(declared.max.unwrap_or(f64::INFINITY)).min(within);
                     let high = high.max(low);
-                    Some(Coordinate { handle: Handle::Parameter(index), bounds: (low, high), prior: None })
+                    Some(FreeParameter {
+                        handle: Unknown::Parameter(index),
+                        bounds: (low, high),
+                        prior: None,
+                    })
                 });
                 parts.collect()
             }
@@ -300,8 +304,8 @@ impl World<'_> {
                 let points =
                     (1..=POINTS).filter_map(|number| plant.parameter(&format!("{}[{number}]", table.points)));
                 points
-                    .map(|index| Coordinate {
-                        handle: Handle::Parameter(index),
+                    .map(|index| FreeParameter {
+                        handle: Unknown::Parameter(index),
                         bounds: (table.law.bounds.0 * typical, table.law.bounds.1 * typical),
                         // A ridge: points that nothing reaches stay at zero.
                         prior: Some((0.0, typical)),
@@ -310,19 +314,19 @@ impl World<'_> {
             }
             Term::Fault(handle) => {
                 let with = match handle {
-                    Handle::Output(output, fault) => {
+                    Unknown::Output(output, fault) => {
                         let with = catalogue::distortion(fault).at(Signal::Output).with;
-                        with.map(|fault| Handle::Output(output, fault))
+                        with.map(|fault| Unknown::Output(output, fault))
                     }
-                    Handle::Input(..) | Handle::Parameter(_) => None,
+                    Unknown::Input(..) | Unknown::Parameter(_) => None,
                 };
-                let of = |handle| Coordinate { handle, bounds: self.fault_bounds(handle), prior: None };
+                let of = |handle| FreeParameter { handle, bounds: self.fault_bounds(handle), prior: None };
                 std::iter::once(handle).chain(with).map(of).collect()
             }
             Term::Response(output) => (0..AFTER.len())
-                .map(|point| Handle::Output(output, Fault::Response(point)))
+                .map(|point| Unknown::Output(output, Fault::Response(point)))
                 // A ridge, as a table has one.
-                .map(|handle| Coordinate {
+                .map(|handle| FreeParameter {
                     handle,
                     bounds: self.fault_bounds(handle),
                     prior: Some((0.0, UNKNOWN)),
@@ -340,14 +344,14 @@ impl World<'_> {
         values.flatten().filter(|it| it.is_finite()).fold(0.0, |most, it| it.abs().max(most))
     }
 
-    fn fault_bounds(&self, handle: Handle) -> (f64, f64) {
+    fn fault_bounds(&self, handle: Unknown) -> (f64, f64) {
         let fault = match handle {
-            Handle::Input(_, fault) | Handle::Output(_, fault) => fault,
-            Handle::Parameter(_) => return (f64::NEG_INFINITY, f64::INFINITY),
+            Unknown::Input(_, fault) | Unknown::Output(_, fault) => fault,
+            Unknown::Parameter(_) => return (f64::NEG_INFINITY, f64::INFINITY),
         };
         match (catalogue::distortion(fault).bounds, handle) {
             (Bounds::Between(low, high), _) => (low, high),
-            (Bounds::OfLargest(low, high), Handle::Input(input, _)) => {
+            (Bounds::OfLargest(low, high), Unknown::Input(input, _)) => {
                 let largest = self.largest(input);
                 (low * largest, high * largest)
             }
@@ -360,7 +364,7 @@ impl World<'_> {
     ///
     /// # Errors
     /// If the model refuses its settings, or diverges from every point.
-    pub fn fitted(&self, terms: &[Term], starts: &[Point], stop: Stop) -> Result<Fitted, String> {
+    pub fn fitted(&self, terms: &[Term], starts: &[Estimate], stop: Stop) -> Result<Fitted, String> {
         let stop = Stop { until: self.deadline.instant(), ..stop };
         let dynamics = self.dynamics(terms)?;
         let coordinates = self.coordinates(terms);
@@ -384,12 +388,12 @@ impl World<'_> {
     }
 
     /// The point of the held-out data: the same parameters, states at the start of their own.
-    pub fn held_out_point(&self, dynamics: &dyn Dynamics, point: &Point) -> Point {
-        let point = Point { starts: self.starts(self.test), ..point.clone() };
+    pub fn held_out_point(&self, dynamics: &dyn Dynamics, point: &Estimate) -> Estimate {
+        let point = Estimate { starts: self.starts(self.test), ..point.clone() };
         self.fit(dynamics, self.test, Vec::new()).settled(point)
     }
 
-    fn held_out(&self, dynamics: &dyn Dynamics, point: &Point) -> Residuals {
+    fn held_out(&self, dynamics: &dyn Dynamics, point: &Estimate) -> Residuals {
         let point = self.held_out_point(dynamics, point);
         self.fit(dynamics, self.test, Vec::new()).residuals(&point)
     }

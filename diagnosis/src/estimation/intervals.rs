@@ -14,11 +14,11 @@ use std::ops::Range;
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use crate::dataset::recorded::Recorded;
+use crate::dataset::recorded::Dataset;
 use crate::decision::disagreement::{Wish, wish};
 use crate::estimation::beside::Assumed;
-use crate::estimation::fit::{Coordinate, Handle, Point};
-use crate::estimation::hypothesis::{Fitted, Term, World};
+use crate::estimation::fit::{Estimate, FreeParameter, Unknown};
+use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::lsq::Problem;
 
 /// Excitations that are compared at least: fewer records are cut in pieces.
@@ -33,7 +33,7 @@ const NORMAL: f64 = 1.96;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interval {
     /// The coordinate.
-    pub handle: Handle,
+    pub handle: Unknown,
     /// Its value.
     pub value: f64,
     /// Half the interval that holds the true value with 95 %; infinite if nothing is known.
@@ -71,7 +71,7 @@ struct Opinion {
     record: usize,
 }
 
-impl World<'_> {
+impl Baseline<'_> {
     /// The interval of each coordinate of a fit.
     ///
     /// # Errors
@@ -82,9 +82,9 @@ impl World<'_> {
         let dynamics = self.dynamics(&fitted.terms)?;
         let fit = self.fit(&*dynamics, self.train, fitted.coordinates.clone());
         let norms = fitted.linear.column_norms();
-        let amounts: Vec<Handle> = fitted.terms.iter().flat_map(|term| self.sizes(*term)).collect();
+        let amounts: Vec<Unknown> = fitted.terms.iter().flat_map(|term| self.sizes(*term)).collect();
         let Assumed { pulls, twins } = self.assumed(fitted)?;
-        let interval = |(index, coordinate): (usize, &Coordinate)| {
+        let interval = |(index, coordinate): (usize, &FreeParameter)| {
             let all: Vec<Opinion> = opinions.iter().map(|excitation| excitation[index]).collect();
             let (between, quantile) = between(&all);
             let pulled: f64 = pulls.iter().map(|pull| pull[index].powi(2)).sum();
@@ -117,11 +117,11 @@ impl World<'_> {
     /// What each excitation says of each coordinate: a Gauss–Newton step from the fit.
     fn opinions(&self, fitted: &Fitted) -> Result<Vec<Vec<Opinion>>, String> {
         let dynamics = self.dynamics(&fitted.terms)?;
-        let of = |record: &Recorded, learnt: bool, number: usize| {
+        let of = |record: &Dataset, learnt: bool, number: usize| {
             let records = std::slice::from_ref(record);
             let starts = self.starts(records);
             let fit = self.fit(&*dynamics, records, fitted.coordinates.clone());
-            let point = fit.settled(Point { starts, ..fitted.point.clone() });
+            let point = fit.settled(Estimate { starts, ..fitted.point.clone() });
             let (linear, trace) = fit.linearise(&point);
             let shift = linear.minimiser();
             let covariance = linear.robust_covariance(&trace.scores);
@@ -136,14 +136,14 @@ impl World<'_> {
         let cut = all.enumerate().flat_map(|(number, (record, learnt))| {
             cut(record, pieces)
                 .into_iter()
-                .map(move |sections| (Recorded { sections, ..record.clone() }, learnt, number))
+                .map(move |sections| (Dataset { sections, ..record.clone() }, learnt, number))
         });
         Ok(cut.map(|(record, learnt, number)| of(&record, learnt, number)).collect())
     }
 }
 
 /// A record's sections in so many pieces.
-fn cut(record: &Recorded, pieces: usize) -> Vec<Vec<Range<usize>>> {
+fn cut(record: &Dataset, pieces: usize) -> Vec<Vec<Range<usize>>> {
     if pieces < 2 {
         return vec![record.sections.clone()];
     }
@@ -224,10 +224,10 @@ mod tests {
     fn a_record_is_cut_where_it_may_be() {
         let sections = vec![0..700, 750..1000];
         let (name, inputs, between, measured) = (String::new(), vec![], Between::Lines, vec![]);
-        let record = Recorded { name, step: 1e-3, inputs, between, measured, others: vec![], sections };
+        let record = Dataset { name, step: 1e-3, inputs, between, measured, others: vec![], sections };
         assert_eq!(cut(&record, 1).concat(), record.sections);
         let measured = vec![Measured { output: 0, values: vec![0.0; 2000], noise_floor: 1.0 }];
-        let long = Recorded { measured, sections: vec![0..1400, 1450..2000], ..record };
+        let long = Dataset { measured, sections: vec![0..1400, 1450..2000], ..record };
         // Of the first section's second half, 400 samples are less than a block.
         let pieces = cut(&long, 2);
         assert_eq!((pieces.len(), pieces.concat()), (2, vec![0..1000, 1450..2000]));

@@ -160,21 +160,26 @@ impl Linear {
 /// A least-squares problem about points of its own.
 pub trait Problem {
     /// A point, which may hold more than the coordinates.
-    type Point: Clone;
+    type Estimate: Clone;
     /// What linearising leaves behind.
     type Trace;
     /// Half the sum of squares; not finite where it cannot be told.
-    fn cost(&self, point: &Self::Point) -> f64;
+    fn cost(&self, point: &Self::Estimate) -> f64;
     /// Whether the coordinates of a point go together, beyond the bounds of each.
-    fn is_possible(&self, _: &Self::Point) -> bool {
+    fn is_possible(&self, _: &Self::Estimate) -> bool {
         true
     }
     /// The linearisation in the coordinates.
-    fn linearise(&self, point: &Self::Point) -> (Linear, Self::Trace);
+    fn linearise(&self, point: &Self::Estimate) -> (Linear, Self::Trace);
     /// The coordinates of a point.
-    fn coordinates(&self, point: &Self::Point) -> DVector<f64>;
+    fn coordinates(&self, point: &Self::Estimate) -> DVector<f64>;
     /// The point with these coordinates, a step from one that was linearised.
-    fn moved(&self, point: &Self::Point, trace: &Self::Trace, coordinates: &DVector<f64>) -> Self::Point;
+    fn moved(
+        &self,
+        point: &Self::Estimate,
+        trace: &Self::Trace,
+        coordinates: &DVector<f64>,
+    ) -> Self::Estimate;
     /// Bounds of each coordinate.
     fn bounds(&self) -> &[(f64, f64)];
 }
@@ -203,7 +208,7 @@ pub struct Minimum<P, T> {
 }
 
 /// Goes downhill from a point to a minimum within the bounds.
-pub fn minimise<P: Problem>(problem: &P, start: P::Point, stop: Stop) -> Minimum<P::Point, P::Trace> {
+pub fn minimise<P: Problem>(problem: &P, start: P::Estimate, stop: Stop) -> Minimum<P::Estimate, P::Trace> {
     let mut point = start;
     let mut cost = problem.cost(&point);
     let (mut linear, mut trace) = problem.linearise(&point);
@@ -323,7 +328,7 @@ mod tests {
     struct Ascending([f64; 3]);
 
     impl Problem for Ascending {
-        type Point = DVector<f64>;
+        type Estimate = DVector<f64>;
         type Trace = ();
 
         fn is_possible(&self, point: &DVector<f64>) -> bool {

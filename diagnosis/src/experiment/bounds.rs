@@ -1,8 +1,8 @@
 //! Within what an experiment has to stay: stroke, force, rate, frequencies and time.
 
-use crate::dataset::recorded::{Recorded, Source, derivative};
+use crate::dataset::recorded::{Dataset, Source, derivative};
 use crate::diagnosis::simulated;
-use crate::estimation::hypothesis::{Fitted, World};
+use crate::estimation::hypothesis::{Baseline, Fitted};
 use crate::rig::ForceOf;
 
 /// Longest experiment in seconds where nobody asks for a longer one.
@@ -49,7 +49,7 @@ pub struct Bounds {
     pub duration: f64,
 }
 
-impl World<'_> {
+impl Baseline<'_> {
     /// The bounds of an experiment: the user's limits, otherwise what the estimation records have reached. Of what they did
     /// not measure, the fitted model tells.
     pub fn bounds(&self, limits: Limits, fitted: &Fitted) -> Bounds {
@@ -118,7 +118,7 @@ impl World<'_> {
 }
 
 /// Largest magnitude of an output, as measured, or as predicted where it is not.
-fn largest(output: usize, records: &[Recorded], predicted: &[Vec<Vec<f64>>]) -> f64 {
+fn largest(output: usize, records: &[Dataset], predicted: &[Vec<Vec<f64>>]) -> f64 {
     let each = records.iter().zip(predicted).flat_map(|(record, predicted)| {
         let measured = record.measured.iter().find(|it| it.output == output);
         measured.map_or(&predicted[output], |it| &it.values)

@@ -2,9 +2,9 @@
 
 use nalgebra::DVector;
 
-use crate::dataset::recorded::{Measured, Recorded};
-use crate::estimation::fit::{Point, Residuals, strain};
-use crate::estimation::hypothesis::{Fitted, Term, World};
+use crate::dataset::recorded::{Dataset, Measured};
+use crate::estimation::fit::{Estimate, Residuals, strain};
+use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::lsq::Stop;
 use crate::plant::{Dynamics, Signals};
 
@@ -33,12 +33,12 @@ pub struct Rival {
 
 /// The chosen model and its rivals, with the errors that they leave.
 pub struct Contest<'a> {
-    world: &'a World<'a>,
+    baseline: &'a Baseline<'a>,
     /// The chosen model, then each rival.
     models: Vec<Rival>,
     /// What an experiment may do.
     pub bounds: Bounds,
-    like: &'a Recorded,
+    like: &'a Dataset,
     /// Level of each output's errors, by its index.
     levels: Vec<f64>,
     /// Share of the samples of each measured output that are independent.
@@ -58,20 +58,20 @@ pub struct Trial {
 
 impl<'a> Contest<'a> {
     /// A contest about the world's estimation records; the chosen model comes first.
-    pub fn new(world: &'a World<'a>, models: Vec<Rival>, bounds: Bounds) -> Option<Self> {
-        let (like, chosen) = (world.train.first()?, models.first()?);
-        let errors = world.errors(&chosen.fitted.train);
+    pub fn new(baseline: &'a Baseline<'a>, models: Vec<Rival>, bounds: Bounds) -> Option<Self> {
+        let (like, chosen) = (baseline.train.first()?, models.first()?);
+        let errors = baseline.errors(&chosen.fitted.train);
         let roots: Vec<f64> = errors.mean_squares().into_iter().map(f64::sqrt).collect();
         let known = |row: usize| {
             let all = chosen.fitted.train.iter().flat_map(|record| &record[row]);
             all.filter(|it| it.is_finite()).count() as f64
         };
-        let (mut levels, mut independent) = (world.sigma.clone(), Vec::new());
+        let (mut levels, mut independent) = (baseline.sigma.clone(), Vec::new());
         for (row, count) in errors.effective_counts().into_iter().enumerate() {
             levels[like.measured[row].output] = level(roots[row], known(row), count);
             independent.push((count / known(row).max(1.0)).min(1.0));
         }
-        Some(Self { world, models, bounds, like, levels, independent })
+        Some(Self { baseline, models, bounds, like, levels, independent })
     }
 
     /// The chosen model, then each rival.
@@ -97,7 +97,7 @@ impl<'a> Contest<'a> {
             let differences: Residuals =
                 rival.fitted.train.iter().zip(chosen).map(|(a, b)| minus(a, b)).collect();
             let squares = differences.iter().map(|record| self.squares(record)).sum();
-            let counts = self.world.train.iter().map(Recorded::len).sum();
+            let counts = self.baseline.train.iter().map(Dataset::len).sum();
             Separation::of(squares, self.independent(counts))
         };
         self.rivals().iter().map(of).collect()
@@ -157,19 +157,19 @@ impl<'a> Contest<'a> {
         None
     }
 
-    fn record(&self, excitation: &Excitation) -> Recorded {
-        excitation.record(self.world.rig, self.like, self.bounds.duration)
+    fn record(&self, excitation: &Excitation) -> Dataset {
+        excitation.record(self.baseline.rig, self.like, self.bounds.duration)
     }
 
     /// All outputs of a model over an experiment, from rest.
-    fn outputs(&self, model: &Rival, record: &Recorded) -> Signals {
+    fn outputs(&self, model: &Rival, record: &Dataset) -> Signals {
         let (whole, point) = (0..record.len(), &model.fitted.point);
         let drive = record.drive(&whole, &point.inputs);
-        model.dynamics.outputs(&point.parameters, &self.world.rig.start, &drive)
+        model.dynamics.outputs(&point.parameters, &self.baseline.rig.start, &drive)
     }
 
     /// The measured ones as its sensors see them.
-    fn measured(&self, model: &Rival, record: &Recorded, outputs: &Signals) -> Signals {
+    fn measured(&self, model: &Rival, record: &Dataset, outputs: &Signals) -> Signals {
         let samples = record.samples(&(0..record.len()));
         let of = |it: &Measured| model.fitted.point.outputs[it.output].applied(&outputs[it.output], samples);
         record.measured.iter().map(of).collect()
@@ -180,14 +180,14 @@ impl<'a> Contest<'a> {
         &self,
         excitation: &Excitation,
         outputs: &[Signals],
-        squares: impl Fn((&Recorded, &Rival)) -> Option<f64>,
+        squares: impl Fn((&Dataset, &Rival)) -> Option<f64>,
     ) -> Option<Vec<Separation>> {
         let empty = self.record(excitation);
         let independent = self.independent(empty.len());
         let one_way = |right: usize, wrong: usize| {
             let filled = empty.measured.iter().zip(&outputs[right]);
             let measured = filled.map(|(it, values)| Measured { values: values.clone(), ..it.clone() });
-            let record = Recorded { measured: measured.collect(), ..empty.clone() };
+            let record = Dataset { measured: measured.collect(), ..empty.clone() };
             Some(Separation::of(squares((&record, &self.models[wrong]))?, independent))
         };
         (1..self.models.len()).map(|rival| Some(one_way(0, rival)?.min(one_way(rival, 0)?))).collect()
@@ -195,11 +195,11 @@ impl<'a> Contest<'a> {
 
     /// Sum of squares that a model misses of an experiment beyond what small changes of its parameters and its states at the
     /// start can do.
-    fn followed(&self, record: &Recorded, model: &Rival) -> Option<f64> {
+    fn followed(&self, record: &Dataset, model: &Rival) -> Option<f64> {
         let records = std::slice::from_ref(record);
-        let world = self.over(records);
-        let fit = world.fit(&*model.dynamics, records, model.fitted.coordinates.clone());
-        let mut point = self.start(&world, model);
+        let baseline = self.over(records);
+        let fit = baseline.fit(&*model.dynamics, records, model.fitted.coordinates.clone());
+        let mut point = self.start(&baseline, model);
         if record.sections.len() > 1 {
             point = fit.settled(point);
         }
@@ -219,18 +219,19 @@ impl<'a> Contest<'a> {
     }
 
     /// The same of the model fitted to the experiment.
-    fn refitted(&self, record: &Recorded, model: &Rival) -> Option<f64> {
-        let world = self.over(std::slice::from_ref(record));
-        let fitted = world.fitted(&model.fitted.terms, &[self.start(&world, model)], Stop::ROUGH).ok()?;
+    fn refitted(&self, record: &Dataset, model: &Rival) -> Option<f64> {
+        let baseline = self.over(std::slice::from_ref(record));
+        let fitted =
+            baseline.fitted(&model.fitted.terms, &[self.start(&baseline, model)], Stop::ROUGH).ok()?;
         Some(2.0 * (fitted.cost - strain(&fitted.coordinates, &fitted.point)))
     }
 
-    fn over<'b>(&'b self, records: &'b [Recorded]) -> World<'b> {
-        World { train: records, test: &[], sigma: self.levels.clone(), ..self.world.clone() }
+    fn over<'b>(&'b self, records: &'b [Dataset]) -> Baseline<'b> {
+        Baseline { train: records, test: &[], sigma: self.levels.clone(), ..self.baseline.clone() }
     }
 
-    fn start(&self, world: &World<'_>, model: &Rival) -> Point {
-        Point { starts: world.starts(world.train), ..model.fitted.point.clone() }
+    fn start(&self, baseline: &Baseline<'_>, model: &Rival) -> Estimate {
+        Estimate { starts: baseline.starts(baseline.train), ..model.fitted.point.clone() }
     }
 
     /// Sum of squares of measured signals in their levels.

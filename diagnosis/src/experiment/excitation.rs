@@ -1,6 +1,6 @@
 //! The excitations that are compared: for each input that can be driven, shapes and sizes.
 
-use crate::dataset::recorded::{Measured, Recorded, Source};
+use crate::dataset::recorded::{Dataset, Measured, Source};
 use crate::plant::Between;
 use crate::rig::Rig;
 
@@ -51,7 +51,7 @@ impl Excitation {
     }
 
     /// The record of an experiment without any measurement, with the signals and sections that another one has.
-    pub fn record(&self, rig: &Rig, like: &Recorded, duration: f64) -> Recorded {
+    pub fn record(&self, rig: &Rig, like: &Dataset, duration: f64) -> Dataset {
         let count = (duration / like.step) as usize;
         let inputs = like.inputs.iter().enumerate().map(|(input, source)| {
             let driven = self.waves.iter().any(|it| it.input == input);
@@ -67,7 +67,7 @@ impl Excitation {
         let unknown = |it: &Measured| Measured { values: vec![f64::NAN; count], ..it.clone() };
         let longest = like.sections.iter().map(ExactSizeIterator::len).max().unwrap_or(count).max(1);
         let parts = count.div_ceil(longest).max(1);
-        Recorded {
+        Dataset {
             name: "experiment".into(),
             step: like.step,
             inputs: inputs.collect(),
@@ -150,7 +150,7 @@ mod tests {
         let measured = vec![Measured { output: 0, values: vec![0.0; 1000], noise_floor: 0.1 }];
         let inputs = rig.plant.inputs.iter().map(|_| Source::Measured(vec![1.0; 1000])).collect();
         let sections = vec![0..400, 400..1000];
-        let like = Recorded {
+        let like = Dataset {
             name: String::new(),
             step: 2e-3,
             inputs,

@@ -52,18 +52,18 @@ impl<'a> Diagnosis<'a> {
             let fitted = self.in_place_of(accepted, rival)?;
             models.push(self.rival(rival, accepted, fitted)?);
         }
-        let bounds = self.world.bounds(limits, chosen);
-        Ok(Contest::new(&self.world, models, bounds))
+        let bounds = self.baseline.bounds(limits, chosen);
+        Ok(Contest::new(&self.baseline, models, bounds))
     }
 
     fn rival(&self, term: Term, in_place_of: Term, fitted: Fitted) -> Result<Rival, String> {
-        let dynamics = self.world.dynamics(&fitted.terms)?;
+        let dynamics = self.baseline.dynamics(&fitted.terms)?;
         Ok(Rival { term, in_place_of, fitted, dynamics })
     }
 
     /// The extended model with a rival in the place of an effect.
     fn in_place_of(&self, effect: Term, rival: Term) -> Result<Fitted, String> {
-        let (world, found) = (&self.world, &self.found);
+        let (baseline, found) = (&self.baseline, &self.found);
         let terms: Vec<Term> =
             found.extended.terms.iter().map(|term| if *term == effect { rival } else { *term }).collect();
         let tried = found.tried.iter().rev().filter(|it| it.term == rival);
@@ -72,17 +72,17 @@ impl<'a> Diagnosis<'a> {
             Some(tried) if tried.terms == terms => tried.point.clone(),
             _ => {
                 let mut point = found.extended.point.clone();
-                for own in world.own_coordinates(effect) {
+                for own in baseline.own_coordinates(effect) {
                     point.set(own.handle, found.base.point.get(own.handle));
                 }
                 let of = tried.map_or(&found.base.point, |it| &it.point);
-                for own in world.own_coordinates(rival) {
+                for own in baseline.own_coordinates(rival) {
                     point.set(own.handle, of.get(own.handle));
                 }
                 point
             }
         };
-        world.fitted(&terms, &[start], Stop::NOISY)
+        baseline.fitted(&terms, &[start], Stop::NOISY)
     }
 
     /// The experiment that separates the chosen effects from their rivals best within the limits; none without rivals.

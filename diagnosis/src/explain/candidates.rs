@@ -5,7 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::catalogue::{Element, Typical};
-use crate::estimation::hypothesis::{Term, World};
+use crate::estimation::hypothesis::{Baseline, Term};
 use crate::missing::Missing;
 use crate::missing::innovations::Column;
 use crate::missing::motion::{column, motions};
@@ -64,11 +64,11 @@ impl Candidates {
     }
 }
 
-impl World<'_> {
+impl Baseline<'_> {
     /// Typical magnitudes of each element along the trajectory.
     pub fn typical_along(&self, missing: &Missing<'_>, outputs: &[Signals]) -> Vec<(Element, Typical)> {
         let count = self.rig.plant.outputs.len();
-        let nothing = |record: &crate::dataset::recorded::Recorded| vec![vec![f64::NAN; record.len()]; count];
+        let nothing = |record: &crate::dataset::recorded::Dataset| vec![vec![f64::NAN; record.len()]; count];
         let mut whole: Vec<Signals> = missing.records.iter().map(nothing).collect();
         for (window, signals) in missing.windows.iter().zip(outputs) {
             for (whole, signal) in whole[window.record].iter_mut().zip(signals) {

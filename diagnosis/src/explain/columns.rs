@@ -1,7 +1,7 @@
 //! What each candidate would change along the trajectory.
 
-use crate::dataset::recorded::Recorded;
-use crate::estimation::fit::{Handle, Point};
+use crate::dataset::recorded::Dataset;
+use crate::estimation::fit::{Estimate, Unknown};
 use crate::estimation::hypothesis::Term;
 use crate::missing::innovations::Column;
 use crate::missing::ports::{Entry, Port};
@@ -17,12 +17,12 @@ const KNOWN: f64 = 0.02;
 
 impl Setting<'_> {
     /// Rates of the states that matter by a unit signal at a port of the plant, sample by sample along a window.
-    pub fn pushes(&self, record: &Recorded, window: &Window, (number, port): (usize, &Port)) -> Vec<f64> {
+    pub fn pushes(&self, record: &Dataset, window: &Window, (number, port): (usize, &Port)) -> Vec<f64> {
         let size = self.sizes[number];
         let mut point = self.point.clone();
         match port.entry {
             Entry::Constant(index) => point.parameters[index] += size,
-            Entry::Input(index) => point.set(Handle::Input(index, Fault::Offset), size),
+            Entry::Input(index) => point.set(Unknown::Input(index, Fault::Offset), size),
             Entry::Sensor(_) => return Vec::new(),
         }
         let mut rates = self.along(record, window, self.dynamics, &point).rates;
@@ -33,10 +33,10 @@ impl Setting<'_> {
     /// Lets laws act along the trajectory: from here on, changes are counted from there.
     pub fn take_along(
         &self,
-        record: &Recorded,
+        record: &Dataset,
         window: &mut Window,
         laws: &[Column],
-        (dynamics, lawful): (&dyn Dynamics, &Point),
+        (dynamics, lawful): (&dyn Dynamics, &Estimate),
     ) {
         let along = self.along(record, window, dynamics, lawful);
         let rates = along.rates.iter().zip(&window.rates).map(|(more, plain)| more + plain).collect();
@@ -54,10 +54,10 @@ impl Setting<'_> {
     /// friction of a body that hardly moves is anything up to its limit, whatever the sign of the velocity seems to be.
     pub fn loosen(
         &self,
-        record: &Recorded,
+        record: &Dataset,
         window: &mut Window,
         dynamics: &dyn Dynamics,
-        (lawful, sharp): (&Point, &Point),
+        (lawful, sharp): (&Estimate, &Estimate),
     ) {
         let (n, m, samples) = (window.states, window.outputs, window.samples.len());
         let mut loose = (vec![0.0; samples.saturating_sub(1) * n], vec![0.0; samples * m]);
@@ -68,7 +68,7 @@ impl Setting<'_> {
             add(&mut loose.0, &spread.next);
             add(&mut loose.1, &spread.outputs);
         };
-        let at = |(dynamics, point): (&dyn Dynamics, &Point), shift: Option<&Shift>| {
+        let at = |(dynamics, point): (&dyn Dynamics, &Estimate), shift: Option<&Shift>| {
             let along = self.along_shifted(record, (window, shift), dynamics, point);
             Column { next: along.increments(), outputs: along.outputs }
         };
@@ -89,20 +89,20 @@ impl Setting<'_> {
 
     fn along<'b>(
         &'b self,
-        record: &Recorded,
+        record: &Dataset,
         window: &'b Window,
         dynamics: &dyn Dynamics,
-        point: &Point,
+        point: &Estimate,
     ) -> Along<'b> {
         self.along_shifted(record, (window, None), dynamics, point)
     }
 
     fn along_shifted<'b>(
         &'b self,
-        record: &Recorded,
+        record: &Dataset,
         (window, shift): (&'b Window, Option<&'b Shift>),
         dynamics: &dyn Dynamics,
-        point: &Point,
+        point: &Estimate,
     ) -> Along<'b> {
         // Most laws leave the inputs as they are.
         let changed =
@@ -119,13 +119,13 @@ impl Setting<'_> {
     /// The states that matter follow the trajectory; what an effect remembers beside them goes its own way.
     pub fn changed(
         &self,
-        (records, window): (&[Recorded], &Window),
+        (records, window): (&[Dataset], &Window),
         (term, dynamics): (Term, &dyn Dynamics),
-        point: &Point,
+        point: &Estimate,
     ) -> Option<Column> {
         let record = &records[window.record];
         match term {
-            Term::Fault(Handle::Output(output, _)) | Term::Response(output) => {
+            Term::Fault(Unknown::Output(output, _)) | Term::Response(output) => {
                 let row = record.measured.iter().position(|it| it.output == output)?;
                 let m = window.outputs;
                 let plain: Vec<f64> = window.plain().1.iter().skip(row).step_by(m).copied().collect();

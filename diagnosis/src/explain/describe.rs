@@ -4,7 +4,7 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
 use crate::catalogue::naming::name;
-use crate::estimation::hypothesis::{Term, World};
+use crate::estimation::hypothesis::{Baseline, Term};
 use crate::missing::Missing;
 use crate::missing::locate::Location;
 use crate::missing::motion::{Motion, column, motions};
@@ -79,7 +79,7 @@ impl Unmodelled {
         let (unit, depends_on) = match term {
             Term::Table(table) => ("N", vec![table.variable.to_owned()]),
             Term::Response(output) => (plant.outputs[output].unit.symbol, vec!["memory".to_owned()]),
-            Term::Cause(_) | Term::Fault(_) => ("", Vec::new()),
+            Term::Effect(_) | Term::Fault(_) => ("", Vec::new()),
         };
         Self {
             place: name(term, plant).element,
@@ -149,10 +149,10 @@ impl Unmodelled {
     }
 
     /// Takes it as explained.
-    pub fn explain(&self, missing: &mut Missing<'_>, world: &World<'_>, signals: &[Signals]) {
+    pub fn explain(&self, missing: &mut Missing<'_>, baseline: &Baseline<'_>, signals: &[Signals]) {
         let Some((number, group)) = self.features else { return };
         let about = (&missing.setting, &missing.windows[..]);
-        let Some((place, motions)) = motions(world.rig, about, signals, number) else { return };
+        let Some((place, motions)) = motions(baseline.rig, about, signals, number) else { return };
         let own = features(group, &motions, (missing.records, &missing.windows));
         let port = &missing.setting.ports[number];
         let columns: Vec<_> = own
@@ -210,14 +210,19 @@ pub struct MissingSignal {
 
 impl MissingSignal {
     /// At the likeliest port, on the first estimation record.
-    pub fn of(world: &World<'_>, missing: &Missing<'_>, location: &Location, signals: &[Signals]) -> Self {
+    pub fn of(
+        baseline: &Baseline<'_>,
+        missing: &Missing<'_>,
+        location: &Location,
+        signals: &[Signals],
+    ) -> Self {
         let ports = &missing.setting.ports;
         let Some(best) = location.ranked.first() else { return Self::default() };
         let Some(window) = missing.windows.first() else { return Self::default() };
         let (value, deviation) = signal(missing, location, best.port, window);
         let about = (&missing.setting, &missing.windows[..]);
         let motion =
-            motions(world.rig, about, signals, best.port).and_then(|(_, all)| all.into_iter().next());
+            motions(baseline.rig, about, signals, best.port).and_then(|(_, all)| all.into_iter().next());
         let Motion { deflection, velocity } =
             motion.unwrap_or(Motion { deflection: vec![], velocity: vec![] });
         let step = window.samples.len().div_ceil(SHOWN).max(1);

@@ -1,6 +1,6 @@
 //! Features of a port's own motion, of commands and of time, in groups that say what a missing signal depends on.
 
-use crate::dataset::recorded::{Recorded, derivative};
+use crate::dataset::recorded::{Dataset, derivative};
 use crate::missing::motion::Motion;
 use crate::missing::trajectory::Window;
 
@@ -68,7 +68,7 @@ impl Group {
 pub fn features(
     group: Group,
     motions: &[Motion],
-    (records, windows): (&[Recorded], &[Window]),
+    (records, windows): (&[Dataset], &[Window]),
 ) -> Vec<Vec<Vec<f64>>> {
     let over =
         |of: &dyn Fn(&Motion) -> &Vec<f64>| motions.iter().map(|it| of(it).clone()).collect::<Vec<_>>();

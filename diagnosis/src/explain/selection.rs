@@ -5,8 +5,8 @@ use nalgebra::DVector;
 use crate::catalogue::{Element, Scale, Table};
 use crate::confirm::has_no_name;
 use crate::decision::criteria::CRITERIA;
-use crate::estimation::fit::{Coordinate, Handle, Point};
-use crate::estimation::hypothesis::{Term, World};
+use crate::estimation::fit::{Estimate, FreeParameter, Unknown};
+use crate::estimation::hypothesis::{Baseline, Term};
 use crate::missing::Missing;
 use crate::missing::innovations::{Block, Column, Noise};
 use crate::missing::likelihood::{Amounts, Sums};
@@ -83,7 +83,7 @@ pub struct Proposal {
     /// The effect.
     pub term: Term,
     /// The point from which it is to be fitted.
-    pub start: Point,
+    pub start: Estimate,
     /// How well it explains what is missing.
     pub score: Score,
 }
@@ -102,10 +102,10 @@ pub struct Compared {
     pub features: Vec<Score>,
     /// Amounts of each candidate's columns.
     amounts: Vec<Vec<f64>>,
-    points: Vec<Option<Point>>,
+    points: Vec<Option<Estimate>>,
 }
 
-impl World<'_> {
+impl Baseline<'_> {
     /// Compares all candidates to what is missing.
     pub fn compared(&self, missing: &Missing<'_>, candidates: Candidates, noise: &Noise) -> Option<Compared> {
         let blocks = missing.setting.innovations(&missing.windows, noise, &candidates.columns);
@@ -172,7 +172,7 @@ impl World<'_> {
     }
 }
 
-impl World<'_> {
+impl Baseline<'_> {
     /// Share of the best amount of a single column that a start within bounds has; of several columns, whether all are
     /// within bounds.
     fn within(
@@ -180,14 +180,14 @@ impl World<'_> {
         term: Term,
         probe: &Probe,
         amounts: &DVector<f64>,
-        (start, at): (&Point, &Point),
+        (start, at): (&Estimate, &Estimate),
     ) -> f64 {
         let own = self.own_coordinates(term);
-        let moved = |handle: Handle| -> f64 {
+        let moved = |handle: Unknown| -> f64 {
             let each = probe.points.iter().zip(amounts.iter());
             each.map(|(tried, amount)| amount * (tried.get(handle) - at.get(handle))).sum()
         };
-        let possible = |it: &Coordinate| {
+        let possible = |it: &FreeParameter| {
             let value = at.get(it.handle) + moved(it.handle);
             value >= it.bounds.0.min(at.get(it.handle)) && value <= it.bounds.1.max(at.get(it.handle))
         };

@@ -20,9 +20,9 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::catalogue;
-use crate::dataset::recorded::Recorded;
-use crate::estimation::fit::{Handle, Point};
-use crate::estimation::hypothesis::{TIMING, Term, World};
+use crate::dataset::recorded::Dataset;
+use crate::estimation::fit::{Estimate, Unknown};
+use crate::estimation::hypothesis::{Baseline, TIMING, Term};
 use crate::plant::Dynamics;
 use crate::signal::distortion::Correction;
 
@@ -43,7 +43,7 @@ const DELAY: f64 = 1e-3;
 /// A rig's model about the trajectory of its records.
 pub struct Missing<'a> {
     /// Estimation records, then validation records.
-    pub records: &'a [Recorded],
+    pub records: &'a [Dataset],
     /// How many of them are estimation records.
     pub train: usize,
     /// What the smoother knows of the rig.
@@ -60,8 +60,8 @@ pub struct Missing<'a> {
 /// What a smoother needs to outlive it.
 pub struct Frame {
     /// Estimation records, then validation records, freed of what sensors are known to do.
-    records: Vec<Recorded>,
-    point: Point,
+    records: Vec<Dataset>,
+    point: Estimate,
     /// Whether nominal parameters start from the data sheet.
     fresh: bool,
     /// Whether those that nobody states may be off by decades.
@@ -82,17 +82,17 @@ struct Law {
     /// The model that has it.
     dynamics: Box<dyn Dynamics>,
     /// Its values.
-    values: Vec<(Handle, f64)>,
+    values: Vec<(Unknown, f64)>,
     /// What is known of its amount, in squares of its reciprocal share: nothing of a law that was found.
     precision: f64,
 }
 
 impl Law {
     /// A point with friction that turns over as sharply as that of a body that really sticks.
-    fn sharp(&self, point: &Point) -> Point {
+    fn sharp(&self, point: &Estimate) -> Estimate {
         let mut point = point.clone();
-        if let (Term::Cause(cause), [_, (handle, velocity)]) = (self.term, &self.values[..])
-            && cause.is_friction()
+        if let (Term::Effect(effect), [_, (handle, velocity)]) = (self.term, &self.values[..])
+            && effect.is_friction()
         {
             point.set(*handle, SHARP * velocity);
         }
@@ -100,26 +100,26 @@ impl Law {
     }
 
     /// A point with the law.
-    fn at(&self, point: &Point) -> Point {
+    fn at(&self, point: &Estimate) -> Estimate {
         let mut point = point.clone();
         self.values.iter().for_each(|(handle, value)| point.set(*handle, *value));
         point
     }
 }
 
-impl World<'_> {
+impl Baseline<'_> {
     /// Equations, ports and nominal parameters of the rig with what was found so far.
     ///
     /// # Errors
     /// If the model refuses its settings.
-    pub fn frame(&self, found: &[Term], at: &Point) -> Result<Frame, String> {
+    pub fn frame(&self, found: &[Term], at: &Estimate) -> Result<Frame, String> {
         let record = self.train.first().ok_or("there is no estimation record")?;
-        let mut point = Point { starts: Vec::new(), ..at.clone() };
+        let mut point = Estimate { starts: Vec::new(), ..at.clone() };
         let mut records = self.whole.to_vec();
         // Of the channels' timing only what was found is known; the rest is looked at anew.
         for (output, distortion) in point.outputs.iter_mut().enumerate() {
             let told = |term: &Term| match term {
-                Term::Fault(Handle::Output(of, _)) | Term::Response(of) => *of == output,
+                Term::Fault(Unknown::Output(of, _)) | Term::Response(of) => *of == output,
                 _ => false,
             };
             let before = std::mem::take(distortion);
@@ -129,33 +129,33 @@ impl World<'_> {
                 }
             }
         }
-        let law = |term: Term, handles: Vec<Handle>, precision: f64| {
+        let law = |term: Term, handles: Vec<Unknown>, precision: f64| {
             let values = handles.into_iter().map(|handle| (handle, at.get(handle))).collect();
             Ok::<_, String>(Law { term, dynamics: self.dynamics(&[term])?, values, precision })
         };
         let mut laws = Vec::new();
         let nominal: Vec<usize> =
             self.rig.nominal().filter_map(|name| self.rig.plant.parameter(name)).collect();
-        for cause in catalogue::causes(&self.rig.plant) {
-            let parts = cause.parts.iter().filter_map(|part| self.rig.plant.parameter(part.parameter));
+        for effect in catalogue::effects(&self.rig.plant) {
+            let parts = effect.parts.iter().filter_map(|part| self.rig.plant.parameter(part.parameter));
             let parts: Vec<usize> = parts.collect();
             let there = |amount: &usize| {
                 self.rig.parameters[*amount] != 0.0 && self.rig.stated[*amount] && !nominal.contains(amount)
             };
             if parts.first().is_some_and(there) {
-                let handles = parts.iter().map(|it| Handle::Parameter(*it)).collect();
-                laws.push(law(Term::Cause(cause), handles, TOLERANCE.powi(-2))?);
+                let handles = parts.iter().map(|it| Unknown::Parameter(*it)).collect();
+                laws.push(law(Term::Effect(effect), handles, TOLERANCE.powi(-2))?);
                 parts.iter().for_each(|it| point.parameters[*it] = self.rig.plant.parameters[*it].start);
             }
         }
-        for term in found.iter().filter(|term| matches!(term, Term::Cause(_) | Term::Table(_))) {
-            let handles: Vec<Handle> = self.own_coordinates(*term).into_iter().map(|it| it.handle).collect();
+        for term in found.iter().filter(|term| matches!(term, Term::Effect(_) | Term::Table(_))) {
+            let handles: Vec<Unknown> = self.own_coordinates(*term).into_iter().map(|it| it.handle).collect();
             handles.iter().for_each(|handle| point.set(*handle, self.origin().get(*handle)));
             laws.push(law(*term, handles, 0.0)?);
         }
         let beside = |index: &usize| {
             laws.iter()
-                .any(|it: &Law| it.values.iter().any(|(handle, _)| *handle == Handle::Parameter(*index)))
+                .any(|it: &Law| it.values.iter().any(|(handle, _)| *handle == Unknown::Parameter(*index)))
         };
         let parameters = self.rig.base().into_iter().filter(|it| !beside(it)).collect();
         let states = self.rig.plant.states.iter();
@@ -187,7 +187,7 @@ impl World<'_> {
     /// If the model diverges along every stretch.
     pub fn missing_with<'b>(&self, frame: &'b Frame, errors: Option<&[f64]>) -> Result<Missing<'b>, String> {
         let timing = self.coordinates(&[]).into_iter().map(|it| it.handle);
-        let timing: Vec<Handle> = timing.filter(|it| matches!(it, Handle::Output(..))).collect();
+        let timing: Vec<Unknown> = timing.filter(|it| matches!(it, Unknown::Output(..))).collect();
         let stretches = stretches(&frame.records);
         let about = About { frame, errors, stretches: &stretches, timing: &timing };
         let mut precisions = self.precisions(&frame.parameters);
@@ -213,7 +213,11 @@ impl World<'_> {
     }
 
     /// The model about the trajectory at a point.
-    fn along<'b>(&self, about: &About<'b, '_>, point: &Point) -> Result<(Setting<'b>, Vec<Window>), String> {
+    fn along<'b>(
+        &self,
+        about: &About<'b, '_>,
+        point: &Estimate,
+    ) -> Result<(Setting<'b>, Vec<Window>), String> {
         let frame = about.frame;
         let mut setting = Setting::new(
             &*frame.dynamics,
@@ -237,12 +241,12 @@ impl World<'_> {
         &self,
         setting: &Setting<'_>,
         About { frame, stretches, timing, .. }: &About<'_, '_>,
-        point: &Point,
+        point: &Estimate,
     ) -> Vec<Window> {
         let records = &frame.records[..];
         let of = |(record, samples): &(usize, Range<usize>)| {
             let sections = vec![samples.clone()];
-            let part = Recorded { sections, ..records[*record].clone() };
+            let part = Dataset { sections, ..records[*record].clone() };
             let start = self.starts(std::slice::from_ref(&part)).pop()?;
             let mut window = setting.window(records, *record, samples.clone(), &start)?;
             // Laws with their values; by how much more or less is a nuisance.
@@ -256,7 +260,7 @@ impl World<'_> {
                 setting.take_along(record, &mut window, &laws, (dynamics, &lawful));
                 setting.loosen(record, &mut window, dynamics, (&lawful, &sharp));
             }
-            let late = |handle: &Handle| {
+            let late = |handle: &Unknown| {
                 let mut late = lawful.clone();
                 late.set(*handle, DELAY);
                 setting.changed((records, &window), (Term::Fault(*handle), setting.dynamics), &late)
@@ -271,7 +275,7 @@ impl World<'_> {
 
 impl Missing<'_> {
     /// The point of the trajectory, with the laws.
-    pub fn point(&self) -> Point {
+    pub fn point(&self) -> Estimate {
         self.laws.iter().fold(self.setting.point.clone(), |point, law| law.at(&point))
     }
 
@@ -290,7 +294,7 @@ impl Missing<'_> {
 }
 
 /// Takes away what a sensor did to an output.
-fn undistorted(record: &mut Recorded, output: usize, distortion: &Correction) {
+fn undistorted(record: &mut Dataset, output: usize, distortion: &Correction) {
     let sections = record.sections.clone();
     let samples: Vec<_> = sections.iter().map(|section| record.samples(section)).collect();
     for measured in record.measured.iter_mut().filter(|it| it.output == output) {
@@ -302,7 +306,7 @@ fn undistorted(record: &mut Recorded, output: usize, distortion: &Correction) {
 }
 
 /// Stretches of all records: none longer than [`LONGEST`], not more than [`SAMPLES`] together, spread over each record.
-fn stretches(records: &[Recorded]) -> Vec<(usize, Range<usize>)> {
+fn stretches(records: &[Dataset]) -> Vec<(usize, Range<usize>)> {
     let total: usize = records.iter().flat_map(|it| it.sections.iter().map(Range::len)).sum();
     let share = (SAMPLES as f64 / total.max(1) as f64).min(1.0);
     let mut all = Vec::new();

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use crate::estimation::fit::{Handle, Point};
-use crate::estimation::hypothesis::World;
+use crate::estimation::fit::{Estimate, Unknown};
+use crate::estimation::hypothesis::Baseline;
 
 use super::Frame;
 use super::innovations::Noise;
@@ -35,10 +35,10 @@ pub(super) struct About<'a, 'b> {
     /// Stretches of the records that are looked at.
     pub stretches: &'b [(usize, Range<usize>)],
     /// What is late of each channel.
-    pub timing: &'b [Handle],
+    pub timing: &'b [Unknown],
 }
 
-impl World<'_> {
+impl Baseline<'_> {
     /// Whether neither a data sheet nor the user gives a parameter's value: the model's own is of no meaning then.
     fn is_unstated(&self, index: usize) -> bool {
         !self.rig.stated[index] && !self.known.iter().any(|(known, _, _)| *known == index)
@@ -53,7 +53,7 @@ impl World<'_> {
     ///
     /// # Errors
     /// If the model refuses its settings or diverges along every stretch.
-    pub(crate) fn balanced(&self, at: &Point) -> Result<Vec<f64>, String> {
+    pub(crate) fn balanced(&self, at: &Estimate) -> Result<Vec<f64>, String> {
         let mut frame = self.frame(&[], at)?;
         frame.far = true;
         Ok(self.missing(&frame)?.point().parameters)
@@ -74,7 +74,7 @@ impl World<'_> {
     }
 
     /// Corrects the nominal parameters as far as the missing signals allow.
-    pub(super) fn nominal_by_balance(&self, about: &About<'_, '_>, precisions: &[f64]) -> Point {
+    pub(super) fn nominal_by_balance(&self, about: &About<'_, '_>, precisions: &[f64]) -> Estimate {
         let mut point = about.frame.point.clone();
         for (index, value, _) in &self.known {
             point.parameters[*index] = *value;
@@ -118,8 +118,8 @@ impl World<'_> {
         about: &About<'_, '_>,
         shares: (&[f64], &[f64]),
         index: usize,
-        point: &Point,
-    ) -> Point {
+        point: &Estimate,
+    ) -> Estimate {
         let most = self.rig.plant.parameters[index].max.unwrap_or(f64::INFINITY);
         let scaled = |decade: i32| {
             let mut scaled = point.clone();
@@ -141,7 +141,7 @@ impl World<'_> {
         &self,
         about: &About<'_, '_>,
         (precisions, shares): (&[f64], &[f64]),
-        point: &Point,
+        point: &Estimate,
     ) -> Result<Option<(f64, Amounts)>, String> {
         let (setting, windows) = self.along(about, point)?;
         let columns: Vec<usize> = (1..=precisions.len()).collect();

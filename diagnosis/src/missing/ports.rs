@@ -3,7 +3,7 @@
 
 use crate::catalogue::Element;
 use crate::catalogue::naming::is_command;
-use crate::dataset::recorded::{Recorded, Source};
+use crate::dataset::recorded::{Dataset, Source};
 use crate::plant::Seed;
 use crate::rig::{ElementSignals, Rig};
 
@@ -33,7 +33,7 @@ pub enum Entry {
 
 impl Port {
     /// Every place in a rig with these records.
-    pub fn all(rig: &Rig, record: &Recorded) -> Vec<Self> {
+    pub fn all(rig: &Rig, record: &Dataset) -> Vec<Self> {
         let plant = &rig.plant;
         let mut ports: Vec<Self> = Vec::new();
         for (index, declared) in plant.parameters.iter().enumerate().filter(|(_, it)| it.port) {

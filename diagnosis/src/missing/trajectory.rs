@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use crate::dataset::recorded::{Recorded, Source};
-use crate::estimation::fit::Point;
+use crate::dataset::recorded::{Dataset, Source};
+use crate::estimation::fit::Estimate;
 use crate::plant::{Drive, Dynamics, Follower, Seed, Seen};
 use crate::screening::rms;
 
@@ -28,7 +28,7 @@ pub struct Setting<'a> {
     /// The equations.
     pub dynamics: &'a dyn Dynamics,
     /// Values of the parameters, and what inputs pass.
-    pub point: Point,
+    pub point: Estimate,
     /// Where signals may be missing.
     pub ports: &'a [Port],
     /// Parameters of which derivatives are wanted, by their indices.
@@ -106,11 +106,11 @@ impl<'a> Setting<'a> {
     /// Looks which states matter and how large missing signals may be.
     pub fn new(
         dynamics: &'a dyn Dynamics,
-        (point, start): (&Point, &[f64]),
+        (point, start): (&Estimate, &[f64]),
         ports: &'a [Port],
         parameters: &'a [usize],
         nominal: &'a [f64],
-        records: &[Recorded],
+        records: &[Dataset],
     ) -> Self {
         let record = &records[0];
         let section = &record.sections[0];
@@ -192,7 +192,7 @@ impl<'a> Setting<'a> {
     /// The model about the trajectory over some samples of a record; none if the model diverges there.
     pub fn window(
         &self,
-        records: &[Recorded],
+        records: &[Dataset],
         record: usize,
         samples: Range<usize>,
         start: &[f64],
@@ -275,9 +275,9 @@ impl<'a> Setting<'a> {
     }
 }
 
-fn magnitude(records: &[Recorded], row: usize) -> f64 {
+fn magnitude(records: &[Dataset], row: usize) -> f64 {
     let values: Vec<f64> =
-        records.iter().flat_map(|it: &Recorded| it.measured[row].values.iter().copied()).collect();
+        records.iter().flat_map(|it: &Dataset| it.measured[row].values.iter().copied()).collect();
     rms(&values).max(f64::MIN_POSITIVE)
 }
 

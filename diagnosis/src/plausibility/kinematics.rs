@@ -1,7 +1,7 @@
 //! Columns of one motion against each other: a velocity is the rate of its position whatever the rig's parameters are.
 
 use crate::catalogue::Element;
-use crate::dataset::recorded::{Recorded, Source, derivative};
+use crate::dataset::recorded::{Dataset, Source, derivative};
 use crate::decision::plausible::{FARTHEST, is_beyond_any_rig, mismatched_rate};
 use crate::report::findings::DataProblem;
 use crate::report::words::{digits, unit};
@@ -18,7 +18,7 @@ const RATES: &[(&[&str], &str)] =
 type Column<'a> = (&'a str, &'static str, &'a [f64]);
 
 /// All measured columns of a record.
-fn columns<'a>(rig: &'a Rig, record: &'a Recorded) -> Vec<Column<'a>> {
+fn columns<'a>(rig: &'a Rig, record: &'a Dataset) -> Vec<Column<'a>> {
     let inputs = rig.plant.inputs.iter().zip(&record.inputs).filter_map(|(declared, source)| match source {
         Source::Measured(values) => Some((declared.name.as_str(), declared.unit.symbol, &values[..])),
         Source::DerivativeOf(_) | Source::RateOf(_) | Source::Constant(_) => None,
@@ -31,7 +31,7 @@ fn columns<'a>(rig: &'a Rig, record: &'a Recorded) -> Vec<Column<'a>> {
 }
 
 /// Pairs of columns whose units do not go together.
-pub(super) fn problems(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
+pub(super) fn problems(rig: &Rig, record: &Dataset) -> Vec<DataProblem> {
     let columns = columns(rig, record);
     let mut problems: Vec<DataProblem> = Vec::new();
     for motion in &columns {
@@ -48,7 +48,7 @@ pub(super) fn problems(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
 }
 
 /// Positions beyond any test rig, by distance or speed. A drive may turn, and angles are no lengths: there, it is a note.
-pub(super) fn beyond_any_rig(rig: &Rig, record: &Recorded) -> Vec<DataProblem> {
+pub(super) fn beyond_any_rig(rig: &Rig, record: &Dataset) -> Vec<DataProblem> {
     let may_turn = rig.kind.elements.iter().all(|it| it.element == Element::Guide);
     let of = |(name, si, values): Column<'_>| {
         let rates = record.sections.iter().flat_map(|it| derivative(&values[it.clone()], record.step));
@@ -81,7 +81,7 @@ fn is_rate(motion: &str, rate: &str) -> bool {
     RATES.iter().filter_map(of).any(|it| it)
 }
 
-fn compared(record: &Recorded, motion: Column<'_>, rate: Column<'_>) -> Option<DataProblem> {
+fn compared(record: &Dataset, motion: Column<'_>, rate: Column<'_>) -> Option<DataProblem> {
     let (mut derived, mut measured) = (Vec::new(), Vec::new());
     for section in &record.sections {
         let values = derivative(&motion.2[section.clone()], record.step);

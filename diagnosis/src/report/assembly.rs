@@ -14,11 +14,11 @@ use unmodelled::missing;
 
 use crate::catalogue::naming::{self, name};
 use crate::confirm::{Accepted, has_no_name};
-use crate::dataset::recorded::Recorded;
+use crate::dataset::recorded::Dataset;
 use crate::dataset::witness::same_excitation;
 use crate::decision::verdict::{Facts, verdict};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
-use crate::estimation::fit::{Handle, Point, Residuals};
+use crate::estimation::fit::{Estimate, Residuals, Unknown};
 use crate::estimation::hypothesis::{SURE, Term};
 use crate::explain::selection::Score;
 use crate::report::findings::{
@@ -47,7 +47,7 @@ impl Diagnosis<'_> {
 
     /// Everything that is told.
     pub fn findings(&self, data_problems: Vec<DataProblem>, seconds: f64) -> Findings {
-        let world = &self.world;
+        let baseline = &self.baseline;
         let (signals, starts, corrections) = self.signals();
         let base_parameters = self.base_parameters();
         let named: Vec<&Accepted> = self.found.accepted.iter().filter(|it| !has_no_name(it.term)).collect();
@@ -63,7 +63,7 @@ impl Diagnosis<'_> {
             best_fit: self.best(),
             effects: effects.len(),
             ambiguous: effects.iter().any(|effect| !effect.ambiguous_with.is_empty()),
-            sensors: !effects.is_empty() && named.iter().all(|it| name(it.term, &world.rig.plant).sensor),
+            sensors: !effects.is_empty() && named.iter().all(|it| name(it.term, &baseline.rig.plant).sensor),
             unmodelled: unmodelled.first().map_or(0.0, |it| it.share.min(it.validated)),
             unmodelled_first: self.found.accepted.first().is_none_or(|it| has_no_name(it.term)),
             mismatch: base_parameters.iter().any(|it| it.mismatch),
@@ -73,9 +73,9 @@ impl Diagnosis<'_> {
         let experiment = effects.iter().find_map(|effect| effect.experiment.clone());
         let mut findings = Findings {
             format: FORMAT,
-            rig: world.rig.name.clone(),
-            train: world.train.iter().map(|record| record.name.clone()).collect(),
-            test: world.test.iter().map(|record| record.name.clone()).collect(),
+            rig: baseline.rig.name.clone(),
+            train: baseline.train.iter().map(|record| record.name.clone()).collect(),
+            test: baseline.test.iter().map(|record| record.name.clone()).collect(),
             verdict,
             summary: String::new(),
             not_done: self.not_done(),
@@ -101,7 +101,7 @@ impl Diagnosis<'_> {
     }
 
     fn base_parameters(&self) -> Vec<BaseParameter> {
-        let rig = self.world.rig;
+        let rig = self.baseline.rig;
         let mut list: Vec<BaseParameter> = self
             .reversed
             .iter()
@@ -120,13 +120,13 @@ impl Diagnosis<'_> {
         let base = rig.base();
         for interval in &self.intervals {
             let (after, half) = (interval.value, interval.half);
-            if let Handle::Parameter(index) = interval.handle
+            if let Unknown::Parameter(index) = interval.handle
                 && base.contains(&index)
             {
                 let (before, declared) = (rig.parameters[index], &rig.plant.parameters[index]);
                 let change = (after - before).abs();
                 let mismatch = change > 1.5 * half && change > MISMATCH * before.abs();
-                let given = self.world.known.iter().find(|(known, _, _)| *known == index);
+                let given = self.baseline.known.iter().find(|(known, _, _)| *known == index);
                 let contradicted = given.is_some_and(|(_, value, deviation)| {
                     (after - value).abs() > (1.0 - MISMATCH) * SURE * deviation
                 });
@@ -149,13 +149,13 @@ impl Diagnosis<'_> {
     }
 
     /// The point of the held-out records as they were measured, and the errors there.
-    fn measured(&self, terms: &[Term], point: &Point) -> Option<(Point, Residuals)> {
-        self.world.as_measured(self.measured, (terms, point), &self.found.extended)
+    fn measured(&self, terms: &[Term], point: &Estimate) -> Option<(Estimate, Residuals)> {
+        self.baseline.as_measured(self.measured, (terms, point), &self.found.extended)
     }
 
     /// What signals pass beside the model that is told.
-    fn corrections(&self, point: &Point) -> Vec<SignalCorrection> {
-        let plant = &self.world.rig.plant;
+    fn corrections(&self, point: &Estimate) -> Vec<SignalCorrection> {
+        let plant = &self.baseline.rig.plant;
         let of = |input: bool| {
             move |(declared, correction): (&Declaration, &Correction)| {
                 let amounts = Fault::NAMED.map(|fault| (fault.name(), correction.get(fault)));
@@ -175,7 +175,7 @@ impl Diagnosis<'_> {
     /// The errors of the starting, the fitted and the extended model, where the last one starts, and what signals pass
     /// beside it.
     fn signals(&self) -> (Vec<Signal>, Vec<Start>, Vec<SignalCorrection>) {
-        let world = &self.world;
+        let baseline = &self.baseline;
         let extended = &self.found.extended;
         let terms = extended.terms.clone();
         let all = (
@@ -190,7 +190,7 @@ impl Diagnosis<'_> {
         let left = self.left();
         let of = |row: usize| {
             let first = &self.measured[0].measured[row];
-            let declared = &world.rig.plant.outputs[first.output];
+            let declared = &baseline.rig.plant.outputs[first.output];
             let all = |residuals: &Residuals| -> Vec<f64> {
                 residuals.iter().flat_map(|record| record[row].iter().copied()).collect()
             };
@@ -211,7 +211,7 @@ impl Diagnosis<'_> {
                 repeatability: repeatability(self.measured, row),
             }
         };
-        let names = || world.rig.plant.states.iter().map(|state| state.name.clone());
+        let names = || baseline.rig.plant.states.iter().map(|state| state.name.clone());
         let sections =
             self.measured.iter().flat_map(|record| record.sections.iter().map(move |it| (record, it)));
         let starts = sections.zip(&point.starts).map(|((record, section), states)| Start {
@@ -224,20 +224,20 @@ impl Diagnosis<'_> {
     }
 
     fn effect(&self, accepted: &Accepted) -> Effect {
-        let plant = &self.world.rig.plant;
+        let plant = &self.baseline.rig.plant;
         let words = name(accepted.term, plant);
-        let own = self.world.own_coordinates(accepted.term);
+        let own = self.baseline.own_coordinates(accepted.term);
         let parameters = self.intervals.iter().filter(|it| own.iter().any(|own| own.handle == it.handle));
         let parameters = parameters.map(|it| {
             let (point, ends) = (&self.found.extended.point, [it.value, it.low(), it.high()]);
             let held = match it.handle {
-                Handle::Input(input, fault) => point.holds(plant, input, fault),
+                Unknown::Input(input, fault) => point.holds(plant, input, fault),
                 _ => None,
             };
             let (handle, ends) = match held {
                 Some(held) => {
                     let before = point.parameters[held.parameter];
-                    (Handle::Parameter(held.parameter), ends.map(|end| held.with(before, end)))
+                    (Unknown::Parameter(held.parameter), ends.map(|end| held.with(before, end)))
                 }
                 None => (it.handle, ends),
             };
@@ -261,7 +261,7 @@ impl Diagnosis<'_> {
     }
 
     fn candidates(&self) -> Vec<Candidate> {
-        let plant = &self.world.rig.plant;
+        let plant = &self.baseline.rig.plant;
         let late = || "not confirmed: the time limit was reached".to_owned();
         let of = |(term, score): &(Term, Score)| {
             let words = name(*term, plant);
@@ -294,7 +294,7 @@ impl Diagnosis<'_> {
 
 /// Root mean square of the difference of the first two records with the same excitation, over √2: no model can do
 /// better than a repetition does.
-fn repeatability(records: &[Recorded], row: usize) -> Option<f64> {
+fn repeatability(records: &[Dataset], row: usize) -> Option<f64> {
     let pairs = records
         .iter()
         .enumerate()

@@ -7,7 +7,7 @@ use strut_model::Value;
 
 use crate::catalogue::naming;
 use crate::diagnosis::Diagnosis;
-use crate::estimation::fit::Handle;
+use crate::estimation::fit::Unknown;
 use crate::report::file::replace;
 use crate::rig::Rig;
 
@@ -17,10 +17,10 @@ pub const NAME: &str = "extended";
 impl Diagnosis<'_> {
     /// The extended model's parameter set, as `build-fmu --parameters` takes it.
     fn parameter_set(&self) -> String {
-        let rig = self.world.rig;
+        let rig = self.baseline.rig;
         let extended = &self.found.extended;
         let point = extended.point.within(&rig.plant);
-        let choices = self.world.choices(&extended.terms);
+        let choices = self.baseline.choices(&extended.terms);
         let mut text = format!(
             "fmu = \"{NAME}\"\nmodel = \"{}\"\ntitle = \"{} as a diagnosis has extended it\"\nsource = \"diagnosis\"\n\n\
              [values]\n",
@@ -28,7 +28,7 @@ impl Diagnosis<'_> {
         );
         for (index, declared) in rig.plant.parameters.iter().enumerate() {
             let value = point.parameters[index];
-            let own = extended.coordinates.iter().any(|it| it.handle == Handle::Parameter(index));
+            let own = extended.coordinates.iter().any(|it| it.handle == Unknown::Parameter(index));
             let fitted = own || value != extended.point.parameters[index];
             if fitted || value != declared.start {
                 let source = if fitted { "fitted to the records" } else { "starting model" };
@@ -70,7 +70,7 @@ impl Diagnosis<'_> {
         let signals: Vec<String> = extended
             .coordinates
             .iter()
-            .filter(|it| !matches!(it.handle, Handle::Parameter(_)) && point.get(it.handle) != 0.0)
+            .filter(|it| !matches!(it.handle, Unknown::Parameter(_)) && point.get(it.handle) != 0.0)
             .map(|it| {
                 let (name, unit) = naming::handle(it.handle, &rig.plant);
                 format!("# {name} = {:?} {unit}\n", point.get(it.handle))
@@ -88,7 +88,7 @@ impl Diagnosis<'_> {
 
     /// The fitted values as a parameter set of SSP 1.0, for the starting model's FMU.
     fn ssv(&self) -> String {
-        let rig: &Rig = self.world.rig;
+        let rig: &Rig = self.baseline.rig;
         let point = self.found.extended.point.within(&rig.plant);
         let mut text = String::from(
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ssv:ParameterSet version=\"1.0\" name=\"extended\" \

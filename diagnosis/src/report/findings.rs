@@ -104,7 +104,7 @@ impl Findings {
     }
 }
 
-/// A cause that was found.
+/// An effect that was found.
 #[derive(Clone, Debug, Serialize)]
 pub struct Effect {
     /// Its number in the catalogue: `01`.
@@ -119,7 +119,7 @@ pub struct Effect {
     pub parameters: Vec<EffectParameter>,
     /// Why it is believed.
     pub evidence: Evidence,
-    /// Numbers and places of the causes that cannot be told from it with these data.
+    /// Numbers and places of the effects that cannot be told from it with these data.
     pub ambiguous_with: Vec<String>,
     /// What would tell them apart.
     pub experiment: Option<String>,

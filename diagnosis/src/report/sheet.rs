@@ -26,7 +26,7 @@ pub fn sheet(rig: &Rig) -> String {
         (declared.name.clone(), value.trim_end().into(), declared.doc.clone())
     });
     let mut effects: BTreeMap<(&str, &str), Vec<&str>> = BTreeMap::new();
-    for effect in catalogue::causes(plant) {
+    for effect in catalogue::effects(plant) {
         effects.entry((effect.id, effect.name)).or_default().push(effect.element.name());
     }
     let title = "Effects of the catalogue by number; every sensor may have a distortion, too";
@@ -78,7 +78,7 @@ mod tests {
             for signal in rig.plant.inputs.iter().chain(outputs) {
                 assert!(sheet.contains(&format!("  {} ", signal.name)), "{name}: {}\n{sheet}", signal.name);
             }
-            for effect in catalogue::causes(&rig.plant) {
+            for effect in catalogue::effects(&rig.plant) {
                 assert!(sheet.contains(effect.name), "{name}: {}\n{sheet}", effect.name);
             }
         }

@@ -1,7 +1,7 @@
-//! How many causes are compared: of a hundred, the best gains steadily by chance alone now and then.
+//! How many effects are compared: of a hundred, the best gains steadily by chance alone now and then.
 //!
-//! Causes that resemble one another are no further looks at the errors. So the comparison is repeated with errors that contain
-//! none of them: what each block of time adds to each cause's gain, about its mean, with a random sign and size (multiplier
+//! Effects that resemble one another are no further looks at the errors. So the comparison is repeated with errors that contain
+//! none of them: what each block of time adds to each effect's gain, about its mean, with a random sign and size (multiplier
 //! bootstrap; V. Chernozhukov, D. Chetverikov and K. Kato, Gaussian approximations and multiplier bootstrap for maxima of sums
 //! of high-dimensional random vectors, Annals of Statistics 41, 2013).
 
@@ -22,7 +22,7 @@ const REPEATED: usize = 2000;
 const SEED: u64 = 41;
 
 impl TriedOut {
-    /// Number of independent looks at a fit's errors that comparing every cause to them amounts to.
+    /// Number of independent looks at a fit's errors that comparing every effect to them amounts to.
     pub fn looks(&self, fitted: &Fitted) -> f64 {
         let scores = contained(&self.normal, fitted.coordinates.len()).scores;
         looks(&scores, self.probes.iter().flat_map(|(_, columns)| columns.clone()))
@@ -62,7 +62,7 @@ mod tests {
         let score = |block: usize| {
             let own =
                 (0..columns).flat_map(|column| std::iter::repeat_n(white[block * columns + column], times));
-            // How large a cause is and that it is there does not matter.
+            // How large an effect is and that it is there does not matter.
             DVector::from_iterator(
                 columns * times,
                 own.enumerate().map(|(index, it)| (it + 2.0) * (1 + index) as f64),

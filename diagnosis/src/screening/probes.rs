@@ -1,9 +1,9 @@
 //! How terms are tried out: by which amounts, and in which shapes.
 
-use crate::catalogue::{Cause, Part, Table};
+use crate::catalogue::{Effect, Part, Table};
 use crate::dataset::recorded::Source;
-use crate::estimation::fit::{Handle, Point};
-use crate::estimation::hypothesis::{POINTS, Term, World};
+use crate::estimation::fit::{Estimate, Unknown};
+use crate::estimation::hypothesis::{Baseline, POINTS, Term};
 use crate::signal::distortion::{AFTER, Fault};
 
 use super::rms;
@@ -22,22 +22,22 @@ pub struct Probe {
     /// Index of the term.
     pub term: usize,
     /// The point; for a sum one for each of its addends, as a table's points are.
-    pub points: Vec<Point>,
+    pub points: Vec<Estimate>,
 }
 
-impl World<'_> {
+impl Baseline<'_> {
     /// A term tried out, in several shapes where it has some.
-    pub fn probes(&self, index: usize, term: Term, at: &Point) -> Vec<Probe> {
+    pub fn probes(&self, index: usize, term: Term, at: &Estimate) -> Vec<Probe> {
         match term {
-            Term::Cause(cause) => self
-                .shapes(cause, at)
+            Term::Effect(effect) => self
+                .shapes(effect, at)
                 .into_iter()
-                .map(|shape| Probe { term: index, points: self.addends(cause, shape, at) })
+                .map(|shape| Probe { term: index, points: self.addends(effect, shape, at) })
                 .collect(),
             Term::Table(table) => vec![Probe { term: index, points: self.knots(table, at) }],
             Term::Response(output) => {
                 let point = |point: usize| {
-                    let handle = Handle::Output(output, Fault::Response(point));
+                    let handle = Unknown::Output(output, Fault::Response(point));
                     let mut moved = at.clone();
                     moved.set(handle, at.get(handle) + self.typical_fault(handle));
                     moved
@@ -52,13 +52,13 @@ impl World<'_> {
                 };
                 match handle {
                     // From zero, a signal whose phase has run away shows no way back.
-                    Handle::Output(_, Fault::Rate) => RATES.iter().map(|rate| probe(*rate)).collect(),
-                    Handle::Input(input, Fault::Limit) => {
+                    Unknown::Output(_, Fault::Rate) => RATES.iter().map(|rate| probe(*rate)).collect(),
+                    Unknown::Input(input, Fault::Limit) => {
                         let largest = self.largest(input);
                         LIMITS.iter().map(|share| probe(share * largest)).collect()
                     }
-                    Handle::Input(_, Fault::Delay | Fault::Lag)
-                    | Handle::Output(_, Fault::Delay | Fault::Lag) => {
+                    Unknown::Input(_, Fault::Delay | Fault::Lag)
+                    | Unknown::Output(_, Fault::Delay | Fault::Lag) => {
                         TIMES.iter().map(|time| probe(*time)).collect()
                     }
                     _ => vec![probe(self.typical_fault(handle))],
@@ -67,28 +67,29 @@ impl World<'_> {
         }
     }
 
-    /// A shape of a cause, and each of its addends without the others.
-    fn addends(&self, cause: &Cause, shape: Point, at: &Point) -> Vec<Point> {
-        let typical = self.typical(cause.element);
+    /// A shape of an effect, and each of its addends without the others.
+    fn addends(&self, effect: &Effect, shape: Estimate, at: &Estimate) -> Vec<Estimate> {
+        let typical = self.typical(effect.element);
         let index = |part: &Part| self.rig.plant.parameter(part.parameter);
         let alone = |part: &Part| {
-            let (amount, first) = (index(part)?, index(cause.parts.first()?)?);
+            let (amount, first) = (index(part)?, index(effect.parts.first()?)?);
             let mut point = shape.clone();
             point.parameters[first] = at.parameters[first];
             point.parameters[amount] += part.probes.first()? * part.scale.of(&typical);
             Some(point)
         };
-        let others: Vec<Point> = cause.parts.iter().filter(|part| part.addend).filter_map(alone).collect();
+        let others: Vec<Estimate> =
+            effect.parts.iter().filter(|part| part.addend).filter_map(alone).collect();
         std::iter::once(shape).chain(others).collect()
     }
 
-    /// A cause from every combination of its probes, without its addends.
-    fn shapes(&self, cause: &Cause, at: &Point) -> Vec<Point> {
-        let typical = self.typical(cause.element);
+    /// An effect from every combination of its probes, without its addends.
+    fn shapes(&self, effect: &Effect, at: &Estimate) -> Vec<Estimate> {
+        let typical = self.typical(effect.element);
         let mut points = vec![at.clone()];
-        for part in cause.parts.iter().filter(|part| !part.addend) {
+        for part in effect.parts.iter().filter(|part| !part.addend) {
             let Some(index) = self.rig.plant.parameter(part.parameter) else { continue };
-            // What another cause has brought already stays.
+            // What another effect has brought already stays.
             let there = at.parameters[index] != self.rig.parameters[index];
             let values: Vec<f64> = if there {
                 vec![at.parameters[index]]
@@ -114,7 +115,7 @@ impl World<'_> {
     }
 
     /// A table's points, each a tenth of what is typical.
-    fn knots(&self, table: &Table, at: &Point) -> Vec<Point> {
+    fn knots(&self, table: &Table, at: &Estimate) -> Vec<Estimate> {
         let plant = &self.rig.plant;
         let typical = self.typical(table.element);
         let point = 0.1 * table.law.point.of(&typical);
@@ -135,18 +136,18 @@ impl World<'_> {
     }
 
     /// A fault that would be noticed.
-    fn typical_fault(&self, handle: Handle) -> f64 {
+    fn typical_fault(&self, handle: Unknown) -> f64 {
         let Some(record) = self.train.first() else { return 0.0 };
         let (fault, magnitude) = match handle {
-            Handle::Input(input, fault) => match &record.inputs[input] {
+            Unknown::Input(input, fault) => match &record.inputs[input] {
                 Source::Measured(values) => (fault, rms(values)),
                 Source::DerivativeOf(_) | Source::RateOf(_) | Source::Constant(_) => (fault, 1.0),
             },
-            Handle::Output(output, fault) => {
+            Unknown::Output(output, fault) => {
                 let measured = record.measured.iter().find(|it| it.output == output);
                 (fault, measured.map_or(1.0, |measured| rms(&measured.values)))
             }
-            Handle::Parameter(_) => return 0.0,
+            Unknown::Parameter(_) => return 0.0,
         };
         let magnitude = magnitude.max(f64::MIN_POSITIVE);
         match fault {

@@ -1,7 +1,7 @@
 //! How large the forces and motions of a rig's elements are.
 
 use crate::catalogue::{Element, Typical};
-use crate::dataset::recorded::{Recorded, Source, derivative};
+use crate::dataset::recorded::{Dataset, Source, derivative};
 use crate::rig::{ElementSignals, ForceOf, Rig};
 
 use super::rms;
@@ -9,7 +9,7 @@ use super::rms;
 /// Typical magnitudes of an element over records, from predicted signals of all outputs with these parameters.
 pub fn typical(
     (rig, parameters): (&Rig, &[f64]),
-    records: &[Recorded],
+    records: &[Dataset],
     outputs: &[Vec<Vec<f64>>],
 ) -> Vec<(Element, Typical)> {
     let plant = &rig.plant;

@@ -5,11 +5,11 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::dataset::recorded::Recorded;
+use crate::dataset::recorded::Dataset;
 use crate::plant::{Linearised, Seed, Signals};
 use crate::signal::distortion::{Correction, Fault};
 
-use super::{Fit, Handle, Point};
+use super::{Estimate, Fit, Unknown};
 
 /// Samples whose products are added in one go: their Jacobian stays in the processor's cache.
 const TOGETHER: usize = 256;
@@ -34,13 +34,13 @@ pub(super) struct Section {
 impl Fit<'_> {
     /// The seeds of the states at the start and of all coordinates that act through the plant, each with the column of the
     /// Jacobian that it is for.
-    fn seeds(&self, point: &Point, record: &Recorded, section: &Range<usize>) -> Vec<(usize, Seed)> {
+    fn seeds(&self, point: &Estimate, record: &Dataset, section: &Range<usize>) -> Vec<(usize, Seed)> {
         let states = self.states.iter().map(|state| Seed::State(*state));
         let mut seeds: Vec<(usize, Seed)> = states.enumerate().collect();
         for (column, coordinate) in (self.states.len()..).zip(&self.coordinates) {
             match coordinate.handle {
-                Handle::Parameter(parameter) => seeds.push((column, Seed::Parameter(parameter))),
-                Handle::Input(input, fault) => {
+                Unknown::Parameter(parameter) => seeds.push((column, Seed::Parameter(parameter))),
+                Unknown::Input(input, fault) => {
                     let change = slope(&point.inputs[input], fault, record.step, |correction| {
                         let mut corrections = point.inputs.clone();
                         corrections[input] = *correction;
@@ -48,7 +48,7 @@ impl Fit<'_> {
                     });
                     seeds.push((column, Seed::Inputs(record.change(input, change))));
                 }
-                Handle::Output(..) => {}
+                Unknown::Output(..) => {}
             }
         }
         seeds
@@ -58,9 +58,9 @@ impl Fit<'_> {
     /// further coordinates, in groups of which nobody asks what they have in common.
     pub(super) fn section(
         &self,
-        point: &Point,
+        point: &Estimate,
         start: &[f64],
-        record: &Recorded,
+        record: &Dataset,
         section: &Range<usize>,
         (extra, groups): (&[Signals], &[Range<usize>]),
     ) -> Section {
@@ -91,8 +91,8 @@ impl Fit<'_> {
     /// start, for the coordinates, and for further changes of the predicted signals. What is missing is zero.
     fn jacobian(
         &self,
-        point: &Point,
-        record: &Recorded,
+        point: &Estimate,
+        record: &Dataset,
         section: &Range<usize>,
         (row, columns, linearised): (usize, &[usize], &Linearised),
         extra: &[Signals],
@@ -117,7 +117,7 @@ impl Fit<'_> {
             }
         }
         for (column, coordinate) in (states..).zip(&self.coordinates) {
-            if let Handle::Output(of, fault) = coordinate.handle
+            if let Unknown::Output(of, fault) = coordinate.handle
                 && of == output
             {
                 let change = |it: &Correction| it.applied(predicted, samples);

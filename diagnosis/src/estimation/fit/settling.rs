@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::dataset::recorded::Recorded;
+use crate::dataset::recorded::Dataset;
 
-use super::{Fit, Point};
+use super::{Estimate, Fit};
 
 /// Steps at most.
 const STEPS: usize = 6;
@@ -17,22 +17,22 @@ const SETTLED: f64 = 1e-5;
 
 impl Fit<'_> {
     /// The same point with the states at the start of each section that fit best.
-    pub fn settled(&self, point: Point) -> Point {
+    pub fn settled(&self, point: Estimate) -> Estimate {
         let (plant, dynamics, records) = (self.plant, self.dynamics, self.records);
         let bare = Self::new(plant, dynamics, records, Vec::new(), self.sigma.clone());
         let sections = bare.sections().into_par_iter();
         let starts = sections.map(|(index, record, section)| {
             bare.settled_section(&point, point.starts[index].clone(), record, section)
         });
-        Point { starts: starts.collect(), ..point }
+        Estimate { starts: starts.collect(), ..point }
     }
 
     /// Gauss and Newton's steps in one section, each as long as it leads downhill.
     fn settled_section(
         &self,
-        point: &Point,
+        point: &Estimate,
         mut start: Vec<f64>,
-        record: &Recorded,
+        record: &Dataset,
         section: &Range<usize>,
     ) -> Vec<f64> {
         let mut cost = self.section_cost(point, &start, record, section);

@@ -27,7 +27,7 @@ impl Stop {
     /// As closely as noise deserves.
     pub const NOISY: Self =
         Self { damping: 1e-3, iterations: 30, cost: 1e-5, step: 1e-6, below: f64::INFINITY, until: None };
-    /// Well enough to compare causes.
+    /// Well enough to compare effects.
     pub const ROUGH: Self =
         Self { damping: 1e-3, iterations: 10, cost: 2e-3, step: 1e-4, below: f64::INFINITY, until: None };
 

@@ -10,31 +10,31 @@ use crate::report::words::located;
 impl Diagnosis<'_> {
     /// Where each signal's error goes; `share` of what is left is explained without a name.
     pub(super) fn account(&self, share: f64) -> Vec<SignalAccount> {
-        let (world, found) = (&self.world, &self.found);
-        let squares = |fitted: &Fitted| world.errors(&fitted.test).mean_squares();
+        let (baseline, found) = (&self.baseline, &self.found);
+        let squares = |fitted: &Fitted| baseline.errors(&fitted.test).mean_squares();
         let Some(before) = self.before_on_validation() else { return Vec::new() };
-        let start = world.errors(&before).mean_squares();
+        let start = baseline.errors(&before).mean_squares();
         let fitted = squares(&found.base);
         let stages: Vec<Vec<f64>> = found.stages.iter().map(squares).collect();
-        let rows = world.test.first().map_or(&[][..], |record| &record.measured);
+        let rows = baseline.test.first().map_or(&[][..], |record| &record.measured);
         let of = |(row, measured): (usize, &crate::dataset::recorded::Measured)| {
             let after: Vec<f64> = stages.iter().map(|stage| stage[row]).collect();
-            let noise = world.floor.get(row).map_or(0.0, |floor| floor * floor);
+            let noise = baseline.floor.get(row).map_or(0.0, |floor| floor * floor);
             let account = account(start[row], fitted[row], &after, noise, share);
             let total = account.total.max(f64::MIN_POSITIVE);
             let item = |(taken, accepted): (&f64, &crate::confirm::Accepted)| {
-                let words = name(accepted.term, &world.rig.plant);
+                let words = name(accepted.term, &baseline.rig.plant);
                 AccountItem { name: located(&words.name, &words.element), share: taken / total }
             };
             SignalAccount {
-                signal: world.rig.plant.outputs[measured.output].name.clone(),
+                signal: baseline.rig.plant.outputs[measured.output].name.clone(),
                 error: account.total.sqrt(),
                 noise: account.noise / total,
                 parameters: account.parameters / total,
                 effects: account.effects.iter().zip(&found.accepted).map(item).collect(),
                 unmodelled: account.unmodelled / total,
                 unexplained: account.unexplained / total,
-                open: account.is_open(world.signal(row)),
+                open: account.is_open(baseline.signal(row)),
             }
         };
         rows.iter().enumerate().map(of).collect()
@@ -42,9 +42,9 @@ impl Diagnosis<'_> {
 
     /// Errors of the starting model on the conditioned validation records.
     fn before_on_validation(&self) -> Option<crate::estimation::fit::Residuals> {
-        let dynamics = self.world.dynamics(&[]).ok()?;
-        let fit = self.world.fit(&*dynamics, self.world.test, Vec::new());
-        let point = self.world.held_out_point(&*dynamics, &self.before);
+        let dynamics = self.baseline.dynamics(&[]).ok()?;
+        let fit = self.baseline.fit(&*dynamics, self.baseline.test, Vec::new());
+        let point = self.baseline.held_out_point(&*dynamics, &self.before);
         Some(fit.residuals(&point))
     }
 }

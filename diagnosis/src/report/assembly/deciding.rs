@@ -24,7 +24,7 @@ impl Diagnosis<'_> {
         compared: usize,
         best: Option<&Trial>,
     ) -> DecidingExperiment {
-        let rig = self.world.rig;
+        let rig = self.baseline.rig;
         let of_rival = |(number, (rival, present)): (usize, (&Rival, Separation))| {
             let expected = best.map_or(Separation::default(), |it| it.separations[number]);
             Distinction {
@@ -57,7 +57,7 @@ impl Diagnosis<'_> {
     }
 
     fn drive(&self, wave: &Wave, duration: f64) -> Drive {
-        let declared = &self.world.rig.plant.inputs[wave.input];
+        let declared = &self.baseline.rig.plant.inputs[wave.input];
         let unit = declared.unit.symbol;
         let (frequency, to) = wave.shape.frequencies();
         let source = wave.shape.source((wave.amplitude, declared.start), unit, duration);
@@ -88,7 +88,7 @@ impl Diagnosis<'_> {
 
     /// Every limit, and how much of it the experiment takes.
     fn limits(&self, contest: &Contest<'_>, best: Option<&Trial>) -> Vec<ExperimentLimit> {
-        let plant = &self.world.rig.plant;
+        let plant = &self.baseline.rig.plant;
         let outputs =
             contest.bounds.outputs.iter().enumerate().map(|(number, (output, limit))| ExperimentLimit {
                 signal: plant.outputs[*output].name.clone(),
@@ -101,7 +101,7 @@ impl Diagnosis<'_> {
             let signal = best.map(|it| {
                 let step = contest.step();
                 let count = (contest.bounds.duration / step) as usize;
-                let signal = it.excitation.signal(self.world.rig, bound.input, step, count);
+                let signal = it.excitation.signal(self.baseline.rig, bound.input, step, count);
                 let largest = signal.iter().fold(0.0_f64, |most, it| most.max((it - declared.start).abs()));
                 let rate = signal.windows(2).map(|it| (it[1] - it[0]).abs() / step).fold(0.0, f64::max);
                 (largest, rate)

@@ -2,7 +2,7 @@
 
 use crate::decision::disagreement::{Wish, disagreement};
 use crate::diagnosis::Diagnosis;
-use crate::estimation::fit::Handle;
+use crate::estimation::fit::Unknown;
 use crate::report::findings::{Disagreement, RecordValue};
 
 /// Quantile of the normal distribution for 95 % within.
@@ -11,8 +11,9 @@ const NORMAL: f64 = 1.96;
 impl Diagnosis<'_> {
     /// Nominal parameters on which records disagree, with the final model, the clearest first.
     pub(super) fn disagreements(&self) -> Vec<Disagreement> {
-        let (world, base) = (&self.world, self.world.rig.base());
-        let names: Vec<&str> = world.train.iter().chain(world.test).map(|it| it.name.as_str()).collect();
+        let (baseline, base) = (&self.baseline, self.baseline.rig.base());
+        let names: Vec<&str> =
+            baseline.train.iter().chain(baseline.test).map(|it| it.name.as_str()).collect();
         let wanted = |it: Wish| RecordValue {
             record: names[it.record].into(),
             value: it.value,
@@ -21,11 +22,11 @@ impl Diagnosis<'_> {
         };
         let mut list = Vec::new();
         for interval in &self.intervals {
-            if let Handle::Parameter(index) = interval.handle
+            if let Unknown::Parameter(index) = interval.handle
                 && base.contains(&index)
                 && let Some((low, high)) = disagreement(&interval.wishes, interval.value)
             {
-                let declared = &world.rig.plant.parameters[index];
+                let declared = &baseline.rig.plant.parameters[index];
                 let (name, unit) = (declared.name.clone(), declared.unit.symbol.into());
                 let apart = (high.value - low.value) / low.deviation.hypot(high.deviation);
                 list.push((apart, Disagreement { name, unit, records: [wanted(low), wanted(high)] }));

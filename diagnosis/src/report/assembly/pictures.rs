@@ -8,7 +8,7 @@ mod scatters;
 use strut_model::Declaration;
 
 use crate::dataset::conditioning::KEPT;
-use crate::dataset::recorded::{Measured, Recorded};
+use crate::dataset::recorded::{Dataset, Measured};
 use crate::diagnosis::Diagnosis;
 use crate::report::findings::{Pictures, Trace};
 
@@ -17,7 +17,7 @@ const SHOWN: f64 = 10.0;
 
 /// A signal of the first held-out record, and the errors of the fitted and of the extended model there.
 struct Erring<'a> {
-    record: &'a Recorded,
+    record: &'a Dataset,
     measured: &'a Measured,
     declared: &'a Declaration,
     before: &'a [f64],
@@ -40,7 +40,7 @@ impl Diagnosis<'_> {
     }
 
     fn errors(&self) -> Vec<Erring<'_>> {
-        let Some(record) = self.world.test.first() else { return Vec::new() };
+        let Some(record) = self.baseline.test.first() else { return Vec::new() };
         let (base, extended) = (&self.found.base.test[0], &self.found.extended.test[0]);
         let thinned = self.measured.first().is_some_and(|it| record.step > 1.5 * it.step);
         let top = 0.5 * if thinned { KEPT } else { 1.0 } / record.step;
@@ -48,7 +48,7 @@ impl Diagnosis<'_> {
         rows.map(|(measured, (before, after))| Erring {
             record,
             measured,
-            declared: &self.world.rig.plant.outputs[measured.output],
+            declared: &self.baseline.rig.plant.outputs[measured.output],
             before,
             after,
             top,
@@ -81,6 +81,6 @@ impl Diagnosis<'_> {
 }
 
 /// Number of samples that are shown.
-fn shown(record: &Recorded) -> usize {
+fn shown(record: &Dataset) -> usize {
     record.len().min((SHOWN / record.step) as usize)
 }

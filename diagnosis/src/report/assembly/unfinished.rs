@@ -9,15 +9,15 @@ use crate::report::words::located;
 impl Diagnosis<'_> {
     /// Whether the search was ended before it was complete.
     pub(super) fn is_unfinished(&self) -> bool {
-        self.world.deadline.stopped().is_some_and(|(stage, _)| stage < Stage::Segments)
+        self.baseline.deadline.stopped().is_some_and(|(stage, _)| stage < Stage::Segments)
     }
 
     /// What was left undone, with the likeliest candidate so far; none if all was done.
     pub(super) fn not_done(&self) -> Option<String> {
-        let (stage, limit) = self.world.deadline.stopped()?;
+        let (stage, limit) = self.baseline.deadline.stopped()?;
         let likeliest = self.likeliest().filter(|_| self.found.accepted.is_empty() && self.is_unfinished());
         let likeliest = likeliest.map(|term| {
-            let words = name(term, &self.world.rig.plant);
+            let words = name(term, &self.baseline.rig.plant);
             let located = located(&words.name, &words.element);
             format!(" The likeliest candidate so far is {located}. It is not confirmed.")
         });

@@ -2,7 +2,7 @@
 
 use crate::catalogue::{Element, Scale, Table, Unnamed};
 use crate::diagnosis::Diagnosis;
-use crate::estimation::fit::Handle;
+use crate::estimation::fit::Unknown;
 use crate::estimation::hypothesis::{Fitted, POINTS, Term};
 use crate::estimation::intervals::Interval;
 use crate::explain::describe::{self as described, MissingSignal};
@@ -55,20 +55,20 @@ impl Diagnosis<'_> {
 
     /// An element's velocity or deflection, by the FMU's name where the FMU has it, with its unit; or what goes into it.
     fn variable(&self, element: Element, scale: Scale) -> (String, &'static str) {
-        let signals = self.world.rig.kind.elements.iter().find(|it| it.element == element);
+        let signals = self.baseline.rig.kind.elements.iter().find(|it| it.element == element);
         let (signal, otherwise, unit) = match scale {
             Scale::FORCE => (signals.and_then(|it| it.force.signal()), "force", "N"),
             Scale::VELOCITY => (signals.and_then(|it| it.velocity), "velocity", "m/s"),
             _ => (signals.map(|it| it.deflection), "deflection", "m"),
         };
-        let plant = &self.world.rig.plant;
+        let plant = &self.baseline.rig.plant;
         let name = signal.unwrap_or(otherwise);
         let mut declared = plant.inputs.iter().chain(&plant.outputs);
         (name.to_owned(), declared.find(|it| it.name == name).map_or(unit, |it| it.unit.symbol))
     }
 
     fn curve(&self, table: &'static Table) -> Curve {
-        let plant = &self.world.rig.plant;
+        let plant = &self.baseline.rig.plant;
         let fitted: &Fitted = &self.found.extended;
         let range = plant.parameter(table.range).map_or(0.0, |index| fitted.point.parameters[index]);
         let (variable, variable_unit) = self.variable(table.element, table.scale);
@@ -83,10 +83,10 @@ impl Diagnosis<'_> {
         };
         for number in 1..=POINTS {
             let index = plant.parameter(&format!("{}[{number}]", table.points));
-            let found = self.intervals.iter().find(|it| index.map(Handle::Parameter) == Some(it.handle));
+            let found = self.intervals.iter().find(|it| index.map(Unknown::Parameter) == Some(it.handle));
             let Some(Interval { value, half, .. }) = found else { continue };
             // A point that is not determined is not covered by the data.
-            if *half < point.of(&self.world.typical(table.element)) {
+            if *half < point.of(&self.baseline.typical(table.element)) {
                 curve.x.push(range * (2.0 * (number - 1) as f64 / (POINTS - 1) as f64 - 1.0));
                 curve.y.push(*value);
                 curve.low.push(value - half);
@@ -106,7 +106,7 @@ impl Diagnosis<'_> {
     /// The step response of an output's sensor.
     fn response(&self, output: usize) -> Curve {
         let mut curve = Curve {
-            location: self.world.rig.plant.outputs[output].name.clone(),
+            location: self.baseline.rig.plant.outputs[output].name.clone(),
             quantity: Curve::RESPONSE.into(),
             variable: "time".into(),
             variable_unit: "s".into(),
@@ -114,7 +114,7 @@ impl Diagnosis<'_> {
             ..Curve::default()
         };
         for (point, after) in AFTER.into_iter().enumerate() {
-            let handle = Handle::Output(output, Fault::Response(point));
+            let handle = Unknown::Output(output, Fault::Response(point));
             let found = self.intervals.iter().find(|it| it.handle == handle);
             if let Some(Interval { value, half, .. }) = found
                 && *half < UNKNOWN
@@ -148,9 +148,9 @@ impl Left {
 impl Diagnosis<'_> {
     /// What is left of each signal.
     pub(super) fn left(&self) -> Vec<Left> {
-        let squares = |fitted: &Fitted| self.world.errors(&fitted.test).mean_squares();
+        let squares = |fitted: &Fitted| self.baseline.errors(&fitted.test).mean_squares();
         let whole = |row: usize| {
-            let values = self.world.test.iter().flat_map(|it| it.measured[row].values.iter().copied());
+            let values = self.baseline.test.iter().flat_map(|it| it.measured[row].values.iter().copied());
             rms(&values.collect::<Vec<_>>()).powi(2)
         };
         let rows = squares(&self.found.extended).into_iter().enumerate();

@@ -54,7 +54,7 @@ impl Diagnosis<'_> {
     /// Of a signal's errors with every input that was measured.
     pub(super) fn coherences(&self, errors: &Erring<'_>) -> Vec<Coherence> {
         let inputs = errors.record.inputs.iter().zip(&self.measured[0].inputs);
-        let inputs = inputs.zip(&self.world.rig.plant.inputs);
+        let inputs = inputs.zip(&self.baseline.rig.plant.inputs);
         inputs
             .filter_map(|((clean, noisy), declared)| {
                 let (Source::Measured(clean), Source::Measured(noisy)) = (clean, noisy) else { return None };

@@ -4,7 +4,7 @@ use strut_model::Value;
 use strut_physics::GRAVITY;
 
 use crate::catalogue::{self, LIFT_OFF};
-use crate::dataset::recorded::{Recorded, derivative};
+use crate::dataset::recorded::{Dataset, derivative};
 use crate::diagnosis::{Diagnosis, simulated};
 use crate::report::findings::{LARGEST, Mark};
 
@@ -18,7 +18,7 @@ const PAUSE: f64 = 0.02;
 const ROUNDING: f64 = 1e-9;
 
 /// The blocks with the largest errors, in the order of time.
-pub(super) fn largest(errors: &[f64], record: &Recorded) -> Vec<Mark> {
+pub(super) fn largest(errors: &[f64], record: &Dataset) -> Vec<Mark> {
     let length = record.block();
     let power = |block: &[f64]| block.iter().filter(|it| it.is_finite()).map(|it| it * it).sum::<f64>();
     let mut blocks: Vec<(usize, f64)> = errors.chunks_exact(length).map(power).enumerate().collect();
@@ -37,19 +37,19 @@ pub(super) fn largest(errors: &[f64], record: &Recorded) -> Vec<Mark> {
 impl Diagnosis<'_> {
     /// Where in what is shown the extended model is beyond a threshold that it has.
     pub(super) fn active(&self) -> Vec<Mark> {
-        let (world, extended) = (&self.world, &self.found.extended);
-        let (rig, parameters) = (world.rig, &extended.point.parameters);
-        let Some(record) = world.test.first() else { return Vec::new() };
-        let Ok(dynamics) = world.dynamics(&extended.terms) else { return Vec::new() };
-        let point = world.held_out_point(&*dynamics, &extended.point);
-        let simulated = simulated(world, &extended.terms, &point, world.test);
+        let (baseline, extended) = (&self.baseline, &self.found.extended);
+        let (rig, parameters) = (baseline.rig, &extended.point.parameters);
+        let Some(record) = baseline.test.first() else { return Vec::new() };
+        let Ok(dynamics) = baseline.dynamics(&extended.terms) else { return Vec::new() };
+        let point = baseline.held_out_point(&*dynamics, &extended.point);
+        let simulated = simulated(baseline, &extended.terms, &point, baseline.test);
         let Some(signals) = simulated.first() else { return Vec::new() };
         let signal = |name: &str| Some(&signals[rig.plant.output(name)?][..shown(record)]);
         let parameter = |name: &str| Some(parameters[rig.plant.parameter(name)?]);
         let mut marks = Vec::new();
         if let Some(x) = signal("suspension.deflection").or_else(|| signal("deflection")) {
             let v = derivative(x, record.step);
-            let acting = catalogue::causes(&rig.plant).filter(|effect| {
+            let acting = catalogue::effects(&rig.plant).filter(|effect| {
                 effect
                     .parts
                     .first()
@@ -66,7 +66,7 @@ impl Diagnosis<'_> {
         let lifts = rig
             .plant
             .setting(LIFT_OFF)
-            .is_some_and(|index| world.choices(&extended.terms)[index] == Value::Boolean(true));
+            .is_some_and(|index| baseline.choices(&extended.terms)[index] == Value::Boolean(true));
         if let (true, Some(force), Some(body), Some(wheel)) =
             (lifts, signal("wheel.force"), parameter("sprung_mass"), parameter("unsprung_mass"))
         {
@@ -98,7 +98,7 @@ mod tests {
 
     #[test]
     fn the_largest_blocks_are_marked_in_the_order_of_time() {
-        let record = Recorded {
+        let record = Dataset {
             name: String::new(),
             step: 0.01,
             inputs: vec![],

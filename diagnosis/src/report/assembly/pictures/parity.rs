@@ -10,7 +10,7 @@ mod laws;
 mod stretch;
 
 use crate::diagnosis::{Diagnosis, root_mean_square, simulated};
-use crate::estimation::fit::{Handle, Point};
+use crate::estimation::fit::{Estimate, Unknown};
 use crate::estimation::hypothesis::Term;
 use crate::report::findings::Parity;
 use crate::signal::distortion::Fault;
@@ -26,7 +26,7 @@ const FINE: f64 = 5.0;
 /// A model to be balanced with, over the held-out records as they were measured.
 struct Judged {
     laws: Laws,
-    point: Point,
+    point: Estimate,
     /// The model's outputs on each record, for the velocities that nothing measures.
     simulated: Vec<Vec<Vec<f64>>>,
 }
@@ -44,7 +44,7 @@ impl Diagnosis<'_> {
             models.into_iter().map(|(terms, point)| self.judged(terms, point)).collect();
         let (Some(judged), Some(record)) = (judged, self.measured.first()) else { return Vec::new() };
         let Some(extended) = judged.last() else { return Vec::new() };
-        let rigged = Rigged { plant: &self.world.rig.plant, record, point: &extended.point, noisy: false };
+        let rigged = Rigged { plant: &self.baseline.rig.plant, record, point: &extended.point, noisy: false };
         let band = rigged.band();
         let stretches: Vec<_> = judged.iter().map(|model| self.stretches(model, band, false)).collect();
         let noisy = self.stretches(extended, band, true);
@@ -81,10 +81,10 @@ impl Diagnosis<'_> {
 
     /// The starting model as it was given, with the channels' timing that the extended model has found, unless that is
     /// a fault: next to nothing, but enough to spoil a balance.
-    fn as_given(&self) -> Point {
+    fn as_given(&self) -> Estimate {
         let mut point = self.before.clone();
         for output in 0..point.outputs.len() {
-            let timing = Handle::Output(output, Fault::Delay);
+            let timing = Unknown::Output(output, Fault::Delay);
             point.set(timing, self.found.extended.point.get(timing));
         }
         self.with_given(point, &self.found.extended.terms)
@@ -92,29 +92,29 @@ impl Diagnosis<'_> {
 
     /// The extended model with what was found taken away again. The fitted starting model will not do: it has bent its
     /// masses and its timing to what it lacks, and would spoil balances that have nothing to do with it.
-    fn without(&self, terms: &[Term]) -> Point {
+    fn without(&self, terms: &[Term]) -> Estimate {
         self.with_given(self.found.extended.point.clone(), terms)
     }
 
     /// A point with the terms' own values as they were given.
-    fn with_given(&self, mut point: Point, terms: &[Term]) -> Point {
-        let given = self.world.origin();
-        for own in terms.iter().flat_map(|term| self.world.own_coordinates(*term)) {
+    fn with_given(&self, mut point: Estimate, terms: &[Term]) -> Estimate {
+        let given = self.baseline.origin();
+        for own in terms.iter().flat_map(|term| self.baseline.own_coordinates(*term)) {
             point.set(own.handle, given.get(own.handle));
         }
         point
     }
 
-    fn judged(&self, terms: &[Term], point: Point) -> Option<Judged> {
-        let laws = Laws::of(self.world.rig, &self.world.choices(terms), &point.parameters)?;
+    fn judged(&self, terms: &[Term], point: Estimate) -> Option<Judged> {
+        let laws = Laws::of(self.baseline.rig, &self.baseline.choices(terms), &point.parameters)?;
         let (settled, _) = self.measured(terms, &point)?;
-        let simulated = simulated(&self.world, terms, &settled, self.measured);
+        let simulated = simulated(&self.baseline, terms, &settled, self.measured);
         // The settled point knows nothing of the channels' timing.
         Some(Judged { laws, point, simulated })
     }
 
     fn stretches(&self, model: &Judged, band: f64, noisy: bool) -> Vec<Vec<Stretch>> {
-        let plant = &self.world.rig.plant;
+        let plant = &self.baseline.rig.plant;
         let records = self.measured.iter().zip(&model.simulated);
         records
             .map(|(record, simulated)| {

@@ -15,8 +15,8 @@ impl Diagnosis<'_> {
     /// The force that the fitted model misses, over the motions of the elements that may lack it.
     pub(super) fn scatters(&self) -> Vec<Binned> {
         let base = &self.found.base;
-        let all = simulated(&self.world, &base.terms, &base.point, self.world.train);
-        let kind = self.world.rig.kind;
+        let all = simulated(&self.baseline, &base.terms, &base.point, self.baseline.train);
+        let kind = self.baseline.rig.kind;
         let pairs = kind.missing.iter().flat_map(|missing| missing.over.iter().map(move |it| (missing, *it)));
         pairs
             .flat_map(|(missing, element)| {
@@ -33,8 +33,8 @@ impl Diagnosis<'_> {
         over_velocity: bool,
         outputs: &[Vec<Vec<f64>>],
     ) -> Option<Binned> {
-        let plant = &self.world.rig.plant;
-        let signals = self.world.rig.kind.elements.iter().find(|it| it.element == element)?;
+        let plant = &self.baseline.rig.plant;
+        let signals = self.baseline.rig.kind.elements.iter().find(|it| it.element == element)?;
         let (output, position) = (plant.output(missing.output)?, plant.output(signals.deflection)?);
         let factor = match missing.factor {
             Some((name, sign)) => sign * self.found.base.point.parameters[plant.parameter(name)?],
@@ -42,7 +42,8 @@ impl Diagnosis<'_> {
         };
         // Variable, its rate, force.
         let mut points: Vec<(f64, f64, f64)> = Vec::new();
-        for ((record, residuals), outputs) in self.world.train.iter().zip(&self.found.base.train).zip(outputs)
+        for ((record, residuals), outputs) in
+            self.baseline.train.iter().zip(&self.found.base.train).zip(outputs)
         {
             let row = record.measured.iter().position(|it| it.output == output)?;
             let x = &outputs[position];

@@ -1,6 +1,6 @@
 //! The balances themselves: what is in each, what it needs, what it means.
 
-use crate::dataset::recorded::Recorded;
+use crate::dataset::recorded::Dataset;
 use crate::report::findings::Parity;
 use crate::signal::spectral::in_band;
 
@@ -129,7 +129,7 @@ impl Balance {
     }
 
     /// What is left of it over a record; not a number between sections.
-    pub fn over(&self, record: &Recorded, laws: &Laws, stretches: &[Stretch]) -> Option<Vec<f64>> {
+    pub fn over(&self, record: &Dataset, laws: &Laws, stretches: &[Stretch]) -> Option<Vec<f64>> {
         let mut whole = vec![f64::NAN; record.len()];
         for (section, stretch) in record.sections.iter().zip(stretches) {
             whole[section.clone()].copy_from_slice(&self.of(laws, stretch)?);
@@ -156,7 +156,7 @@ mod tests {
     use super::*;
     use crate::dataset::recorded::{Measured, Source, derivative};
     use crate::diagnosis::root_mean_square;
-    use crate::estimation::fit::Point;
+    use crate::estimation::fit::Estimate;
     use crate::plant::{Between, Drive};
     use crate::rig::Rig;
     use crate::signal::distortion::Correction;
@@ -171,7 +171,7 @@ mod tests {
     ];
 
     /// A record of the rig with a hidden parameter.
-    fn record(rig: &Rig, hidden: Option<(&str, f64)>) -> Recorded {
+    fn record(rig: &Rig, hidden: Option<(&str, f64)>) -> Dataset {
         let mut parameters = rig.parameters.clone();
         if let Some((name, value)) = hidden {
             parameters[rig.plant.parameter(name).unwrap()] = value;
@@ -189,7 +189,7 @@ mod tests {
             let output = rig.plant.output(name).unwrap();
             Measured { output, values: outputs[output].clone(), noise_floor: 1e-9 }
         });
-        Recorded {
+        Dataset {
             name: String::new(),
             step: STEP,
             inputs: vec![Source::Measured(road), Source::DerivativeOf(0), Source::Measured(force)],
@@ -200,8 +200,8 @@ mod tests {
         }
     }
 
-    fn point(rig: &Rig) -> Point {
-        Point {
+    fn point(rig: &Rig) -> Estimate {
+        Estimate {
             parameters: rig.parameters.clone(),
             inputs: vec![Correction::default(); rig.plant.inputs.len()],
             outputs: vec![Correction::default(); rig.plant.outputs.len()],
@@ -210,7 +210,7 @@ mod tests {
     }
 
     /// What is left of r1 to r4, with the rig's own laws.
-    fn left(rig: &Rig, record: &Recorded) -> [f64; 4] {
+    fn left(rig: &Rig, record: &Dataset) -> [f64; 4] {
         let (laws, point) = (Laws::of(rig, &rig.choices, &rig.parameters).unwrap(), point(rig));
         let rigged = Rigged { plant: &rig.plant, record, point: &point, noisy: false };
         let rest = vec![vec![0.0; record.len()]; rig.plant.outputs.len()];
@@ -225,17 +225,17 @@ mod tests {
     #[test]
     fn a_balance_breaks_by_what_is_in_it_alone() {
         let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
-        let with = |change: &dyn Fn(&mut Recorded)| {
+        let with = |change: &dyn Fn(&mut Dataset)| {
             let mut record = record(&rig, None);
             change(&mut record);
             left(&rig, &record)
         };
         // Newtons thrice, then metres per second squared.
         let tight = [1.0, 1.0, 1.0, 0.01];
-        let offset = |record: &mut Recorded| record.measured[0].values.iter_mut().for_each(|it| *it += 0.5);
-        let wheel = |record: &mut Recorded| record.measured[1].values.iter_mut().for_each(|it| *it *= 1.1);
-        let force = |record: &mut Recorded| record.measured[2].values.iter_mut().for_each(|it| *it *= 1.1);
-        let travel = |record: &mut Recorded| record.measured[3].values.iter_mut().for_each(|it| *it *= 1.1);
+        let offset = |record: &mut Dataset| record.measured[0].values.iter_mut().for_each(|it| *it += 0.5);
+        let wheel = |record: &mut Dataset| record.measured[1].values.iter_mut().for_each(|it| *it *= 1.1);
+        let force = |record: &mut Dataset| record.measured[2].values.iter_mut().for_each(|it| *it *= 1.1);
+        let travel = |record: &mut Dataset| record.measured[3].values.iter_mut().for_each(|it| *it *= 1.1);
         for (what, found, broken) in [
             ("nothing", with(&|_| ()), ""),
             ("friction", left(&rig, &record(&rig, Some(("strut.coulomb.force", 40.0)))), "r1"),

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::data::check::noise_floor;
-use crate::dataset::recorded::{Recorded, Source};
-use crate::estimation::fit::Point;
+use crate::dataset::recorded::{Dataset, Source};
+use crate::estimation::fit::Estimate;
 use crate::plant::{Between, Drive, Plant};
 use crate::signal::random::with_noise;
 use crate::signal::spectral::{filled, in_band, power_spectrum};
@@ -80,8 +80,8 @@ impl Sensor {
 #[derive(Clone, Copy)]
 pub(super) struct Rigged<'a> {
     pub plant: &'a Plant,
-    pub record: &'a Recorded,
-    pub point: &'a Point,
+    pub record: &'a Dataset,
+    pub point: &'a Estimate,
     /// Whether the sensors' noise is there a second time.
     pub noisy: bool,
 }
