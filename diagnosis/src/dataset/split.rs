@@ -13,7 +13,7 @@ const DRIFTING: f64 = 10.0;
 /// So many stretches are made of one.
 const PARTS: usize = 3;
 
-/// What is learnt from and what judges, without the noise of the inputs; and the latter as it was measured.
+/// Estimation and validation data without the noise of the inputs, and validation data as they were measured.
 pub struct Split {
     /// Estimation records, ready for the search.
     pub train: Vec<Dataset>,

@@ -34,7 +34,7 @@ const FORGOTTEN: &[&str] = &[
 /// forgotten within milliseconds hardly shows: without a bound it would be sent as far as a limiter.
 const FAR: f64 = 3.0;
 
-/// Something that a fit may change.
+/// An unknown of a model: a parameter, or a distortion of an input or output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Unknown {
     /// A parameter of the plant, by its index.
@@ -45,7 +45,7 @@ pub enum Unknown {
     Output(usize, Fault),
 }
 
-/// Something that a fit changes, within bounds.
+/// An unknown that a fit changes, within bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeParameter {
     /// What.
@@ -56,7 +56,7 @@ pub struct FreeParameter {
     pub prior: Option<(f64, f64)>,
 }
 
-/// A plant's parameters, corrections and states at the start of every section.
+/// An estimate of all unknowns: parameters, distortions, and the states at the start of every segment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
     /// The plant's parameters.

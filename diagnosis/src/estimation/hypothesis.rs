@@ -59,7 +59,7 @@ impl PartialEq for Term {
     }
 }
 
-/// The world that hypotheses are about.
+/// What all hypotheses share: the rig, its records, and what is known before an effect is added.
 #[derive(Clone)]
 pub struct Baseline<'a> {
     /// The rig.
