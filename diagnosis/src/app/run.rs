@@ -4,6 +4,7 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Once;
 use std::time::Duration;
 
 use clap::Parser;
@@ -79,10 +80,14 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
         ));
     }
     let study = study(arguments)?;
-    eprintln!("time limit {} s (--time-limit)", arguments.time_limit);
     let deadline = Deadline::after(Duration::from_secs(arguments.time_limit));
     let bar = spinner("reading the records");
-    let outcome = study.run(deadline, &|text: &str| bar.set_message(text.to_owned()));
+    // Once the records are read: an error there comes alone.
+    let limit = Once::new();
+    let outcome = study.run(deadline, &|text: &str| {
+        limit.call_once(|| bar.suspend(|| eprintln!("time limit {} s (--time-limit)", arguments.time_limit)));
+        bar.set_message(text.to_owned());
+    });
     bar.finish_and_clear();
     let Outcome { mut findings, extended } = outcome?;
     if let Some(provenance) = &mut findings.provenance {

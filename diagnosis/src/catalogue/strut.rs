@@ -210,7 +210,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         name: "soft damper mount",
         equation: "F = (x - w)/c, w' = F/d",
         prevalence: Prevalence::Background,
-        parts: &[part("hysteresis.mount.compliance", Scale::COMPLIANCE, (3e-3, 10.0), &[0.02, 0.1])],
+        parts: &[part("hysteresis.mount.compliance", Scale::COMPLIANCE, (3e-3, 10.0), &[0.02, 0.1, 0.5])],
         literature: &["Brennan2008", "Heissing2011"],
         experiment: "sweep to high frequencies",
         ..PLAIN

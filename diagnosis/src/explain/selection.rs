@@ -48,7 +48,8 @@ pub enum Choice {
 pub const MOST: usize = 6;
 
 /// Chooses by scores alone; `misses` is the innovations' mean square in units of the sensors' accuracy, `named` and `features`
-/// are in any order.
+/// are in any order. A rival of the best name needs no more than a sign of itself in the validation records: its shape is a rough
+/// one, and its fit is judged there.
 pub fn choose(misses: f64, named: &[Score], features: &[Score]) -> Choice {
     if misses < 1.0 {
         return Choice::Nothing;
@@ -66,7 +67,7 @@ pub fn choose(misses: f64, named: &[Score], features: &[Score]) -> Choice {
         (Some(name), feature) if name.share >= CRITERIA.rough * feature.map_or(0.0, |it| it.share) => {
             let mut near: Vec<Score> = named
                 .iter()
-                .filter(|it| it.share >= CRITERIA.rival * name.share && it.is_confirmed())
+                .filter(|it| it.share >= CRITERIA.rival * name.share && it.validated > 0.0)
                 .copied()
                 .collect();
             near.sort_by(|a, b| b.share.total_cmp(&a.share));
@@ -360,9 +361,11 @@ mod tests {
     #[test]
     fn a_name_that_explains_nearly_what_free_features_do_is_fitted_with_its_rivals() {
         let named = [score(0, 0.3, 0.2), score(1, 0.5, 0.4), score(2, 0.05, 0.01)];
+        // Its shape is too rough for the validation records; and one that they deny.
+        let named = [&named[..], &[score(4, 0.55, 0.02), score(5, 0.9, -0.1)]].concat();
         let features = [score(3, 0.6, 0.5)];
         let Choice::Named(tried) = choose(2.0, &named, &features) else { panic!("a name") };
-        assert_eq!(tried.iter().map(|it| it.candidate).collect::<Vec<_>>(), [1, 0]);
+        assert_eq!(tried.iter().map(|it| it.candidate).collect::<Vec<_>>(), [4, 1, 0]);
     }
 
     #[test]
