@@ -96,7 +96,7 @@ impl Baseline<'_> {
 
     /// Whether these errors on the validation records leave the account of some signal open. What every rig has a little of leaves
     /// it closed: where it is open, no more is asked of it than of any effect.
-    fn is_open(&self, left: &Residuals) -> bool {
+    pub(crate) fn is_open(&self, left: &Residuals) -> bool {
         let open = |(row, power): (usize, f64)| {
             let noise = self.floor[row].powi(2);
             account(power, power, &[], noise, 0.0).is_open(self.signal(row))

@@ -172,9 +172,11 @@ impl Baseline<'_> {
                 }
                 Choice::Named(scores) => (scores, 0.0),
             };
-            // A fit is not worth its time where no signal has anything to gain. A share of the innovations says little of a share of
-            // the error, since a nominal parameter may have taken the effect's place.
-            if scores.is_empty() || self.improvement(&found.extended, 1.0) < CRITERIA.improvement {
+            // Where all accounts are closed, a fit is not worth its time that promises nothing visible. Where one is open, a share of
+            // the innovations says little: a nominal parameter may have taken the effect's place.
+            let open = self.is_open(&found.extended.test);
+            let promised = |it: &Score| self.improvement(&found.extended, if open { 1.0 } else { it.share });
+            if scores.first().is_none_or(|it| promised(it) < CRITERIA.improvement) {
                 return Ok(curve.map_or(Next::Nothing, Next::Curve));
             }
             let mut proposals = compared.proposals(&scores, MOST_TRIED);

@@ -98,7 +98,7 @@ impl Baseline<'_> {
             .flat_map(|(index, term)| self.probes(index, *term, &at).into_iter().map(|probe| (*term, probe)))
             .collect();
         let columns = |(term, probe): &(Term, Probe)| -> Option<Vec<Vec<Column>>> {
-            let dynamics = self.dynamics(&[explained, &[*term]].concat()).ok()?;
+            let dynamics = self.dynamics(&[*term]).ok()?;
             let of = |window: &Window| {
                 let about = (missing.records, window);
                 probe.points.iter().map(|point| setting.changed(about, (*term, &*dynamics), point)).collect()

@@ -67,8 +67,6 @@ pub struct Frame {
     /// Whether those that nobody states may be off by decades.
     far: bool,
     dynamics: Box<dyn Dynamics>,
-    /// The model with all laws.
-    lawful: Box<dyn Dynamics>,
     /// Laws that the rig has by its parameter set, and those that were found.
     laws: Vec<Law>,
     ports: Vec<Port>,
@@ -87,7 +85,19 @@ struct Law {
     precision: f64,
 }
 
+impl Frame {
+    /// The laws of the parameter set.
+    fn stated(&self) -> impl Iterator<Item = &Law> {
+        self.laws.iter().filter(|it| it.is_stated())
+    }
+}
+
 impl Law {
+    /// Whether the parameter set has it.
+    fn is_stated(&self) -> bool {
+        self.precision > 0.0
+    }
+
     /// A point with friction that turns over as sharply as that of a body that really sticks.
     fn sharp(&self, point: &Estimate) -> Estimate {
         let mut point = point.clone();
@@ -165,7 +175,6 @@ impl Baseline<'_> {
             fresh: found.is_empty(),
             far: false,
             dynamics: self.dynamics(&[])?,
-            lawful: self.dynamics(found)?,
             parameters,
             laws,
             ports: Port::all(self.rig, record),
@@ -253,11 +262,13 @@ impl Baseline<'_> {
             let law =
                 |law: &Law| setting.changed((records, &window), (law.term, &*law.dynamics), &law.at(point));
             let laws = frame.laws.iter().map(law).collect::<Option<Vec<Column>>>()?;
-            let lawful = frame.laws.iter().fold(point.clone(), |point, law| law.at(&point));
-            if !laws.is_empty() {
-                let (record, dynamics) = (&records[*record], &*frame.lawful);
-                let sharp = frame.laws.iter().fold(lawful.clone(), |point, law| law.sharp(&point));
-                setting.take_along(record, &mut window, &laws, (dynamics, &lawful));
+            let lawful = frame.stated().fold(point.clone(), |point, law| law.at(&point));
+            let count = frame.stated().count();
+            if count > 0 {
+                let (record, dynamics) = (&records[*record], &*frame.dynamics);
+                let sharp = frame.stated().fold(lawful.clone(), |point, law| law.sharp(&point));
+                // Those of the parameter set come first.
+                setting.take_along(record, &mut window, &laws[..count], (dynamics, &lawful));
                 setting.loosen(record, &mut window, dynamics, (&lawful, &sharp));
             }
             let late = |handle: &Unknown| {
@@ -274,9 +285,12 @@ impl Baseline<'_> {
 }
 
 impl Missing<'_> {
-    /// The point of the trajectory, with the laws.
+    /// The point of the trajectory, with the laws of the parameter set.
     pub fn point(&self) -> Estimate {
-        self.laws.iter().fold(self.setting.point.clone(), |point, law| law.at(&point))
+        self.laws
+            .iter()
+            .filter(|it| it.is_stated())
+            .fold(self.setting.point.clone(), |point, law| law.at(&point))
     }
 
     /// Numbers of the columns that are fitted whatever is looked for.
