@@ -6,7 +6,7 @@ use crate::estimation::deadline::Stage;
 use crate::estimation::fit::Estimate;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::explain::describe::{MissingSignal, Unmodelled};
-use crate::explain::selection::{Choice, Compared, MOST as MOST_TRIED, Score, choose};
+use crate::explain::selection::{Choice, Compared, MOST_FITTED, Score, choose};
 use crate::missing::innovations::Noise;
 use crate::missing::locate::Location;
 use crate::missing::motion::outputs;
@@ -179,7 +179,7 @@ impl Baseline<'_> {
             if scores.first().is_none_or(|it| promised(it) < CRITERIA.improvement) {
                 return Ok(curve.map_or(Next::Nothing, Next::Curve));
             }
-            let mut proposals = compared.proposals(&scores, MOST_TRIED);
+            let mut proposals = compared.proposals(&scores, MOST_FITTED);
             proposals.retain(|it| !refused.contains(&it.term));
             if !proposals.is_empty() {
                 progress(&format!("fitting {} effects", proposals.len()));

@@ -31,14 +31,8 @@ impl Setting<'_> {
     }
 
     /// Lets laws act along the trajectory: from here on, changes are counted from there.
-    pub fn take_along(
-        &self,
-        record: &Dataset,
-        window: &mut Window,
-        laws: &[Column],
-        (dynamics, lawful): (&dyn Dynamics, &Estimate),
-    ) {
-        let along = self.along(record, window, dynamics, lawful);
+    pub fn take_along(&self, record: &Dataset, window: &mut Window, laws: &[Column], lawful: &Estimate) {
+        let along = self.along(record, window, self.dynamics, lawful);
         let rates = along.rates.iter().zip(&window.rates).map(|(more, plain)| more + plain).collect();
         let outputs = along.outputs.iter().zip(&window.predicted);
         let outputs = outputs.map(|(more, plain)| f64::from(*more) + plain).collect();
@@ -52,13 +46,7 @@ impl Setting<'_> {
 
     /// Adds the spread of the laws within the accuracy of the trajectory, and of the velocity within which friction turns over: the
     /// friction of a body that hardly moves is anything up to its limit, whatever the sign of the velocity seems to be.
-    pub fn loosen(
-        &self,
-        record: &Dataset,
-        window: &mut Window,
-        dynamics: &dyn Dynamics,
-        (lawful, sharp): (&Estimate, &Estimate),
-    ) {
+    pub fn loosen(&self, record: &Dataset, window: &mut Window, (lawful, sharp): (&Estimate, &Estimate)) {
         let (n, m, samples) = (window.states, window.outputs, window.samples.len());
         let mut loose = (vec![0.0; samples.saturating_sub(1) * n], vec![0.0; samples * m]);
         let mut add = |spread: &Column, share: f32| {
@@ -68,19 +56,19 @@ impl Setting<'_> {
             add(&mut loose.0, &spread.next);
             add(&mut loose.1, &spread.outputs);
         };
-        let at = |(dynamics, point): (&dyn Dynamics, &Estimate), shift: Option<&Shift>| {
-            let along = self.along_shifted(record, (window, shift), dynamics, point);
+        let at = |point: &Estimate, shift: Option<&Shift>| {
+            let along = self.along_shifted(record, (window, shift), self.dynamics, point);
             Column { next: along.increments(), outputs: along.outputs }
         };
         if sharp != lawful {
-            add(&at((dynamics, sharp), None).minus(&at((dynamics, lawful), None)), 1.0);
+            add(&at(sharp, None).minus(&at(lawful, None)), 1.0);
         }
         for state in 0..n {
             let reach = reach(window, self.active[state]);
             let law = |sign: f64| {
                 let by = reach.iter().map(|it| sign * it).collect();
                 let shift = Shift { state, by };
-                at((dynamics, sharp), Some(&shift)).minus(&at((self.dynamics, &self.point), Some(&shift)))
+                at(sharp, Some(&shift)).minus(&at(&self.point, Some(&shift)))
             };
             add(&law(1.0).minus(&law(-1.0)), 0.5);
         }

@@ -44,8 +44,8 @@ pub enum Choice {
     Unmodelled(Score),
 }
 
-/// Names that are tried at most.
-pub const MOST: usize = 6;
+/// Names that are fitted at most.
+pub const MOST_FITTED: usize = 6;
 
 /// Chooses by scores alone; `misses` is the innovations' mean square in units of the sensors' accuracy, `named` and `features`
 /// are in any order. A rival of the best name needs no more than a sign of itself in the validation records: its shape is a rough

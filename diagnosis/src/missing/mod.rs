@@ -50,8 +50,8 @@ pub struct Missing<'a> {
     pub setting: Setting<'a>,
     /// The predictions about the trajectory.
     pub windows: Vec<Window>,
-    /// Laws that act beside the model.
-    laws: &'a [Law],
+    /// Laws of the parameter set.
+    stated: &'a [Law],
     /// What was known of each nuisance before: precisions of nominal parameters, then of the channels' timing, then of what was
     /// explained.
     pub precisions: Vec<f64>,
@@ -67,8 +67,10 @@ pub struct Frame {
     /// Whether those that nobody states may be off by decades.
     far: bool,
     dynamics: Box<dyn Dynamics>,
-    /// Laws that the rig has by its parameter set, and those that were found.
-    laws: Vec<Law>,
+    /// Laws of the parameter set.
+    stated: Vec<Law>,
+    /// Laws that were found.
+    found: Vec<Law>,
     ports: Vec<Port>,
     parameters: Vec<usize>,
     nominal: Vec<f64>,
@@ -81,23 +83,9 @@ struct Law {
     dynamics: Box<dyn Dynamics>,
     /// Its values.
     values: Vec<(Unknown, f64)>,
-    /// What is known of its amount, in squares of its reciprocal share: nothing of a law that was found.
-    precision: f64,
-}
-
-impl Frame {
-    /// The laws of the parameter set.
-    fn stated(&self) -> impl Iterator<Item = &Law> {
-        self.laws.iter().filter(|it| it.is_stated())
-    }
 }
 
 impl Law {
-    /// Whether the parameter set has it.
-    fn is_stated(&self) -> bool {
-        self.precision > 0.0
-    }
-
     /// A point with friction that turns over as sharply as that of a body that really sticks.
     fn sharp(&self, point: &Estimate) -> Estimate {
         let mut point = point.clone();
@@ -139,11 +127,11 @@ impl Baseline<'_> {
                 }
             }
         }
-        let law = |term: Term, handles: Vec<Unknown>, precision: f64| {
+        let law = |term: Term, handles: Vec<Unknown>| {
             let values = handles.into_iter().map(|handle| (handle, at.get(handle))).collect();
-            Ok::<_, String>(Law { term, dynamics: self.dynamics(&[term])?, values, precision })
+            Ok::<_, String>(Law { term, dynamics: self.dynamics(&[term])?, values })
         };
-        let mut laws = Vec::new();
+        let (mut stated, mut laws) = (Vec::new(), Vec::new());
         let nominal: Vec<usize> =
             self.rig.nominal().filter_map(|name| self.rig.plant.parameter(name)).collect();
         for effect in catalogue::effects(&self.rig.plant) {
@@ -154,20 +142,19 @@ impl Baseline<'_> {
             };
             if parts.first().is_some_and(there) {
                 let handles = parts.iter().map(|it| Unknown::Parameter(*it)).collect();
-                laws.push(law(Term::Effect(effect), handles, TOLERANCE.powi(-2))?);
+                stated.push(law(Term::Effect(effect), handles)?);
                 parts.iter().for_each(|it| point.parameters[*it] = self.rig.plant.parameters[*it].start);
             }
         }
         for term in found.iter().filter(|term| matches!(term, Term::Effect(_) | Term::Table(_))) {
             let handles: Vec<Unknown> = self.own_coordinates(*term).into_iter().map(|it| it.handle).collect();
             handles.iter().for_each(|handle| point.set(*handle, self.origin().get(*handle)));
-            laws.push(law(*term, handles, 0.0)?);
+            laws.push(law(*term, handles)?);
         }
-        let beside = |index: &usize| {
-            laws.iter()
-                .any(|it: &Law| it.values.iter().any(|(handle, _)| *handle == Unknown::Parameter(*index)))
-        };
-        let parameters = self.rig.base().into_iter().filter(|it| !beside(it)).collect();
+        let mut parameters = self.rig.base();
+        for (handle, _) in stated.iter().chain(&laws).flat_map(|it: &Law| &it.values) {
+            parameters.retain(|it| *handle != Unknown::Parameter(*it));
+        }
         let states = self.rig.plant.states.iter();
         Ok(Frame {
             records,
@@ -176,7 +163,8 @@ impl Baseline<'_> {
             far: false,
             dynamics: self.dynamics(&[])?,
             parameters,
-            laws,
+            stated,
+            found: laws,
             ports: Port::all(self.rig, record),
             nominal: states.map(|it| it.nominal.unwrap_or(1.0)).collect(),
         })
@@ -201,12 +189,13 @@ impl Baseline<'_> {
         let about = About { frame, errors, stretches: &stretches, timing: &timing };
         let mut precisions = self.precisions(&frame.parameters);
         precisions.extend(timing.iter().map(|_| (DELAY / TIMING).powi(2)));
-        precisions.extend(frame.laws.iter().map(|it| it.precision));
+        precisions.extend(frame.stated.iter().map(|_| TOLERANCE.powi(-2)));
+        precisions.extend(frame.found.iter().map(|_| 0.0));
         let point =
             if frame.fresh { self.nominal_by_balance(&about, &precisions) } else { frame.point.clone() };
         let (setting, windows) = self.along(&about, &point)?;
         let (records, train) = (&frame.records[..], self.train.len());
-        let mut missing = Missing { records, train, laws: &frame.laws, setting, windows, precisions };
+        let mut missing = Missing { records, train, stated: &frame.stated, setting, windows, precisions };
         // Where nothing needs to be missing, a trajectory that follows the sensors follows their noise.
         let location = missing.located();
         let likely = location.ranked.iter().filter(|it| it.gain > 0.0).take(1);
@@ -259,17 +248,16 @@ impl Baseline<'_> {
             let start = self.starts(std::slice::from_ref(&part)).pop()?;
             let mut window = setting.window(records, *record, samples.clone(), &start)?;
             // Laws with their values; by how much more or less is a nuisance.
-            let law =
+            let column =
                 |law: &Law| setting.changed((records, &window), (law.term, &*law.dynamics), &law.at(point));
-            let laws = frame.laws.iter().map(law).collect::<Option<Vec<Column>>>()?;
-            let lawful = frame.stated().fold(point.clone(), |point, law| law.at(&point));
-            let count = frame.stated().count();
-            if count > 0 {
-                let (record, dynamics) = (&records[*record], &*frame.dynamics);
-                let sharp = frame.stated().fold(lawful.clone(), |point, law| law.sharp(&point));
-                // Those of the parameter set come first.
-                setting.take_along(record, &mut window, &laws[..count], (dynamics, &lawful));
-                setting.loosen(record, &mut window, dynamics, (&lawful, &sharp));
+            let columns = |laws: &[Law]| laws.iter().map(column).collect::<Option<Vec<Column>>>();
+            let (stated, found) = (columns(&frame.stated)?, columns(&frame.found)?);
+            let lawful = frame.stated.iter().fold(point.clone(), |point, law| law.at(&point));
+            if !stated.is_empty() {
+                let record = &records[*record];
+                let sharp = frame.stated.iter().fold(lawful.clone(), |point, law| law.sharp(&point));
+                setting.take_along(record, &mut window, &stated, &lawful);
+                setting.loosen(record, &mut window, (&lawful, &sharp));
             }
             let late = |handle: &Unknown| {
                 let mut late = lawful.clone();
@@ -277,7 +265,7 @@ impl Baseline<'_> {
                 setting.changed((records, &window), (Term::Fault(*handle), setting.dynamics), &late)
             };
             window.timing = timing.iter().map(late).collect::<Option<_>>()?;
-            window.timing.extend(laws);
+            window.timing.extend(stated.into_iter().chain(found));
             Some(window)
         };
         stretches.par_iter().filter_map(of).collect()
@@ -287,10 +275,7 @@ impl Baseline<'_> {
 impl Missing<'_> {
     /// The point of the trajectory, with the laws of the parameter set.
     pub fn point(&self) -> Estimate {
-        self.laws
-            .iter()
-            .filter(|it| it.is_stated())
-            .fold(self.setting.point.clone(), |point, law| law.at(&point))
+        self.stated.iter().fold(self.setting.point.clone(), |point, law| law.at(&point))
     }
 
     /// Numbers of the columns that are fitted whatever is looked for.
