@@ -8,8 +8,8 @@ use strut_model::{
 use crate::{
     Header,
     schema::{
-        BaseUnit, Capabilities, Category, Choice, CoSimulation, Document, Experiment, Item, Kind, List,
-        ModelExchange, ModelStructure, Real, ScalarVariable, SimpleType, Start, Unit, Unknown,
+        About, BaseUnit, Capabilities, Category, Choice, CoSimulation, Common, Document, Experiment, Item,
+        Kind, List, ModelExchange, ModelStructure, Real, ScalarVariable, SimpleType, Start, Unit, Unknown,
     },
 };
 
@@ -19,19 +19,11 @@ const CAPABILITIES: Capabilities =
 
 /// The whole document.
 pub fn document(interface: &Interface, header: &Header<'_>) -> Document {
-    let about = interface.about;
     Document {
         fmi_version: "2.0",
         model_name: header.name.into(),
         guid: interface.guid(),
-        description: if header.description.is_empty() { about.summary } else { header.description }.into(),
-        author: header.author.into(),
-        version: header.version.into(),
-        copyright: header.copyright.into(),
-        license: header.license.into(),
-        generation_tool: header.generation_tool.into(),
-        generated: header.generated.map(str::to_owned),
-        naming: "structured",
+        about: about(interface, header),
         event_indicators: interface.event_indicators,
         model_exchange: ModelExchange {
             identifier: header.name.into(),
@@ -47,14 +39,31 @@ pub fn document(interface: &Interface, header: &Header<'_>) -> Document {
         },
         units: units(&interface.variables, &[]),
         types: types(&interface.variables),
-        log_categories: LOG_CATEGORIES
-            .iter()
-            .map(|&(name, description)| Category { name, description })
-            .collect(),
-        experiment: experiment(about.experiment),
+        log_categories: log_categories(),
+        experiment: experiment(interface.about.experiment),
         variables: interface.variables.iter().map(variable).collect(),
         structure: structure(interface),
     }
+}
+
+/// What either version says of an FMU as a whole.
+pub fn about(interface: &Interface, header: &Header<'_>) -> About {
+    About {
+        description: if header.description.is_empty() { interface.about.summary } else { header.description }
+            .into(),
+        author: header.author.into(),
+        version: header.version.into(),
+        copyright: header.copyright.into(),
+        license: header.license.into(),
+        generation_tool: header.generation_tool.into(),
+        generated: header.generated.map(str::to_owned),
+        naming: "structured",
+    }
+}
+
+/// The categories of log messages.
+pub fn log_categories() -> List<Category> {
+    LOG_CATEGORIES.iter().map(|&(name, description)| Category { name, description }).collect()
 }
 
 /// The experiment that tools propose.
@@ -139,37 +148,59 @@ fn types(variables: &[Variable]) -> List<SimpleType> {
 }
 
 fn variable(variable: &Variable) -> ScalarVariable {
+    let Common { name, reference, description, causality, variability, initial } =
+        common(variable, variable.reference as usize);
     ScalarVariable {
+        name,
+        reference,
+        description,
+        causality,
+        variability,
+        initial,
+        kind: kind(&variable.kind),
+    }
+}
+
+/// What variables of every type say, with a reference.
+pub fn common(variable: &Variable, reference: usize) -> Common {
+    Common {
         name: variable.name.clone(),
-        reference: variable.reference,
+        reference,
         description: variable.doc.clone(),
         causality: variable.causality.name(),
         variability: variable.variability.name(),
         initial: variable.initial.map(Initial::name),
-        kind: kind(&variable.kind),
     }
 }
 
 fn kind(kind: &VariableKind) -> Kind {
     match kind {
-        VariableKind::Real { unit, start, min, max, nominal, derivative_of } => Kind::Real(Real {
-            unit: unit.symbol.to_string(),
-            min: min.map(number),
-            max: max.map(number),
-            nominal: nominal.map(number),
-            start: start.map(number),
-            derivative: derivative_of.map(|position| position + 1),
-        }),
+        VariableKind::Real { .. } => Kind::Real(real(kind)),
         VariableKind::Integer { start } => Kind::Integer(Start { start: *start }),
         VariableKind::Boolean { start } => Kind::Boolean(Start { start: *start }),
         VariableKind::Text { start } => Kind::String(Start { start: start.clone() }),
-        VariableKind::Choice { enumeration, start } => Kind::Enumeration(Choice {
-            declared_type: enumeration.name,
-            min: 1,
-            max: enumeration.items.len(),
-            start: *start,
-        }),
+        VariableKind::Choice { enumeration, start } => Kind::Enumeration(choice(enumeration, *start)),
     }
+}
+
+/// What is said of a real variable, its derivative counted from one; nothing of another.
+pub fn real(kind: &VariableKind) -> Real {
+    let VariableKind::Real { unit, start, min, max, nominal, derivative_of } = kind else {
+        return Real::default();
+    };
+    Real {
+        unit: unit.symbol.to_string(),
+        min: min.map(number),
+        max: max.map(number),
+        nominal: nominal.map(number),
+        start: start.map(number),
+        derivative: derivative_of.map(|position| position + 1),
+    }
+}
+
+/// A choice among an enumeration's items.
+pub fn choice(enumeration: &Enumeration, start: i32) -> Choice {
+    Choice { declared_type: enumeration.name, min: 1, max: enumeration.items.len(), start }
 }
 
 fn structure(interface: &Interface) -> ModelStructure {

@@ -56,24 +56,25 @@ impl Default for Header<'_> {
 
 /// The description of a model as an XML document of FMI 2.0.
 pub fn write(interface: &Interface, header: &Header<'_>) -> String {
-    xml(&content::document(interface, header))
+    xml("fmiModelDescription", &content::document(interface, header))
 }
 
 /// The description of a model as an XML document of FMI 3.0.
 pub fn write_fmi3(interface: &Interface, header: &Header<'_>) -> String {
-    xml(&fmi3::document(interface, header))
+    xml("fmiModelDescription", &fmi3::document(interface, header))
 }
 
 /// The `terminalsAndIcons.xml` of FMI 3.0.
 pub fn write_terminals(interface: &Interface) -> String {
-    xml(&fmi3::terminals(interface))
+    xml("fmiTerminalsAndIcons", &fmi3::terminals(interface))
 }
 
-fn xml(document: &impl serde::Serialize) -> String {
+fn xml(root: &str, document: &impl serde::Serialize) -> String {
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    let mut serializer = quick_xml::se::Serializer::new(&mut text);
-    serializer.indent(' ', 2);
+    let serializer = quick_xml::se::Serializer::with_root(&mut text, Some(root));
     // Strings, numbers and lists in named structs: there is nothing that the serializer refuses.
+    let mut serializer = serializer.expect("a root's name is a name");
+    serializer.indent(' ', 2);
     document.serialize(serializer).expect("the description is plain data");
     text.push('\n');
     text

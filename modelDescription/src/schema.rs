@@ -7,7 +7,6 @@ use serde::Serialize;
 
 /// `<fmiModelDescription>`.
 #[derive(Serialize)]
-#[serde(rename = "fmiModelDescription")]
 pub struct Document {
     #[serde(rename = "@fmiVersion")]
     pub fmi_version: &'static str,
@@ -15,22 +14,8 @@ pub struct Document {
     pub model_name: String,
     #[serde(rename = "@guid")]
     pub guid: String,
-    #[serde(rename = "@description", skip_serializing_if = "String::is_empty")]
-    pub description: String,
-    #[serde(rename = "@author", skip_serializing_if = "String::is_empty")]
-    pub author: String,
-    #[serde(rename = "@version", skip_serializing_if = "String::is_empty")]
-    pub version: String,
-    #[serde(rename = "@copyright", skip_serializing_if = "String::is_empty")]
-    pub copyright: String,
-    #[serde(rename = "@license", skip_serializing_if = "String::is_empty")]
-    pub license: String,
-    #[serde(rename = "@generationTool", skip_serializing_if = "String::is_empty")]
-    pub generation_tool: String,
-    #[serde(rename = "@generationDateAndTime", skip_serializing_if = "Option::is_none")]
-    pub generated: Option<String>,
-    #[serde(rename = "@variableNamingConvention")]
-    pub naming: &'static str,
+    #[serde(flatten)]
+    pub about: About,
     #[serde(rename = "@numberOfEventIndicators")]
     pub event_indicators: usize,
     #[serde(rename = "ModelExchange")]
@@ -49,6 +34,27 @@ pub struct Document {
     pub variables: List<ScalarVariable>,
     #[serde(rename = "ModelStructure")]
     pub structure: ModelStructure,
+}
+
+/// What either version says of an FMU as a whole.
+#[derive(Serialize)]
+pub struct About {
+    #[serde(rename = "@description", skip_serializing_if = "String::is_empty")]
+    pub description: String,
+    #[serde(rename = "@author", skip_serializing_if = "String::is_empty")]
+    pub author: String,
+    #[serde(rename = "@version", skip_serializing_if = "String::is_empty")]
+    pub version: String,
+    #[serde(rename = "@copyright", skip_serializing_if = "String::is_empty")]
+    pub copyright: String,
+    #[serde(rename = "@license", skip_serializing_if = "String::is_empty")]
+    pub license: String,
+    #[serde(rename = "@generationTool", skip_serializing_if = "String::is_empty")]
+    pub generation_tool: String,
+    #[serde(rename = "@generationDateAndTime", skip_serializing_if = "Option::is_none")]
+    pub generated: Option<String>,
+    #[serde(rename = "@variableNamingConvention")]
+    pub naming: &'static str,
 }
 
 /// An element that holds others of one kind.
@@ -195,13 +201,30 @@ pub struct Experiment {
     pub step: String,
 }
 
-/// `<ScalarVariable>`.
+/// What variables of every type say.
+#[derive(Serialize)]
+pub struct Common {
+    #[serde(rename = "@name")]
+    pub name: String,
+    #[serde(rename = "@valueReference")]
+    pub reference: usize,
+    #[serde(rename = "@description", skip_serializing_if = "String::is_empty")]
+    pub description: String,
+    #[serde(rename = "@causality")]
+    pub causality: &'static str,
+    #[serde(rename = "@variability")]
+    pub variability: &'static str,
+    #[serde(rename = "@initial", skip_serializing_if = "Option::is_none")]
+    pub initial: Option<&'static str>,
+}
+
+/// `<ScalarVariable>`. Its attributes stand beside an element without a name, which a flattened struct cannot.
 #[derive(Serialize)]
 pub struct ScalarVariable {
     #[serde(rename = "@name")]
     pub name: String,
     #[serde(rename = "@valueReference")]
-    pub reference: u32,
+    pub reference: usize,
     #[serde(rename = "@description", skip_serializing_if = "String::is_empty")]
     pub description: String,
     #[serde(rename = "@causality")]
@@ -224,7 +247,7 @@ pub enum Kind {
     Enumeration(Choice),
 }
 
-/// `<Real>`.
+/// What `<Real>` of FMI 2.0 and `<Float64>` of FMI 3.0 say; `start` of an array is that of its elements.
 #[derive(Default, Serialize)]
 pub struct Real {
     #[serde(rename = "@unit", skip_serializing_if = "String::is_empty")]
@@ -248,7 +271,7 @@ pub struct Start<T> {
     pub start: T,
 }
 
-/// `<Enumeration>` of a variable.
+/// What `<Enumeration>` of a variable says.
 #[derive(Serialize)]
 pub struct Choice {
     #[serde(rename = "@declaredType")]

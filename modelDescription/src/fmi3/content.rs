@@ -2,21 +2,20 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use strut_model::{Initial, Interface, LOG_CATEGORIES, Numbering, Table, Variable, VariableKind, unit};
+use strut_model::{Initial, Interface, Numbering, Table, Variable, VariableKind, unit};
 
 use super::schema::{
-    self, Capabilities, Choice, CoSimulation, Common, Dependent, Dimension, Document, Element,
-    EnumerationItem, EnumerationType, Float64, Indicator, ModelExchange, Start, Text, TextStart, Type,
+    self, Capabilities, Choice, CoSimulation, Dependent, Dimension, Document, Element, EnumerationItem,
+    EnumerationType, Float64, Indicator, ModelExchange, Start, Text, TextStart, Type,
 };
 use crate::{
     Header,
-    content::{enumerations, experiment, number, units},
-    schema::{Category, List},
+    content::{about, choice, common, enumerations, experiment, log_categories, number, real, units},
+    schema::{Common, List, Real},
 };
 
 /// The whole document.
 pub fn document(interface: &Interface, header: &Header<'_>) -> Document {
-    let about = interface.about;
     let capabilities = || Capabilities {
         identifier: header.name.into(),
         state: true,
@@ -29,14 +28,7 @@ pub fn document(interface: &Interface, header: &Header<'_>) -> Document {
         fmi_version: "3.0",
         model_name: header.name.into(),
         token: interface.guid(),
-        description: if header.description.is_empty() { about.summary } else { header.description }.into(),
-        author: header.author.into(),
-        version: header.version.into(),
-        copyright: header.copyright.into(),
-        license: header.license.into(),
-        generation_tool: header.generation_tool.into(),
-        generated: header.generated.map(str::to_owned),
-        naming: "structured",
+        about: about(interface, header),
         model_exchange: ModelExchange { common: capabilities() },
         co_simulation: CoSimulation {
             common: capabilities(),
@@ -57,11 +49,8 @@ pub fn document(interface: &Interface, header: &Header<'_>) -> Document {
                 })
             })
             .collect(),
-        log_categories: LOG_CATEGORIES
-            .iter()
-            .map(|&(name, description)| Category { name, description })
-            .collect(),
-        experiment: experiment(about.experiment),
+        log_categories: log_categories(),
+        experiment: experiment(interface.about.experiment),
         variables: variables(interface, &numbering),
         structure: structure(interface, &numbering),
     }
@@ -91,16 +80,8 @@ fn variables(interface: &Interface, numbering: &Numbering) -> List<schema::Varia
     };
     let tables: BTreeMap<usize, &Table> = interface.tables.iter().map(|table| (table.first, table)).collect();
     let plain = |common, unit: &str| {
-        schema::Variable::Float64(Float64 {
-            common,
-            unit: unit.into(),
-            min: None,
-            max: None,
-            nominal: None,
-            start: None,
-            derivative: None,
-            dimension: None,
-        })
+        let real = Real { unit: unit.into(), ..Real::default() };
+        schema::Variable::Float64(Float64 { common, real, dimension: None })
     };
     let declared = interface.variables.iter().enumerate().filter_map(|(position, variable)| {
         let part = numbering.lengths.get(position) == Some(&0);
@@ -118,44 +99,28 @@ fn variables(interface: &Interface, numbering: &Numbering) -> List<schema::Varia
 
 /// A variable, or the array whose first element it is. The position in the list is the value reference.
 fn declared(position: usize, variable: &Variable, array: Option<(&Table, &[Variable])>) -> schema::Variable {
-    let named = array.map_or((&variable.name, &variable.doc), |(table, _)| (&table.name, &table.doc));
-    let common = Common {
-        name: named.0.clone(),
-        reference: position,
-        description: named.1.clone(),
-        causality: variable.causality.name(),
-        variability: variable.variability.name(),
-        initial: variable.initial.map(Initial::name),
-    };
+    let mut common = common(variable, position);
+    if let Some((table, _)) = array {
+        (common.name, common.description) = (table.name.clone(), table.doc.clone());
+    }
     match &variable.kind {
-        VariableKind::Real { unit, start, min, max, nominal, derivative_of } => {
-            let starts = match array {
+        VariableKind::Real { start, derivative_of, .. } => {
+            let start = match array {
                 None => start.map(number),
                 Some((table, all)) => starts(&all[table.first..table.first + table.len]),
             };
-            schema::Variable::Float64(Float64 {
-                common,
-                unit: unit.symbol.to_string(),
-                min: min.map(number),
-                max: max.map(number),
-                nominal: nominal.map(number),
-                start: starts,
-                derivative: *derivative_of,
-                dimension: array.map(|(table, _)| Dimension { start: table.len }),
-            })
+            let real = Real { start, derivative: *derivative_of, ..real(&variable.kind) };
+            let dimension = array.map(|(table, _)| Dimension { start: table.len });
+            schema::Variable::Float64(Float64 { common, real, dimension })
         }
         VariableKind::Integer { start } => schema::Variable::Int32(Start { common, start: *start }),
         VariableKind::Boolean { start } => schema::Variable::Boolean(Start { common, start: *start }),
         VariableKind::Text { start } => {
             schema::Variable::String(Text { common, start: TextStart { value: start.clone() } })
         }
-        VariableKind::Choice { enumeration, start } => schema::Variable::Enumeration(Choice {
-            common,
-            declared_type: enumeration.name,
-            min: 1,
-            max: enumeration.items.len(),
-            start: *start,
-        }),
+        VariableKind::Choice { enumeration, start } => {
+            schema::Variable::Enumeration(Choice { common, choice: choice(enumeration, *start) })
+        }
     }
 }
 

@@ -3,11 +3,10 @@
 
 use serde::Serialize;
 
-use crate::schema::{Category, Experiment, Item, List, Unit};
+use crate::schema::{About, Category, Common, Experiment, Item, List, Real, Unit};
 
 /// `<fmiModelDescription>`.
 #[derive(Serialize)]
-#[serde(rename = "fmiModelDescription")]
 pub struct Document {
     #[serde(rename = "@fmiVersion")]
     pub fmi_version: &'static str,
@@ -15,22 +14,8 @@ pub struct Document {
     pub model_name: String,
     #[serde(rename = "@instantiationToken")]
     pub token: String,
-    #[serde(rename = "@description", skip_serializing_if = "String::is_empty")]
-    pub description: String,
-    #[serde(rename = "@author", skip_serializing_if = "String::is_empty")]
-    pub author: String,
-    #[serde(rename = "@version", skip_serializing_if = "String::is_empty")]
-    pub version: String,
-    #[serde(rename = "@copyright", skip_serializing_if = "String::is_empty")]
-    pub copyright: String,
-    #[serde(rename = "@license", skip_serializing_if = "String::is_empty")]
-    pub license: String,
-    #[serde(rename = "@generationTool", skip_serializing_if = "String::is_empty")]
-    pub generation_tool: String,
-    #[serde(rename = "@generationDateAndTime", skip_serializing_if = "Option::is_none")]
-    pub generated: Option<String>,
-    #[serde(rename = "@variableNamingConvention")]
-    pub naming: &'static str,
+    #[serde(flatten)]
+    pub about: About,
     #[serde(rename = "ModelExchange")]
     pub model_exchange: ModelExchange,
     #[serde(rename = "CoSimulation")]
@@ -119,41 +104,13 @@ pub enum Variable {
     Enumeration(Choice),
 }
 
-/// What variables of every type say.
-#[derive(Serialize)]
-pub struct Common {
-    #[serde(rename = "@name")]
-    pub name: String,
-    #[serde(rename = "@valueReference")]
-    pub reference: usize,
-    #[serde(rename = "@description", skip_serializing_if = "String::is_empty")]
-    pub description: String,
-    #[serde(rename = "@causality")]
-    pub causality: &'static str,
-    #[serde(rename = "@variability")]
-    pub variability: &'static str,
-    #[serde(rename = "@initial", skip_serializing_if = "Option::is_none")]
-    pub initial: Option<&'static str>,
-}
-
 /// `<Float64>`.
 #[derive(Serialize)]
 pub struct Float64 {
     #[serde(flatten)]
     pub common: Common,
-    #[serde(rename = "@unit", skip_serializing_if = "String::is_empty")]
-    pub unit: String,
-    #[serde(rename = "@min", skip_serializing_if = "Option::is_none")]
-    pub min: Option<String>,
-    #[serde(rename = "@max", skip_serializing_if = "Option::is_none")]
-    pub max: Option<String>,
-    #[serde(rename = "@nominal", skip_serializing_if = "Option::is_none")]
-    pub nominal: Option<String>,
-    /// Of an array, those of its elements.
-    #[serde(rename = "@start", skip_serializing_if = "Option::is_none")]
-    pub start: Option<String>,
-    #[serde(rename = "@derivative", skip_serializing_if = "Option::is_none")]
-    pub derivative: Option<usize>,
+    #[serde(flatten)]
+    pub real: Real,
     #[serde(rename = "Dimension", skip_serializing_if = "Option::is_none")]
     pub dimension: Option<Dimension>,
 }
@@ -195,14 +152,8 @@ pub struct TextStart {
 pub struct Choice {
     #[serde(flatten)]
     pub common: Common,
-    #[serde(rename = "@declaredType")]
-    pub declared_type: &'static str,
-    #[serde(rename = "@min")]
-    pub min: i32,
-    #[serde(rename = "@max")]
-    pub max: usize,
-    #[serde(rename = "@start")]
-    pub start: i32,
+    #[serde(flatten)]
+    pub choice: crate::schema::Choice,
 }
 
 /// An element of `<ModelStructure>`.
@@ -233,7 +184,6 @@ pub struct Indicator {
 
 /// `<fmiTerminalsAndIcons>`.
 #[derive(Serialize)]
-#[serde(rename = "fmiTerminalsAndIcons")]
 pub struct TerminalsAndIcons {
     #[serde(rename = "@fmiVersion")]
     pub fmi_version: &'static str,
