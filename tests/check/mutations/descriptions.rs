@@ -2,7 +2,7 @@
 
 use zip::CompressionMethod;
 
-use super::fmus::FACTS;
+use super::fmus::{FACTS, RULES};
 use super::{Case, schema};
 use crate::subject::{Parts, parts};
 
@@ -63,16 +63,7 @@ fn without_interface(name: &str) -> Parts {
 }
 
 pub fn all() -> Vec<Case> {
-    let rules = [
-        "schema.element",
-        "schema.order",
-        "schema.missing",
-        "schema.attribute",
-        "schema.required",
-        "schema.value",
-        "schema.text",
-    ];
-    let of_schema = schema::all(&rich().xml, &rules, &FACTS);
+    let of_schema = schema::all(&rich().xml, &RULES, &FACTS);
     let mut cases: Vec<Case> = of_schema
         .into_iter()
         .map(|(what, rule, xml)| Case::fmu(what, rule, Parts { xml, ..rich() }.bytes()))

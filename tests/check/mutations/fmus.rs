@@ -11,7 +11,7 @@ use crate::subject::archive;
 const NAME: &str = "TumQuarterVehicle.fmu";
 const XML: &str = "modelDescription.xml";
 
-const RULES: schema::Rules = [
+pub(super) const RULES: schema::Rules = [
     "schema.element",
     "schema.order",
     "schema.missing",

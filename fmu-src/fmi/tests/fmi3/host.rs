@@ -25,6 +25,10 @@ unsafe extern "C" fn record(environment: *mut c_void, _: Status, category: Text,
 /// Records into a list.
 pub const RECORD: LogMessage = record;
 
+/// Directional and adjoint derivatives have the same arguments.
+type Derivative =
+    unsafe fn(Component, *const u32, usize, *const u32, usize, *const f64, usize, *mut f64, usize) -> Status;
+
 /// An instance and what it has told.
 pub struct Host<M: Model> {
     pub component: Component,
@@ -169,24 +173,7 @@ impl<M: Model> Host<M> {
         seed: &[f64],
         n: usize,
     ) -> Result<Vec<f64>, Status> {
-        let mut result = vec![f64::NAN; n];
-        // SAFETY: see above.
-        let status = unsafe {
-            let (u, k) = ((unknowns.as_ptr(), unknowns.len()), (knowns.as_ptr(), knowns.len()));
-            let (seed, m) = (seed.as_ptr(), seed.len());
-            f::get_directional_derivative::<M>(
-                self.component,
-                u.0,
-                u.1,
-                k.0,
-                k.1,
-                seed,
-                m,
-                result.as_mut_ptr(),
-                n,
-            )
-        };
-        ok(status, result)
+        self.derivative(f::get_directional_derivative::<M>, (unknowns, knowns, seed), n)
     }
 
     pub fn adjoint(
@@ -196,23 +183,20 @@ impl<M: Model> Host<M> {
         seed: &[f64],
         n: usize,
     ) -> Result<Vec<f64>, Status> {
+        self.derivative(f::get_adjoint_derivative::<M>, (unknowns, knowns, seed), n)
+    }
+
+    fn derivative(
+        &self,
+        function: Derivative,
+        (unknowns, knowns, seed): (&[u32], &[u32], &[f64]),
+        n: usize,
+    ) -> Result<Vec<f64>, Status> {
         let mut result = vec![f64::NAN; n];
+        let (u, k) = ((unknowns.as_ptr(), unknowns.len()), (knowns.as_ptr(), knowns.len()));
+        let (seed, m) = (seed.as_ptr(), seed.len());
         // SAFETY: see above.
-        let status = unsafe {
-            let (u, k) = ((unknowns.as_ptr(), unknowns.len()), (knowns.as_ptr(), knowns.len()));
-            let (seed, m) = (seed.as_ptr(), seed.len());
-            f::get_adjoint_derivative::<M>(
-                self.component,
-                u.0,
-                u.1,
-                k.0,
-                k.1,
-                seed,
-                m,
-                result.as_mut_ptr(),
-                n,
-            )
-        };
+        let status = unsafe { function(self.component, u.0, u.1, k.0, k.1, seed, m, result.as_mut_ptr(), n) };
         ok(status, result)
     }
 
