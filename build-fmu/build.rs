@@ -11,7 +11,7 @@ fn main() {
     let mut files = Vec::new();
     collect(sources, &mut files);
     files.sort();
-    // A published crate stands alone; then the version tells.
+    // A published crate stands alone; the version identifies it.
     let mut text = env!("CARGO_PKG_VERSION").as_bytes().to_vec();
     for file in files {
         // With the same line ends wherever they were checked out.

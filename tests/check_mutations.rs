@@ -1,5 +1,5 @@
 //! `build-fmu check` of good FMUs and systems with one fault each: every rule that is checked finds its mutations, and nothing is
-//! found in what is not mutated.
+//! found without a mutation.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;

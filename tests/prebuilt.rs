@@ -1,4 +1,4 @@
-//! FMUs of prebuilt libraries, where there is no cargo.
+//! FMUs of prebuilt libraries, without cargo.
 
 use std::fs;
 use std::path::Path;

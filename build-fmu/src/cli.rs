@@ -152,7 +152,7 @@ pub struct ListArguments {
     #[arg(value_name = "NAME")]
     pub names: Vec<String>,
 
-    /// What there is besides.
+    /// The models and systems to choose from.
     #[command(flatten)]
     pub models: ModelArguments,
 
@@ -168,7 +168,7 @@ pub struct DescribeArguments {
     #[arg(value_name = "NAME")]
     pub name: String,
 
-    /// What there is besides.
+    /// The models and systems to choose from.
     #[command(flatten)]
     pub models: ModelArguments,
 
@@ -197,7 +197,7 @@ pub struct CheckArguments {
     #[arg(long, conflicts_with = "fmpy")]
     pub no_fmpy: bool,
 
-    /// Raise each input, and tell which outputs rise and which fall: signs stand in no description
+    /// Raise each input, and print which outputs rise and which fall
     #[arg(long, conflicts_with = "no_run")]
     pub signs: bool,
 
@@ -256,7 +256,7 @@ pub struct LibrariesArguments {
     #[arg(long, value_name = "DIR", env = "STRUT_CROSS")]
     pub cross: Option<PathBuf>,
 
-    /// Folder of prebuilt libraries; cargo builds what is not in it [env: STRUT_LIBRARIES=]
+    /// Folder of prebuilt libraries; cargo builds missing ones [env: STRUT_LIBRARIES=]
     #[arg(long, value_name = "DIR")]
     pub libraries: Option<PathBuf>,
 }
@@ -292,7 +292,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", requires = "set")]
     pub name: Option<String>,
 
-    /// Folder of prebuilt libraries, from `build-fmu libraries`; cargo builds what is not in it [env: STRUT_LIBRARIES=]
+    /// Folder of prebuilt libraries, from `build-fmu libraries`; cargo builds missing ones [env: STRUT_LIBRARIES=]
     #[arg(long, value_name = "DIR")]
     pub libraries: Option<PathBuf>,
 

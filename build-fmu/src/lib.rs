@@ -72,7 +72,7 @@ use strut_model::{Entry, ParameterSet};
 #[cfg(feature = "strut")]
 use strut_model::{Inputs, Trajectory};
 
-/// The version of this program, with the commit where the build is told: `0.1.0 (1a2b3c4d5e6f)`.
+/// The version of this program, with the commit in release builds: `0.1.0 (1a2b3c4d5e6f)`.
 pub const VERSION: &str = match option_env!("STRUT_VERSION") {
     Some(version) => version,
     None => env!("CARGO_PKG_VERSION"),
@@ -142,7 +142,7 @@ pub enum Wanted<'a> {
 }
 
 /// Makes an FMU of one of Strut's models in a folder. `libraries` is a folder of prebuilt ones, else the one beside the
-/// program; cargo builds what is not there.
+/// program; cargo builds missing ones.
 ///
 /// # Errors
 /// If the values do not fit the model, there is neither a library nor cargo, or the folder cannot be written: what to do.
@@ -227,7 +227,7 @@ pub fn main(project: &Project) -> ExitCode {
     run(project, &CommandLine::parse())
 }
 
-/// Builds what a command line asks for; failures are told on stderr.
+/// Runs a command line; failures are printed on stderr.
 pub fn run(project: &Project, line: &CommandLine) -> ExitCode {
     match run::run(project, line) {
         Ok(code) => code,

@@ -54,7 +54,7 @@ impl<'a> Origin<'a> {
     /// The folder of the files that parameter sets bring.
     ///
     /// # Errors
-    /// If neither a folder of libraries nor cargo tells.
+    /// If there is neither a folder of libraries nor cargo.
     pub fn files(&self) -> Result<PathBuf> {
         if let Some(prebuilt) = &self.prebuilt
             && prebuilt.resources().is_dir()
@@ -136,7 +136,7 @@ impl<'a> Origin<'a> {
         Toolchain::of(platform, arguments.cross.as_deref())
     }
 
-    /// Builds what is missing; all libraries of a platform.
+    /// Builds missing libraries, and returns all of a platform.
     ///
     /// # Errors
     /// If cargo fails.
@@ -195,7 +195,7 @@ pub fn platforms(targets: &[String]) -> Result<Vec<Platform>> {
     Ok(platforms)
 }
 
-/// Builds the library of every model into a folder that takes the place of cargo; what to tell of it.
+/// Builds the library of every model into a folder that takes the place of cargo, and returns the lines to print.
 ///
 /// # Errors
 /// If cargo fails or the folder cannot be written.

@@ -31,7 +31,7 @@ fn a_small_model_is_written_as_expected() {
         .replace(&interface.guid(), "{token}")
         .replace(&format!("Strut {}", env!("CARGO_PKG_VERSION")), "Strut");
     let expected = include_str!("snapshots/wagon-fmi3.xml");
-    assert!(text == expected, "tests/snapshots/wagon-fmi3.xml does not agree with what is written:\n{text}");
+    assert!(text == expected, "tests/snapshots/wagon-fmi3.xml does not agree with this text:\n{text}");
 }
 
 #[test]

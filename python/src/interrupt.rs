@@ -30,7 +30,7 @@ pub fn interruptible<T: Send + 'static>(
     watched(py, &Arc::default(), |_| work(), |_| Ok(()))
 }
 
-/// Does work that tells its progress and ends early when `stop` is set, which a signal does.
+/// Runs work with progress. It ends early when a signal sets `stop`.
 ///
 /// # Errors
 /// Python's signal, an exception of `progress`, or a panic of the work.

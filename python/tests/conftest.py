@@ -1,4 +1,4 @@
-"""The package as somebody has it who has installed it: without cargo, and not in the project's folder."""
+"""The installed package: without cargo, and not in the project's folder."""
 
 import doctest
 import os

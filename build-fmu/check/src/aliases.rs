@@ -20,7 +20,7 @@ pub fn findings(description: &Description) -> Vec<Finding> {
     shared.filter_map(|((_, reference), set)| finding(reference, &set)).collect()
 }
 
-/// The first that is wrong with a set: what follows from it is not told, too.
+/// The first fault of a set. Its consequences are not reported.
 fn finding(reference: u32, set: &[&Variable]) -> Option<Finding> {
     let all: Vec<&str> = set.iter().map(|variable| variable.name.as_str()).collect();
     let wrong = |rule: &'static Rule, what: &str| {

@@ -1,4 +1,4 @@
-//! Rules for derivatives: of what they are, and in which unit.
+//! Rules for derivatives: their state and their unit.
 
 use std::collections::HashSet;
 
@@ -64,7 +64,7 @@ fn unit(variable: &Variable, state: &Variable, description: &Description) -> Opt
         description.units.iter().find(|unit| Some(&unit.symbol) == variable.unit.as_ref())
     };
     let time = description.variables.iter().find(|it| it.causality == "independent");
-    // Where time is not counted in seconds, or angles are taken for numbers, nothing is told.
+    // Time in other units than seconds, and angles as plain numbers, are no findings.
     let (own, of) = (declared(variable)?, declared(state)?);
     if time.is_some_and(|time| time.unit.as_deref().is_some_and(|unit| unit != "s")) {
         return None;

@@ -148,9 +148,9 @@ pub struct Variable {
     pub nominal: Option<f64>,
     /// Index of the variable that it is the derivative of.
     pub derivative: Option<usize>,
-    /// Whether events may set it anew, if that is told.
+    /// Whether the attribute `reinit` is there.
     pub reinit: bool,
-    /// Whether it is told that it may be set more than once at an instant, or not.
+    /// Whether the attribute `canHandleMultipleSetPerTimeInstant` is there.
     pub multiple_set: bool,
     /// Line of the element.
     pub line: u32,

@@ -69,7 +69,7 @@ pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Re
     Ok(report)
 }
 
-/// The description of an FMU, and what is wrong with its encoding and by the schema.
+/// The description of an FMU, with findings on its encoding and schema.
 ///
 /// # Errors
 /// If it is missing or cannot be read.

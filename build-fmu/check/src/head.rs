@@ -22,9 +22,8 @@ fn identity(description: &Description) -> Vec<Finding> {
     // That it is there at all is for the schema.
     if description.guid.as_ref().is_some_and(|guid| guid.trim().is_empty()) {
         findings.push(
-            Finding::error(fmi::GUID, "the guid is empty").help(
-                "without it nothing tells a library and a description apart that do not belong together",
-            ),
+            Finding::error(fmi::GUID, "the guid is empty")
+                .help("without it an importer cannot reject a library of another description"),
         );
     }
     if let Some(date) = &description.date

@@ -46,7 +46,7 @@ pub struct Options {
     pub fmpy: Fmpy,
     /// Whether the library is run.
     pub run: bool,
-    /// Whether it is told which way outputs go when an input is raised.
+    /// Whether the signs of the outputs' responses to a raised input are reported.
     pub signs: bool,
     /// How long each call of a library may take.
     pub timeout: Duration,

@@ -89,7 +89,7 @@ pub fn findings(
             .map(String::as_str)
             .collect();
         if !missing.is_empty() {
-            let message = format!("<SourceFiles> names what is not in sources/: {}", names(&missing));
+            let message = format!("<SourceFiles> names files that are not in sources/: {}", names(&missing));
             // Who keeps the source code to himself often leaves the list in.
             findings.push(if sources {
                 Finding::error(fmi::SOURCES, message).line(interface.line)

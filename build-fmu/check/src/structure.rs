@@ -123,7 +123,7 @@ fn of_unknown(
     }
     let message = format!("`{name}` in {list} depends on {}, which are no knowns", names(&unknowns));
     let help = if initially {
-        "knowns are inputs, the independent variable, and what is initialised exactly"
+        "knowns are inputs, the independent variable, and exactly initialised variables"
     } else {
         "knowns are inputs, states, and the independent variable"
     };
@@ -135,7 +135,7 @@ fn is_tunable(variable: &Variable) -> bool {
     variable.causality == "parameter" && variable.variability == "tunable"
 }
 
-/// A list of the model structure, and what is wrong with one that has too few or too many.
+/// A list of the model structure, with the rules for missing and surplus entries.
 struct List {
     name: &'static str,
     missing: &'static Rule,

@@ -12,7 +12,7 @@ pub enum Standard {
     Ssp,
 }
 
-/// The text of a file, and what is wrong with its encoding.
+/// The text of a file, with findings on its encoding.
 pub fn decoded(bytes: &[u8], standard: Standard, file: &str) -> (String, Vec<Finding>) {
     let mut findings = Vec::new();
     let (encoding, version) = match standard {

@@ -207,7 +207,7 @@ fn declared_type(variable: &Variable, description: &Description) -> Vec<Finding>
     findings
 }
 
-/// Each unit is declared; what is not is said once, with the variables that have it.
+/// Each unit is declared. An undeclared one is one finding, with its variables.
 fn units(description: &Description) -> Vec<Finding> {
     let declared: HashSet<&str> = description.units.iter().map(|unit| unit.symbol.as_str()).collect();
     let mut others: BTreeMap<&str, Vec<&Variable>> = BTreeMap::new();
@@ -237,7 +237,7 @@ fn arrays(description: &Description) -> Option<Finding> {
         if before + 1 != place || previous > indices {
             let message = format!("the elements of an array are not in order: `{}`", variable.name);
             let help = "they stand one after another, as [1,1], [1,2], [2,1]; or the names are \"flat\"";
-            // One is enough: what is sorted otherwise is so throughout.
+            // One is enough: another order is the same throughout.
             return Some(Finding::warning(fmi::NAME_ARRAY, message).line(variable.line).help(help));
         }
     }

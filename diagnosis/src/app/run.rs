@@ -35,7 +35,7 @@ pub fn main() -> ExitCode {
     execute(&Arguments::parse())
 }
 
-/// Does what a command line says; failures are told on stderr.
+/// Runs a command line; failures are printed on stderr.
 pub fn execute(arguments: &Arguments) -> ExitCode {
     let done = match (&arguments.command, &arguments.diagnosis) {
         (Some(Command::Simulate(arguments)), _) => simulate(arguments),

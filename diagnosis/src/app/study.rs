@@ -83,7 +83,7 @@ impl Study {
         Ok(())
     }
 
-    /// Diagnoses. `progress` is told of each stage; a [`Deadline`] may end it early, with the best answer so far.
+    /// Diagnoses. `progress` gets the name of each stage; a [`Deadline`] may end it early, with the best answer so far.
     ///
     /// # Errors
     /// If a record cannot be read or lacks signals that the rig needs, or the model diverges on the records: what to do.

@@ -1,4 +1,4 @@
-//! The numbers that decide what is identified, in one place. Numbers of data checks and of numerical methods are no decisions about
+//! The numbers that decide on an identified effect, in one place. Numbers of data checks and of numerical methods are no decisions about
 //! a model; they stand beside their functions.
 
 /// What has to hold before something is said of a model.
@@ -50,7 +50,7 @@ pub struct Criteria {
     pub fitted: f64,
     /// Share of what the best candidate explains from which another one is fitted, too: its shape may be the rougher one.
     pub rival: f64,
-    /// Share of what is explained of the estimation data that has to be explained of the validation data: another excitation may
+    /// Share of the estimation data's explained part that the validation data have to show: another excitation may
     /// show a quarter of it.
     pub confirmed: f64,
     /// Largest missing force, in what would move the rig as it moves.

@@ -142,7 +142,7 @@ struct Shift {
 }
 
 /// How far a state may be from the trajectory, sample by sample: by a share of its magnitude, and by what it moves in a sample,
-/// since a record does not tell when within a sample a velocity changes its sign.
+/// since a record does not show when within a sample a velocity changes its sign.
 fn reach(window: &Window, state: usize) -> Vec<f64> {
     let values: Vec<f64> = window.trajectory.iter().map(|it| it[state]).collect();
     let known = KNOWN * rms(&values);

@@ -1,4 +1,4 @@
-//! Mutations of an archive: its directory, byte by byte, and what is in it.
+//! Mutations of an archive: its directory, byte by byte, and its files.
 
 /// An archive whose entry of a name has another record in the directory.
 pub fn patched(mut bytes: Vec<u8>, name: &str, patch: impl Fn(&mut [u8])) -> Vec<u8> {

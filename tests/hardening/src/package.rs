@@ -104,7 +104,7 @@ impl Package {
             Some("3.0") => Version::Three,
             _ => Version::Two,
         };
-        // A state is told by its place in the list in FMI 2.0, by its reference in FMI 3.0.
+        // FMI 2.0 numbers states by their place in the list, FMI 3.0 by reference.
         let derivatives = document.descendants().filter_map(|node| node.attribute("derivative"));
         let states: Vec<usize> =
             derivatives.map(|text| text.parse().map_err(|error| wrong(&error))).collect::<Result<_, _>>()?;

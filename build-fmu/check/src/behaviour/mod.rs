@@ -24,7 +24,7 @@ pub struct Unpacked<'a> {
     pub odd: &'a Path,
 }
 
-/// Runs each interface for which there is a library; tells which way outputs go, if that is asked for.
+/// Runs each interface for which there is a library; reports the signs of the outputs' responses on request.
 ///
 /// # Errors
 /// If processes cannot be started.

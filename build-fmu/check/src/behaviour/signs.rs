@@ -1,4 +1,4 @@
-//! Which way outputs go when an input is raised: what no file tells, and what models of different makers differ in.
+//! The signs of the outputs' responses to a raised input. No file states them, and models of different makers differ in them.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -100,7 +100,7 @@ impl Bench<'_> {
             for (place, (_, output)) in outputs.iter().enumerate() {
                 let name = output.name.clone();
                 let sign = first_move(&signal(&plain, place), &signal(&run, place));
-                // An input at its upper bound is lowered, and the outputs are told as if it were raised.
+                // An input at its upper bound is lowered, and the signs are turned over.
                 match if raised < start { -sign } else { sign } {
                     0 => response.rest.push(name),
                     1 => response.rise.push(name),

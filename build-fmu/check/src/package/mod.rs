@@ -1,4 +1,4 @@
-//! The archive: what is in it, and what it is unpacked to.
+//! The archive: its entries, and the files unpacked from it.
 
 mod directory;
 mod rules;
@@ -43,9 +43,9 @@ impl Package {
         let mut archive = ZipArchive::new(file).map_err(no_zip)?;
         let mut names = Vec::new();
         for index in 0..archive.len() {
-            // As it is stored: what is deflated, encrypted or otherwise is found out when it is read.
+            // As stored: compression and encryption show when an entry is read.
             let entry = archive.by_index_raw(index).map_err(no_zip)?;
-            // Backslashes are told, and read as what they are meant for.
+            // Backslashes are reported, and read as slashes.
             names.push(String::from_utf8_lossy(entry.name_raw()).replace('\\', "/"));
         }
         Ok(Self { archive, entries, names })

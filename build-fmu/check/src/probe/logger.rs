@@ -36,7 +36,7 @@ pub fn logged() -> Log {
     LOG.lock().map(|log| log.clone()).unwrap_or_default()
 }
 
-/// The logger: it keeps the first messages, and what is wrong with any.
+/// The logger: it keeps the first messages, and the faults of all.
 pub unsafe extern "C" fn log(
     _environment: *mut c_void,
     name: *const c_char,

@@ -180,7 +180,7 @@ fn obey(orders: &Orders, folder: &Path) -> Answers {
     };
     let mut stage = Stage { library: &library, instances: Vec::new(), current: 0, states: BTreeMap::new() };
     for (act, must) in &orders.acts {
-        // Each call is told, so that who waits sees it go on.
+        // Each call is reported, so that the parent sees progress.
         calling.tell(act.function());
         let outcome = stage.perform(act);
         let ends = outcome.status == 4 || (*must && !outcome.is_fine());

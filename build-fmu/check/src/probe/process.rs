@@ -88,7 +88,7 @@ impl Probe {
 const SLOW: u32 = 10;
 
 /// The status at the end; none if a call took too long, or all of them together. Who is slow does not hang: the time begins anew
-/// with each call, which is told in a file.
+/// with each call, which the child notes in a file.
 fn wait(child: &mut Child, timeout: Duration, calling: &Path) -> std::io::Result<Option<ExitStatus>> {
     let begin = Instant::now();
     let (mut end, mut last) = (begin + timeout, None);

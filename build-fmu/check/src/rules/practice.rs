@@ -19,7 +19,7 @@ checked {
     UNIT_MISSING "variables.unit.missing" "" "Inputs, outputs and parameters have a unit."
     DESCRIPTION "variables.description" "" "Inputs, outputs and parameters have a description."
     DERIVATIVES_MISSING "structure.derivatives.missing" "" "For model exchange, <Derivatives> lists every derivative that is declared."
-    DEPENDENCIES "structure.dependencies" "" "Outputs tell what they depend on, so that no false algebraic loops appear."
+    DEPENDENCIES "structure.dependencies" "" "Outputs declare their dependencies, so that no false algebraic loops appear."
     PLATFORM "binary.platform.missing" "" "There are libraries for Windows and Linux."
     BINARY_READ "binary.format" "" "A library's file can be read."
     BINARY_PLATFORM "binary.format.platform" "" "A library is one for the platform of its folder."

@@ -11,7 +11,7 @@ checked {
     ENCRYPTION "system.archive.encryption" "3" "No file is encrypted."
     ZIP_VERSION "system.archive.version" "3" "No more than version 2.0 of the zip format is needed to extract a file."
     SEPARATOR "system.archive.path" "3" "Paths in the archive have forward slashes."
-    NAMES_ENCODING "system.archive.names" "3" "Names beyond ASCII are encoded in UTF-8, which a flag tells."
+    NAMES_ENCODING "system.archive.names" "3" "Names beyond ASCII are encoded in UTF-8, with the flag set."
     PREFIX "system.archive.prefix" "3" "Beside descriptions there is nothing but resources/, extra/ and documentation/."
     DOCUMENTATION "system.archive.documentation" "3" "Documentation has an index.html."
     ID_TWICE "system.twice.id" "4.1" "The id of an entity is unique in its file."
@@ -52,7 +52,7 @@ checked {
 uncheckable {
     "2.1.3" "A namespace is a domain of who defines the extension." "domains are registered elsewhere"
     "2.2" "Only layered standards of the project use org.modelica and org.ssp-standard." "who has written a file does not stand in it"
-    "5.2.1.1" "Geometry is drawn as the standard has it." "it is the importer that draws"
+    "5.2.1.1" "Geometry is drawn as defined." "the importer draws it"
     "5.3.2" "The linear transformation is applied after units are converted." "it is the importer that transforms"
 }
 open {

@@ -30,7 +30,7 @@ pub struct Rules {
     pub finite: Option<&'static Rule>,
 }
 
-/// What is wrong with an element and all within it; what is wrong in the same way at many places is said once.
+/// The faults of an element and all within it; the same fault at many places is one finding.
 pub fn validate(node: Node, schema: &Element, rules: &Rules, file: &str, lines: &Lines) -> Vec<Finding> {
     let mut validator = Validator { rules, file, lines, found: HashMap::new(), findings: Vec::new() };
     validator.element(node, schema);

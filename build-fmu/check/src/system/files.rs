@@ -25,7 +25,7 @@ const RULES: schema::Rules = schema::Rules {
 /// What can stand in place of a file.
 static INLINE: [&Element; 3] = [&schema::ssp::PARAMETER_SET, &schema::ssp::MAPPING, &schema::ssp::DICTIONARY];
 
-/// Reads a file with a root element of some name; also tells what is wrong with it by itself.
+/// Reads a file with a root element of some name, and checks it by itself.
 ///
 /// # Errors
 /// If it is no well-formed XML, or the root is another.
@@ -62,7 +62,7 @@ fn alone(root: Node, schema: &Element, file: &str, lines: &Lines) -> Vec<Finding
         let place = format!("{file}:{}", lines.line(node));
         findings.push(Finding::error(rule, message).at(place));
     };
-    // SSP 2.0 is not looked into, which is told elsewhere.
+    // SSP 2.0 is not checked; the description's version is a finding.
     let newer = version.starts_with("2.");
     if !version.is_empty() && version != "1.0" && !newer {
         wrong(ssp::SOURCE_VERSION, root, format!("<{}> is of the version {version}", schema.name));

@@ -123,7 +123,7 @@ pub struct Binding {
 }
 
 impl Structure {
-    /// Reads the file; also tells what is wrong with it by itself.
+    /// Reads the file, and checks it by itself.
     ///
     /// # Errors
     /// If it is no well-formed XML or describes no system.

@@ -29,7 +29,7 @@ pub fn version() -> Text {
     c"2.0".as_ptr()
 }
 
-/// `fmi2Instantiate`. What is wrong is told through the logger, if there is one.
+/// `fmi2Instantiate`. Errors go to the logger, if there is one.
 ///
 /// # Safety
 /// Texts are null or end with a zero; the callbacks are null or of their declared types.
@@ -70,7 +70,7 @@ pub unsafe fn instantiate<M: Model>(
 }
 
 /// `fmi2SetDebugLogging`. Of the categories only discarded steps and the integration's cost are debug
-/// messages; the others are always told.
+/// messages; the others are always logged.
 ///
 /// # Safety
 /// The component is null or an instance of this model that nobody else uses; there are `n` categories that end with a zero.

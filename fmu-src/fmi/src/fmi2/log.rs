@@ -5,7 +5,7 @@ use std::ffi::CString;
 use super::types::CallbackFunctions;
 use crate::interface::log::{Debugging, Log};
 
-/// A log that ends at the host's logger, if it has one. Warnings are always told.
+/// A log that ends at the host's logger, if it has one. Warnings are always logged.
 pub fn log(callbacks: &CallbackFunctions, instance: CString, on: bool) -> Log {
     let CallbackFunctions { logger, component_environment: environment, .. } = *callbacks;
     let send = move |status, category: &std::ffi::CStr, message: &str| {

@@ -67,7 +67,7 @@ unsafe fn arrays<'a>(
 /// `fmi3GetDirectionalDerivative`: the Jacobian times the seed, exactly.
 ///
 /// # Safety
-/// The component is null or an instance of this model that nobody else uses; arrays are null or of the lengths that are told.
+/// The component is null or an instance of this model that nobody else uses; arrays are null or of the given lengths.
 #[allow(clippy::too_many_arguments, reason = "the standard has them")]
 pub unsafe fn get_directional_derivative<M: Model>(
     component: Component,

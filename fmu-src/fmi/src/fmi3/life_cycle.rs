@@ -77,7 +77,7 @@ unsafe fn instantiate<M: Model>(
     unsafe { life_cycle::instantiate::<M>((&FMI_3, function), name, |_| logger.log(), start) }
 }
 
-/// `fmi3InstantiateModelExchange`. What is wrong is told through the logger, if there is one.
+/// `fmi3InstantiateModelExchange`. Errors go to the logger, if there is one.
 ///
 /// # Safety
 /// Texts are null or end with a zero; the logger is null or of its declared type.

@@ -61,7 +61,7 @@ impl<M: Model> Instance<M> {
         Ok(reals)
     }
 
-    /// The setting of a reference; `choice` tells whether it is to be an enumeration, where that matters.
+    /// The setting of a reference; `choice` says whether it has to be an enumeration, where that matters.
     pub fn setting_of(
         &self,
         reference: ValueReference,

@@ -70,7 +70,7 @@ pub unsafe fn do_step<M: Model>(
     unsafe { call(component, &table::DO_STEP, body) }
 }
 
-/// Makes a step for a host that handles events; tells whether an event is due then, and whether the step ended early.
+/// Makes a step for a host that handles events; returns whether an event is due then, and whether the step ended early.
 #[inline(never)]
 fn step_among_events<M: Model>(
     instance: &mut Instance<M>,

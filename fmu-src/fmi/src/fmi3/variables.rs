@@ -18,7 +18,7 @@ use crate::interface::{
 /// `fmi3GetFloat64`. In the state Instantiated it reads start values: nothing is calculated yet.
 ///
 /// # Safety
-/// The component is null or an instance of this model that nobody else uses; arrays are null or of the lengths that are told.
+/// The component is null or an instance of this model that nobody else uses; arrays are null or of the given lengths.
 #[inline]
 pub unsafe fn get_float64<M: Model>(
     component: Component,
@@ -113,7 +113,7 @@ fn set_arrays<M: Model>(
     Ok(instance.simulation.set_real(&references, values, instance.access())?)
 }
 
-/// What tells a type of settings from the others.
+/// A type of settings.
 struct Type {
     /// Name in FMI 3.0.
     name: &'static str,

@@ -17,7 +17,7 @@ use super::{
     types::{Component, Real, Size, Status, Text},
 };
 
-/// Makes an instance of what `start` says. What is wrong is told through the log that `log` makes for an instance's name.
+/// Makes an instance of what `start` says. Errors go to the log that `log` makes for an instance's name.
 ///
 /// # Safety
 /// The name is null or ends with a zero.
@@ -61,7 +61,7 @@ pub unsafe fn free_instance<M: Model>(function: &Function, component: Component)
     unsafe { Instance::<M>::free(component, function.version) }
 }
 
-/// Turns debug logging on or off. Errors are always told.
+/// Turns debug logging on or off. Errors are always logged.
 ///
 /// # Safety
 /// The component is as for [`free_instance`]; there are `n` categories that end with a zero.

@@ -33,7 +33,7 @@ impl From<strut_model::Error> for Failure {
 /// What is told only if debug logging is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Debugging {
-    /// Warnings: FMI 2.0 has them told always (section 2.1.3), FMI 3.0 only if the host asks for them (section 2.3.1).
+    /// Warnings: FMI 2.0 always logs them (section 2.1.3), FMI 3.0 only if the host asks for them (section 2.3.1).
     pub warnings: bool,
     /// Steps that are discarded: a host may well try a step and make a shorter one.
     pub discards: bool,
@@ -51,7 +51,7 @@ impl Debugging {
 /// What brings a message to the host: status, category, text.
 type Send = Box<dyn Fn(Status, &CStr, &str)>;
 
-/// The way to the host's logger. Errors are always told.
+/// The way to the host's logger. Errors are always logged.
 pub struct Log {
     send: Send,
     /// What else is told.

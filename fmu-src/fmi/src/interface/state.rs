@@ -127,9 +127,9 @@ pub struct Version {
     pub get_state: &'static str,
     /// The function that makes a state of bytes.
     pub de_serialize: &'static str,
-    /// The function that tells how many bytes a state has.
+    /// The function that returns the size of a state in bytes.
     pub state_size: &'static str,
-    /// Whether warnings are told only if the host asks for them.
+    /// Whether warnings are logged only if the host asks for them.
     pub optional_warnings: bool,
     /// What to do after a step that was discarded.
     pub after_discard: &'static str,

@@ -29,7 +29,7 @@ pub const RECORD: LogMessage = record;
 type Derivative =
     unsafe fn(Component, *const u32, usize, *const u32, usize, *const f64, usize, *mut f64, usize) -> Status;
 
-/// An instance and what it has told.
+/// An instance and its messages.
 pub struct Host<M: Model> {
     pub component: Component,
     messages: *mut Vec<String>,

@@ -206,7 +206,7 @@ fn warnings_are_told_to_those_who_ask() {
         assert_eq!(host.enter_initialization_mode(Some(1e3), 0.0, None), Status::Warning);
         assert_eq!(host.messages().len(), told);
         assert_eq!(host.enter_initialization_mode(None, 0.0, None), Status::Error);
-        assert_eq!(host.messages().len(), told + 1, "errors are always told");
+        assert_eq!(host.messages().len(), told + 1, "errors are always logged");
     }
     let host = Host::<Decay>::logging(false);
     assert_eq!(host.set_debug_logging(true, &[c"logStatusWarning"]), Status::Ok);

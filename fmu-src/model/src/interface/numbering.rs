@@ -17,7 +17,7 @@ pub struct Table {
     pub len: usize,
 }
 
-/// The arrays among a section's declarations. States are told one by one, as an integrator knows them.
+/// The arrays among a section's declarations. States are listed one by one, as an integrator knows them.
 pub(super) fn tables(section: Section, first: usize, list: &[Declaration]) -> Vec<Table> {
     if matches!(section, Section::State | Section::Rate) {
         return Vec::new();

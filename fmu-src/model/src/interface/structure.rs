@@ -148,7 +148,7 @@ pub struct Structure {
 pub struct Timely {
     /// Of the outputs and state derivatives.
     pub running: Vec<usize>,
-    /// Of what is calculated at initialisation.
+    /// Of the unknowns of the initialisation.
     pub initial: Vec<usize>,
 }
 

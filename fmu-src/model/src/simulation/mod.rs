@@ -169,7 +169,7 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// If the step does not start at the present time or is not positive and finite, or if the
     /// integration fails; the simulation is then as before the step.
-    // In line in the step of each version of the C interface; what is long is behind a call.
+    // In line in the step of each version of the C interface; long parts are behind a call.
     #[inline(always)]
     pub fn step(&mut self, from: f64, size: f64) -> Result<(), Error> {
         let end = from + size;

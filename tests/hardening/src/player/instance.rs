@@ -289,7 +289,7 @@ impl Instance {
         let right = match status {
             Status::Ok => *complaints == 0,
             Status::Discard => *complaints <= 1,
-            // FMI 3.0 has warnings told to those who ask.
+            // FMI 3.0 logs warnings on request.
             Status::Warning if three => *complaints <= 1,
             Status::Warning | Status::Error | Status::Fatal | Status::Pending => *complaints > 0,
         };
