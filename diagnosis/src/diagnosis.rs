@@ -82,16 +82,16 @@ pub fn diagnose<'a>(
     baseline.look_at(&base)?;
     let mut found = Found::nothing(base);
     let intervals = loop {
-        // After a retraction, the second-best effect gets its turn.
+        // After a retraction, other effects get their turn.
         baseline.identify(&mut found, progress)?;
         if let Some(harmful) = baseline.harmful(&found, &records.measured) {
-            baseline.retract(&mut found, harmful)?;
+            baseline.retract(&mut found, harmful);
             continue;
         }
         progress("comparing what each excitation says");
         let intervals = baseline.intervals(&found.extended)?;
         match baseline.doubtful(&found, &intervals) {
-            Some(doubtful) => baseline.retract(&mut found, doubtful)?,
+            Some(doubtful) => baseline.retract(&mut found, doubtful),
             None => break intervals,
         }
     };

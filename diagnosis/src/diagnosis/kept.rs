@@ -5,7 +5,6 @@ use crate::decision::rules::{Amount, is_determined, lowers};
 use crate::estimation::fit::{Estimate, Residuals, Unknown};
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::intervals::Interval;
-use crate::estimation::lsq::Stop;
 use crate::signal::distortion::Fault;
 
 use super::{Found, phi};
@@ -67,25 +66,14 @@ impl Baseline<'_> {
         Some((settled, residuals))
     }
 
-    /// Takes an effect back, and what was described beside it.
-    pub(super) fn retract(&self, found: &mut Found, index: usize) -> Result<(), String> {
-        let term = found.accepted.remove(index).term;
-        found.retracted.push(term);
-        found.unmodelled.retain(|it| it.curve.is_some_and(|curve| curve != term));
+    /// Takes an effect back, and with it what was found beside it later: that is to be found again without it.
+    pub(super) fn retract(&self, found: &mut Found, index: usize) {
+        found.retracted.push(found.accepted[index].term);
+        found.accepted.truncate(index);
         found.stages.truncate(index);
-        let mut last = found.stages.last().unwrap_or(&found.base).clone();
-        for accepted in &found.accepted[index..] {
-            let mut terms = last.terms.clone();
-            terms.push(accepted.term);
-            let mut start = last.point.clone();
-            for own in self.own_coordinates(accepted.term) {
-                start.set(own.handle, found.extended.point.get(own.handle));
-            }
-            last = self.fitted(&terms, &[start], Stop::NOISY)?;
-            found.stages.push(last.clone());
-        }
-        found.extended = last;
-        Ok(())
+        let kept = |curve: Term| found.accepted.iter().any(|it| it.term == curve);
+        found.unmodelled.retain(|it| it.curve.is_some_and(kept));
+        found.extended = found.stages.last().unwrap_or(&found.base).clone();
     }
 }
 
