@@ -54,11 +54,13 @@ impl Baseline<'_> {
         let (before, after) = (shares(base, null), shares(base, fitted));
         let [learnt, held_out] = [before[0] - after[0], before[1] - after[1]];
         let steadiness = self.steadiness(term, &null.train, &fitted.train);
+        let validated = self.steadiness(term, &null.test, &fitted.test);
         Evidence {
             delta_bic: gain - more as f64 * total.max(1.0).ln(),
             block_t: steadiness.t,
             chance: (self.looks * steadiness.chance_of_gain()).min(1.0),
-            held_out_t: self.steadiness(term, &null.test, &fitted.test).t,
+            held_out_t: validated.t,
+            held_out_chance: (self.looks * validated.chance()).min(1.0),
             explained: if is_resonance(term) { learnt.max(held_out) } else { held_out },
             phi_gain: everywhere(term, self.phi_gains(null, fitted)),
             taken: everywhere(term, shares(null, fitted).map(|share| 1.0 - share)),

@@ -15,6 +15,9 @@ pub struct Evidence {
     pub chance: f64,
     /// Student's t of the gain over the blocks of the held-out data.
     pub held_out_t: f64,
+    /// Chance that of as many effects as were compared the best one's gain on the held-out data is as steady, where none of them
+    /// is there.
+    pub held_out_chance: f64,
     /// Share of the starting model's error power that it explains on the held-out data.
     pub explained: f64,
     /// Largest rise of Φ among the signals, on the training or the held-out data, whichever is less.
@@ -38,6 +41,7 @@ impl Evidence {
         block_t: CRITERIA.estimation_t,
         chance: CRITERIA.p_value,
         held_out_t: CRITERIA.validation_t,
+        held_out_chance: CRITERIA.p_value,
         explained: CRITERIA.explained,
         phi_gain: CRITERIA.improvement,
         taken: CRITERIA.majority,
@@ -77,10 +81,17 @@ impl Evidence {
         steady && Self { block_t: f64::INFINITY, chance: 0.0, ..*self }.refusal().is_none()
     }
 
-    /// Whether it takes so much away that a small Student's t over the estimation data is enough: its gains are as uneven as the
-    /// errors were.
+    /// Whether a small Student's t over the estimation data is enough: it takes so much away that its gains are as uneven as the
+    /// errors were, or the validation data, which chose nothing, rule chance out on their own.
     pub fn is_steady_enough(&self) -> bool {
         self.takes_the_bulk() && self.block_t > CRITERIA.certain
+            || self.held_out_chance < self.required().held_out_chance && self.block_t > 0.0
+    }
+
+    /// Whether the validation data show it, and enough of it to matter, while the estimation data leave doubt: their errors hang
+    /// together so much that they are few independent ones.
+    pub fn is_nearest(&self) -> bool {
+        self.doubt().is_some() && self.smallness().is_none() && self.held_out_t > self.required().held_out_t
     }
 
     /// The first gate that is not passed of those that tell whether it is there at all.
@@ -121,5 +132,58 @@ impl Evidence {
         } else {
             None
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CLEAR: Evidence = Evidence {
+        delta_bic: 100.0,
+        block_t: 8.0,
+        chance: 1e-6,
+        held_out_t: 6.0,
+        held_out_chance: 1e-4,
+        explained: 0.2,
+        phi_gain: 0.1,
+        taken: 0.4,
+        usual: false,
+        grave: false,
+    };
+
+    #[test]
+    fn validation_data_that_rule_chance_out_need_no_steadiness_of_the_estimation_data() {
+        assert_eq!(CLEAR.refusal(), None);
+        let uneven = Evidence { block_t: 1.3, chance: 1.0, ..CLEAR };
+        assert_eq!(uneven.refusal(), None);
+        assert!(Evidence { held_out_chance: 0.02, ..uneven }.refusal().is_some());
+        // What makes the estimation data worse is not there, whatever the validation data say.
+        assert!(Evidence { block_t: -0.1, ..uneven }.refusal().is_some());
+        assert!(Evidence { delta_bic: 5.0, ..uneven }.refusal().is_some());
+    }
+
+    #[test]
+    fn every_gate_refuses_on_its_own() {
+        for one in [
+            Evidence { delta_bic: 19.0, ..CLEAR },
+            Evidence { block_t: 3.0, held_out_chance: 0.02, ..CLEAR },
+            Evidence { chance: 0.02, held_out_chance: 0.02, ..CLEAR },
+            Evidence { held_out_t: 2.9, ..CLEAR },
+            Evidence { explained: 0.009, ..CLEAR },
+            Evidence { phi_gain: 0.014, ..CLEAR },
+            Evidence { phi_gain: 0.02, usual: true, ..CLEAR },
+            Evidence { explained: f64::NEG_INFINITY, ..CLEAR },
+        ] {
+            assert!(one.refusal().is_some(), "{one:?}");
+        }
+    }
+
+    #[test]
+    fn what_only_the_validation_data_show_comes_nearest() {
+        let doubted = Evidence { delta_bic: 1.0, ..CLEAR };
+        assert!(doubted.is_nearest() && !CLEAR.is_nearest());
+        assert!(!Evidence { held_out_t: 2.0, ..doubted }.is_nearest());
+        assert!(!Evidence { phi_gain: 0.001, ..doubted }.is_nearest());
     }
 }

@@ -134,6 +134,11 @@ pub struct Student {
 }
 
 impl Student {
+    /// Chance that the mean is as clearly above zero where it is zero.
+    pub fn chance(self) -> f64 {
+        StudentsT::new(0.0, 1.0, self.freedom).map_or(1.0, |law| law.sf(self.t))
+    }
+
     /// Chance that what was fitted gains as steadily where there is nothing to be fitted. An amount `a` that follows from what
     /// blocks say of it, `s`, gains `a s − a² h/2` in each, whose mean is half that of `a s`; so the t of what they say is twice
     /// that of what is gained.

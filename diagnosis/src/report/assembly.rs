@@ -19,11 +19,11 @@ use crate::dataset::witness::same_excitation;
 use crate::decision::verdict::{Facts, verdict};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::estimation::fit::{Estimate, Residuals, Unknown};
-use crate::estimation::hypothesis::{SURE, Term};
+use crate::estimation::hypothesis::{Fitted, SURE, Term};
 use crate::explain::selection::Score;
 use crate::report::findings::{
-    Answer, BaseParameter, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, Signal,
-    SignalCorrection, Start,
+    Answer, BaseParameter, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, FittedValue,
+    Signal, SignalCorrection, Start,
 };
 use crate::report::words::located;
 use crate::signal::distortion::{AFTER, Correction, Fault};
@@ -260,6 +260,16 @@ impl Diagnosis<'_> {
         }
     }
 
+    /// The own parameters of a candidate in its fit.
+    fn values(&self, term: Term, fitted: &Fitted) -> Vec<FittedValue> {
+        let own = self.baseline.own_coordinates(term).into_iter();
+        own.map(|it| {
+            let (name, unit) = naming::handle(it.handle, &self.baseline.rig.plant);
+            FittedValue { name, value: fitted.point.get(it.handle), unit }
+        })
+        .collect()
+    }
+
     fn candidates(&self) -> Vec<Candidate> {
         let plant = &self.baseline.rig.plant;
         let late = || "not confirmed: the time limit was reached".to_owned();
@@ -284,6 +294,9 @@ impl Diagnosis<'_> {
                 share: score.share,
                 validated: score.validated,
                 fitted: tried.is_some_and(|tried| tried.fitted.is_ok()),
+                values: tried
+                    .and_then(|it| it.fitted.as_ref().ok())
+                    .map_or(Vec::new(), |it| self.values(*term, it)),
                 evidence: tried.map(|tried| tried.evidence),
                 outcome,
             }

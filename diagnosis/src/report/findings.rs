@@ -373,8 +373,21 @@ pub struct Candidate {
     pub validated: f64,
     /// Whether it was fitted.
     pub fitted: bool,
+    /// Its parameters in its fit, the one that says how much of it there is first.
+    pub values: Vec<FittedValue>,
     /// What its fit showed.
     pub evidence: Option<Evidence>,
     /// What became of it.
     pub outcome: String,
+}
+
+/// A parameter in the fit of a candidate; it has no interval, as nothing is claimed of it.
+#[derive(Clone, Debug, Serialize)]
+pub struct FittedValue {
+    /// As in the FMU, or for a sensor `signal.gain`.
+    pub name: String,
+    /// In `unit`.
+    pub value: f64,
+    /// SI.
+    pub unit: String,
 }

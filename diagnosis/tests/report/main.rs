@@ -313,6 +313,7 @@ fn every_field_and_verdict_is_described_in_the_readme() {
         ("block_t", required.block_t),
         ("chance", required.chance),
         ("held_out_t", required.held_out_t),
+        ("held_out_chance", required.held_out_chance),
         ("explained", required.explained),
         ("phi_gain", required.phi_gain),
         ("taken", required.taken),

@@ -29,7 +29,7 @@ fn with_numbers(mut findings: Findings, numbers: &[f64]) -> Findings {
         }
         let evidence = &mut effect.evidence;
         (evidence.delta_bic, evidence.block_t, evidence.held_out_t) = (next(), next(), next());
-        (evidence.chance, evidence.explained) = (next(), next());
+        (evidence.chance, evidence.held_out_chance, evidence.explained) = (next(), next(), next());
         (evidence.phi_gain, evidence.taken) = (next(), next());
     }
     for parameter in &mut findings.base_parameters {

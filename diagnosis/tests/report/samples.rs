@@ -134,6 +134,7 @@ pub fn sample(verdict: Verdict) -> Findings {
                 block_t: 4.6,
                 chance: 0.0021,
                 held_out_t: 3.4,
+                held_out_chance: 0.004,
                 explained: 0.062,
                 phi_gain: 0.12,
                 taken: 0.35,

@@ -1,7 +1,9 @@
 //! The verdict in a few sentences, with the numbers that matter.
 
 use crate::decision::rules::FALL;
-use crate::report::findings::{BaseParameter, Effect, Findings, RecordValue, Signal, Unmodelled, Verdict};
+use crate::report::findings::{
+    BaseParameter, Candidate, Effect, Findings, RecordValue, Signal, Unmodelled, Verdict,
+};
 use crate::report::words::{
     count, digits, effect_name, fit, interval, list, located, open_signals, percent, sized, unit, value,
 };
@@ -22,6 +24,7 @@ pub(super) fn of(findings: &Findings) -> String {
         twins(findings),
         effects(findings),
         unmodelled(findings),
+        nearest(findings),
         improvement(findings),
         worse(findings),
         noisy(findings),
@@ -107,6 +110,25 @@ fn unmodelled(findings: &Findings) -> Option<String> {
     };
     let all: Vec<String> = findings.unmodelled.iter().enumerate().map(of).collect();
     (!all.is_empty()).then(|| all.join(" "))
+}
+
+/// Where nothing is identified, the effect that comes nearest to it, and what it lacks.
+fn nearest(findings: &Findings) -> Option<String> {
+    let lacks = matches!(findings.verdict, Verdict::Unmodelled | Verdict::ModelInadequate);
+    let shown = |it: &&Candidate| it.evidence.is_some_and(|evidence| evidence.is_nearest());
+    let explained = |it: &Candidate| it.evidence.map_or(0.0, |evidence| evidence.explained);
+    let candidates =
+        findings.candidates.iter().filter(|_| lacks && findings.effects.is_empty()).filter(shown);
+    let nearest = candidates.max_by(|a, b| explained(a).total_cmp(&explained(b)))?;
+    let size = nearest.values.first().map(|it| format!(" ({} = {})", it.name, value(it.value, &it.unit)));
+    Some(format!(
+        "The effect that comes nearest is {}{}: it would explain {} of the error power on the validation data. It is not \
+         identified: {}.",
+        located(&nearest.name, &nearest.element),
+        size.unwrap_or_default(),
+        percent(explained(nearest)),
+        nearest.outcome
+    ))
 }
 
 fn parameters(findings: &Findings) -> Option<String> {
@@ -195,7 +217,7 @@ fn noisy(findings: &Findings) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::findings::{Disagreement, SignalAccount};
+    use crate::report::findings::{Disagreement, Evidence, FittedValue, SignalAccount};
 
     fn findings(verdict: Verdict) -> Findings {
         Findings { verdict, ..Findings::of_bad_data("rig", vec![], vec![], vec![]) }
@@ -307,6 +329,43 @@ mod tests {
         let text = of(&Findings { base_parameters: vec![it], ..findings(Verdict::ParameterMismatch) });
         assert!(text.contains("The records contradict the given value of constant_load."), "{text}");
         assert!(text.contains("cannot tell constant_load from guide friction in the guide."), "{text}");
+    }
+
+    #[test]
+    fn an_effect_that_only_the_validation_data_show_is_the_nearest_one() {
+        let shows = Evidence {
+            delta_bic: 0.8,
+            block_t: 2.0,
+            chance: 0.04,
+            held_out_t: 3.3,
+            held_out_chance: 0.02,
+            explained: 0.38,
+            phi_gain: 0.05,
+            taken: 0.3,
+            ..Evidence::default()
+        };
+        let friction = Candidate {
+            id: "16".into(),
+            element: "guide".into(),
+            name: "guide friction".into(),
+            share: 0.1,
+            validated: 0.2,
+            fitted: true,
+            values: vec![FittedValue { name: "guide.coulomb.force".into(), value: 480.0, unit: "N".into() }],
+            evidence: Some(shows),
+            outcome: "explains too little for its parameters (the BIC falls by 1)".into(),
+        };
+        let less = Candidate {
+            evidence: Some(Evidence { held_out_t: 2.0, explained: 0.9, ..shows }),
+            ..friction.clone()
+        };
+        let of =
+            |verdict| of(&Findings { candidates: vec![less.clone(), friction.clone()], ..findings(verdict) });
+        let wanted = "The effect that comes nearest is guide friction (guide.coulomb.force = 480.0 N): it would explain 38 % \
+                      of the error power on the validation data. It is not identified: explains too little for its \
+                      parameters (the BIC falls by 1).";
+        assert_eq!(of(Verdict::Unmodelled), wanted);
+        assert!(!of(Verdict::ParameterMismatch).contains("nearest"));
     }
 
     #[test]
