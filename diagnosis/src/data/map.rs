@@ -6,11 +6,16 @@
 //! [signals]
 //! deflection = { column = "Weg_FL", unit = "mm", scale = -1.0, offset = 0.01, delay = 0.002 }
 //! command = "U_act"
+//! force = { formula = "pA * 12.6 cm2 - pB * 8.2 cm2", units = { pA = "bar", pB = "bar" }, offset = "at rest" }
 //! ```
 //! A signal is `scale` times the column in the model's unit plus `offset` in the model's unit; a column that
-//! comes `delay` seconds late is moved earlier by as much.
+//! comes `delay` seconds late is moved earlier by as much. What is no column's name is a formula of columns
+//! ([`super::formula`]). An offset `at rest` makes the signal zero while nothing moves at the start of the record.
 
+use super::check::standstill;
+use super::formula::Formula;
 use super::interpolate::linear;
+use super::quantity::Quantity;
 use super::table::did_you_mean;
 use super::{Channel, DataError, Record, TimeColumn, units};
 use serde::Deserialize;
@@ -29,19 +34,72 @@ pub struct Map {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
-    /// The column's name in the file.
+    /// The column's name in the file, or a formula of columns.
+    #[serde(alias = "formula")]
     pub column: String,
     /// Its unit instead of the file's.
     pub unit: Option<String>,
     /// Factor; −1 turns the sign.
     #[serde(default = "one")]
     pub scale: f64,
-    /// Added after the factor, in the model's unit.
+    /// Added after the factor.
     #[serde(default)]
-    pub offset: f64,
+    pub offset: Offset,
     /// By how much the column comes late, in seconds.
     #[serde(default)]
     pub delay: f64,
+    /// Units of a formula's columns instead of the file's.
+    #[serde(default)]
+    pub units: BTreeMap<String, String>,
+}
+
+/// What is added to a signal.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum Offset {
+    /// A number, in the model's unit.
+    Number(f64),
+    /// What makes it zero while the rig is at rest at the start of the record.
+    Word(AtRest),
+}
+
+/// The word for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum AtRest {
+    /// `at rest`.
+    #[serde(rename = "at rest")]
+    AtRest,
+}
+
+impl Default for Offset {
+    fn default() -> Self {
+        Self::Number(0.0)
+    }
+}
+
+impl Source {
+    /// A column as it is.
+    fn of(column: String) -> Self {
+        let offset = Offset::default();
+        Self { column, unit: None, scale: 1.0, offset, delay: 0.0, units: BTreeMap::new() }
+    }
+
+    /// The negative of it, or itself.
+    fn signed(&self, sign: f64) -> Self {
+        let offset = match self.offset {
+            Offset::Number(offset) => Offset::Number(sign * offset),
+            at_rest @ Offset::Word(_) => at_rest,
+        };
+        Self { scale: sign * self.scale, offset, ..self.clone() }
+    }
+}
+
+/// Where a signal was found.
+enum Found {
+    /// In a column.
+    Column(usize),
+    /// In several of them.
+    Formula(Formula),
 }
 
 /// A signal that the model knows.
@@ -101,13 +159,12 @@ impl Map {
         let mut signals = BTreeMap::new();
         for (name, value) in file.signals {
             let source = match value {
-                toml::Value::String(column) => {
-                    Source { column, unit: None, scale: 1.0, offset: 0.0, delay: 0.0 }
-                }
+                toml::Value::String(column) => Source::of(column),
                 table => table.try_into().map_err(|e| DataError::Map(format!("`{name}`: {e}")))?,
             };
-            let sound = source.scale != 0.0
-                && [source.scale, source.offset, source.delay].iter().all(|v| v.is_finite());
+            let finite = !matches!(source.offset, Offset::Number(it) if !it.is_finite());
+            let sound =
+                source.scale != 0.0 && finite && [source.scale, source.delay].iter().all(|v| v.is_finite());
             if !sound {
                 let text =
                     format!("`{name}`: scale must not be 0; scale, offset and delay have to be finite");
@@ -134,12 +191,25 @@ impl Map {
         let mut channels = Vec::new();
         let mut missing = Vec::new();
         for wanted in wanted {
-            let Some((index, source)) = self.source(&record, wanted)? else {
+            let Some((found, source)) = self.source(&record, wanted)? else {
                 missing.push(wanted.name.clone());
                 continue;
             };
-            used[index] = true;
-            channels.push(take(&record, index, &source, wanted)?);
+            let values = match found {
+                Found::Column(index) => {
+                    used[index] = true;
+                    converted(&record, index, &source, wanted)?
+                }
+                Found::Formula(formula) => {
+                    for name in formula.columns() {
+                        let index = column(&record, name)
+                            .map_err(|problem| DataError::signal(&record.name, &wanted.name, problem))?;
+                        used[index] = true;
+                    }
+                    computed(&record, &formula, &source, wanted)?
+                }
+            };
+            channels.push(corrected(&record, values, &source, wanted)?);
         }
         let unused = record.channels.iter().zip(used).filter(|(_, used)| !used);
         let unused = unused.map(|(channel, _)| channel.clone()).collect();
@@ -153,28 +223,56 @@ impl Map {
         Ok(Mapped { record: Record { channels, ..record }, unused, missing })
     }
 
-    /// The column of a signal and what to do with it; none if the file does not have it.
-    fn source(&self, record: &Record, wanted: &Wanted) -> Result<Option<(usize, Source)>, DataError> {
-        let columns = &record.channels;
+    /// Where a signal is and what to do with it; none if the file does not have it.
+    fn source(&self, record: &Record, wanted: &Wanted) -> Result<Option<(Found, Source)>, DataError> {
         for (name, sign) in wanted.names() {
             let Some(source) = self.signals.get(name) else { continue };
             let unit = source.unit.as_deref();
-            let index = only(record, wanted, unit, |column| column.is_called(&source.column))?;
-            let index = index.ok_or_else(|| {
-                let hint = did_you_mean(&source.column, columns.iter().map(|column| column.name.as_str()));
-                let text = format!("the map takes `{name}` from it, but there is no such column{hint}");
-                DataError::signal(&record.name, &source.column, text)
-            })?;
-            let (scale, offset) = (sign * source.scale, sign * source.offset);
-            return Ok(Some((index, Source { scale, offset, ..source.clone() })));
+            let found = match only(record, wanted, unit, |column| column.is_called(&source.column))? {
+                Some(index) => Found::Column(index),
+                None => Found::Formula(formula(record, name, &source.column)?),
+            };
+            return Ok(Some((found, source.signed(sign))));
         }
-        for (name, scale) in wanted.names() {
+        for (name, sign) in wanted.names() {
             if let Some(index) = only(record, wanted, None, |column| plain(&column.name) == plain(name))? {
-                let column = columns[index].name.clone();
-                return Ok(Some((index, Source { column, unit: None, scale, offset: 0.0, delay: 0.0 })));
+                let source = Source::of(record.channels[index].name.clone());
+                return Ok(Some((Found::Column(index), source.signed(sign))));
             }
         }
         Ok(None)
+    }
+}
+
+/// What is no column's name is a formula; a name alone is a column that does not exist.
+fn formula(record: &Record, name: &str, text: &str) -> Result<Formula, DataError> {
+    let formula = Formula::parse(text);
+    let problem = match formula {
+        Ok(formula) if !matches!(formula, Formula::Column(_)) => return Ok(formula),
+        Err(problem) if text.contains(['*', '+', '(', '{']) => {
+            format!("the map takes `{name}` from it, but {problem}")
+        }
+        _ => {
+            let hint = did_you_mean(text, record.channels.iter().map(|column| column.name.as_str()));
+            format!("the map takes `{name}` from it, but there is no such column{hint}")
+        }
+    };
+    Err(DataError::signal(&record.name, text, problem))
+}
+
+/// The column of a formula.
+fn column(record: &Record, name: &str) -> Result<usize, String> {
+    let of_the_name: Vec<usize> =
+        (0..record.channels.len()).filter(|it| record.channels[*it].is_called(name)).collect();
+    match of_the_name[..] {
+        [index] => Ok(index),
+        [] => {
+            let hint = did_you_mean(name, record.channels.iter().map(|column| column.name.as_str()));
+            Err(format!("its formula has the column `{name}`, and the file has none of that name{hint}"))
+        }
+        _ => Err(format!(
+            "its formula has the column `{name}`, and the file has several: write it with its unit in braces"
+        )),
     }
 }
 
@@ -212,8 +310,8 @@ pub fn plain(name: &str) -> String {
     name.trim().to_lowercase().replace(['.', ' '], "_")
 }
 
-/// A column as the model's signal. A column without a unit is in the model's.
-fn take(record: &Record, index: usize, source: &Source, wanted: &Wanted) -> Result<Channel, DataError> {
+/// A column in the model's unit. A column without a unit is in the model's.
+fn converted(record: &Record, index: usize, source: &Source, wanted: &Wanted) -> Result<Vec<f64>, DataError> {
     let column = &record.channels[index];
     let unit = source.unit.as_ref().unwrap_or(&column.unit);
     let unit = if unit.trim().is_empty() { &wanted.unit } else { unit };
@@ -224,136 +322,70 @@ fn take(record: &Record, index: usize, source: &Source, wanted: &Wanted) -> Resu
         );
         DataError::signal(&record.name, &column.name, text)
     })?;
-    let value = |v: f64| source.scale * conversion.apply(v) + source.offset;
-    let mut values: Vec<f64> = column.values.iter().map(|&v| value(v)).collect();
+    Ok(column.values.iter().map(|it| conversion.apply(*it)).collect())
+}
+
+/// A formula's values in the model's unit, SI.
+fn computed(
+    record: &Record,
+    formula: &Formula,
+    source: &Source,
+    wanted: &Wanted,
+) -> Result<Vec<f64>, DataError> {
+    let problem =
+        |text: String| DataError::signal(&record.name, &wanted.name, format!("its formula: {text}"));
+    let quantity = |name: &str| {
+        let column = &record.channels[column(record, name)?];
+        Quantity::new(&column.values, source.units.get(name).unwrap_or(&column.unit))
+    };
+    let found = formula.value(&quantity).map_err(problem)?;
+    if !found.is_of(&wanted.unit).map_err(problem)? {
+        let text = format!(
+            "the result is in {}, and {} is wanted; a column without a unit is a number: give it in the map, \
+             `units = {{ column = \"bar\" }}`",
+            found.unit(),
+            wanted.unit
+        );
+        return Err(problem(text));
+    }
+    Ok(match found.values[..] {
+        [one] => vec![one; record.time.len()],
+        _ => found.values,
+    })
+}
+
+/// The signal with its factor, offset and delay.
+fn corrected(
+    record: &Record,
+    values: Vec<f64>,
+    source: &Source,
+    wanted: &Wanted,
+) -> Result<Channel, DataError> {
+    let mut values: Vec<f64> = values.into_iter().map(|it| source.scale * it).collect();
+    let offset = match source.offset {
+        Offset::Number(offset) => offset,
+        Offset::Word(AtRest::AtRest) => -at_rest(record, &values, wanted)?,
+    };
+    values.iter_mut().for_each(|it| *it += offset);
     if source.delay != 0.0 {
         values = record.time.iter().map(|t| linear(&record.time, &values, t + source.delay)).collect();
     }
     Ok(Channel { name: wanted.name.clone(), unit: wanted.unit.clone(), values })
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn record(columns: &[(&str, &str, [f64; 4])]) -> Record {
-        let channel = |(name, unit, values): &(&str, &str, [f64; 4])| Channel {
-            name: (*name).into(),
-            unit: (*unit).into(),
-            values: values.to_vec(),
-        };
-        let time = vec![0.0, 0.5, 1.0, 1.5];
-        Record { name: "run.csv".into(), time, channels: columns.iter().map(channel).collect() }
-    }
-
-    fn wanted(name: &str, unit: &str, aliases: &[&str]) -> Wanted {
-        let aliases = aliases.iter().map(|&alias| alias.into()).collect();
-        Wanted { name: name.into(), unit: unit.into(), aliases }
-    }
-
-    const RAMP: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
-
-    fn error(map: &str, record: Record, wanted: &[Wanted]) -> String {
-        Map::parse(map).and_then(|map| map.apply(record, wanted)).unwrap_err().to_string()
-    }
-
-    #[test]
-    fn a_column_may_be_named_with_its_unit_as_in_the_header() {
-        let file = record(&[("Weg FL", "mm", RAMP), ("Kraft", "", RAMP)]);
-        let signals = [wanted("deflection", "m", &[]), wanted("force", "N", &[])];
-        for column in ["Weg FL [mm]", "Weg FL (mm)", "Weg FL"] {
-            let map = format!("[signals]\n\"deflection\" = \"{column}\"\n\"force\" = \"Kraft\"\n");
-            let mapped = Map::parse(&map).and_then(|map| map.apply(file.clone(), &signals)).unwrap();
-            assert_eq!(mapped.record.channels[0].values, [0.0, 0.001, 0.002, 0.003]);
-        }
-        // Another unit is another column.
-        let error = error("[signals]\n\"deflection\" = \"Weg FL [m]\"\n", file, &signals);
-        assert!(error.contains("did you mean `Weg FL`?"), "{error}");
-    }
-
-    #[test]
-    fn names_and_aliases_without_a_map() {
-        let file = record(&[("Body.Acceleration", "g", RAMP), ("travel", "mm", RAMP), ("spare", "", RAMP)]);
-        let signals = [
-            wanted("body_acceleration", "m/s2", &[]),
-            wanted("deflection", "m", &["-compression", "-travel"]),
-            wanted("force", "N", &[]),
-        ];
-        let mapped = Map::default().apply(file, &signals).unwrap();
-        assert_eq!(mapped.unused.iter().map(Channel::title).collect::<Vec<_>>(), ["spare"]);
-        assert_eq!(mapped.missing, ["force"]);
-        let [acceleration, deflection] = &mapped.record.channels[..] else { panic!() };
-        assert_eq!((acceleration.name.as_str(), acceleration.unit.as_str()), ("body_acceleration", "m/s2"));
-        assert_eq!(acceleration.values[1], 9.80665);
-        assert_eq!(deflection.values, [0.0, -0.001, -0.002, -0.003]);
-    }
-
-    #[test]
-    fn scale_offset_unit_and_delay() {
-        let map = "[signals]\nx = { column = \"Weg\", unit = \"mm\", scale = -1.0, offset = 0.5, delay = 0.25 }\n\
-                   u = \"U\"\n";
-        let file = record(&[("Weg", "V", [0.0, 1000.0, 2000.0, 3000.0]), ("U", "", RAMP)]);
-        let mapped =
-            Map::parse(map).unwrap().apply(file, &[wanted("x", "m", &[]), wanted("u", "V", &[])]).unwrap();
-        let x = &mapped.record.channels[0].values;
-        assert_eq!(x[..3], [0.0, -1.0, -2.0]);
-        assert!(x[3].is_nan());
-        assert_eq!(mapped.record.channels[1].values, RAMP);
-    }
-
-    #[test]
-    fn the_column_of_time() {
-        let map = Map::parse("time = { column = \"Stamp\", unit = \"ms\" }").unwrap();
-        let record = crate::data::parse("run.csv", b"Stamp,x\n0,1\n5,2\n", map.time.as_ref()).unwrap();
-        assert_eq!(record.time, [0.0, 0.005]);
-        let map = Map::parse("time = \"x\"").unwrap();
-        let record = crate::data::parse("run.csv", b"Stamp,x\n0,1\n5,2\n", map.time.as_ref()).unwrap();
-        assert_eq!(record.time, [1.0, 2.0]);
-        assert!(Map::parse("time = { columns = \"x\" }").unwrap_err().to_string().contains("columns"));
-    }
-
-    #[test]
-    fn a_map_may_use_an_alias() {
-        let map = Map::parse("[signals]\nstroke = { column = \"x\", scale = 2.0, offset = 1.0 }").unwrap();
-        let mapped =
-            map.apply(record(&[("x", "mm", RAMP)]), &[wanted("position", "m", &["-stroke"])]).unwrap();
-        assert_eq!(mapped.record.channels[0].values[..2], [-1.0, -1.002]);
-    }
-
-    #[test]
-    fn of_two_columns_of_a_name_the_unit_decides() {
-        let file = || record(&[("Force", "V", RAMP), ("Force", "kN", RAMP)]);
-        let signals = [wanted("force", "N", &[])];
-        for map in ["", "[signals]\nforce = \"Force\"", "[signals]\nforce = \"Force (kN)\""] {
-            let mapped = Map::parse(map).unwrap().apply(file(), &signals).unwrap();
-            assert_eq!(mapped.record.channels[0].values, RAMP.map(|it| 1e3 * it), "{map}");
-        }
-        let both = || record(&[("Force", "N", RAMP), ("Force", "kN", RAMP)]);
-        let message = error("", both(), &signals);
-        assert!(message.contains("`\"force\" = \"Force [N]\"`"), "{message}");
-        let mapped = Map::parse("[signals]\nforce = \"Force [N]\"").unwrap().apply(both(), &signals);
-        assert_eq!(mapped.unwrap().record.channels[0].values, RAMP);
-    }
-
-    #[test]
-    fn errors_say_what_to_do() {
-        let file = || record(&[("deflection", "mm", RAMP), ("force", "V", RAMP)]);
-        let signals = [wanted("strut_force", "N", &["force"]), wanted("x", "m", &[])];
-        let message = error("", file(), &signals);
-        assert!(message.starts_with("run.csv, force: `V` does not measure the same as `N`"), "{message}");
-        let message = error("[signals]\nx = \"deflexion\"", file(), &signals[1..]);
-        assert!(message.contains("did you mean `deflection`?"), "{message}");
-        let message = error("[signals]\nstrut_forse = \"force\"", file(), &signals);
-        assert!(message.contains("did you mean `strut_force`?"), "{message}");
-        let message = error("", file(), &[wanted("y", "m", &[])]);
-        assert!(message.contains("none of the model's signals"), "{message}");
-        let message = error("[signals]\nx = { column = \"deflection\", units = \"mm\" }", file(), &signals);
-        assert!(message.contains("units"), "{message}");
-        let message = error("[signals]\nx = { column = \"deflection\", scale = 0.0 }", file(), &signals);
-        assert!(message.contains("scale must not be 0"), "{message}");
-        assert!(error("signal = 3", file(), &signals).contains("signal"));
-        let message =
-            error("[signals]\nx = { column = \"deflection\", unit = \"furlong\" }", file(), &signals[1..]);
-        assert!(message.contains("`furlong` is not a unit known here"), "{message}");
-    }
+/// Mean of a signal while nothing moves at the start of the record.
+fn at_rest(record: &Record, values: &[f64], wanted: &Wanted) -> Result<f64, DataError> {
+    let known = |rest: std::ops::Range<usize>| {
+        values[rest].iter().copied().filter(|it| it.is_finite()).collect::<Vec<_>>()
+    };
+    let still = standstill(record).map(known).filter(|it| !it.is_empty()).ok_or_else(|| {
+        let text = "its offset is that at rest, and the record does not start with a second and 200 samples of rest: give \
+                    a number"
+            .to_owned();
+        DataError::signal(&record.name, &wanted.name, text)
+    })?;
+    Ok(still.iter().sum::<f64>() / still.len() as f64)
 }
+
+#[cfg(test)]
+mod tests;

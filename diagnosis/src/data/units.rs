@@ -24,7 +24,7 @@ impl Conversion {
 }
 
 /// Exponents of m, kg, s, A, K, rad.
-type Dimension = [i8; 6];
+pub(super) type Dimension = [i8; 6];
 
 /// Size of a unit in SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,12 +33,12 @@ struct Size {
     dimension: Dimension,
 }
 
-const NONE: Dimension = [0; 6];
+pub(super) const NONE: Dimension = [0; 6];
 const LENGTH: Dimension = [1, 0, 0, 0, 0, 0];
 const FORCE: Dimension = [1, 1, -2, 0, 0, 0];
 const PRESSURE: Dimension = [-1, 1, -2, 0, 0, 0];
 const VOLTAGE: Dimension = [2, 1, -3, -1, 0, 0];
-const ANGLE: Dimension = [0, 0, 0, 0, 0, 1];
+pub(super) const ANGLE: Dimension = [0, 0, 0, 0, 0, 1];
 const SPEED: Dimension = [1, 0, -1, 0, 0, 0];
 const TIME: Dimension = [0, 0, 1, 0, 0, 0];
 
@@ -137,6 +137,15 @@ pub fn conversion(from: &str, to: &str) -> Result<Conversion, String> {
     }
     let scale = source.factor / target.factor;
     Ok(Conversion { scale, offset: (zero - target_zero) / target.factor })
+}
+
+/// From a unit to SI, and what it measures.
+///
+/// # Errors
+/// The unit is not known.
+pub(super) fn si(unit: &str) -> Result<(Conversion, Dimension), String> {
+    let (size, zero) = parse(unit.trim())?;
+    Ok((Conversion { scale: size.factor, offset: zero }, size.dimension))
 }
 
 /// Size of a unit and its zero in kelvin if it is a scale of temperature.
