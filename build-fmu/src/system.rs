@@ -10,7 +10,6 @@ mod tests;
 mod tests_theirs;
 mod theirs;
 mod wire;
-mod xml;
 
 use std::fmt::{self, Display, Formatter};
 use std::path::PathBuf;

@@ -15,7 +15,7 @@ use super::adapter::Adapter;
 use super::check::Checked;
 use super::face::{Kind, Variable};
 use super::wire::{End, Sink, Source, Way};
-use super::xml::Element;
+use strut_related::Element;
 use super::{Packed, System};
 use crate::archive::Archive;
 
