@@ -31,6 +31,7 @@ pub fn check(arguments: &CheckArguments) -> ExitCode {
         },
         run: !arguments.no_run,
         signs: arguments.signs,
+        replay: arguments.replay,
         timeout: arguments.timeout,
         program,
         listener: None,

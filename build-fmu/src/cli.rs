@@ -65,6 +65,7 @@ Examples:
   build-fmu check *.fmu --strict                several; notes on portability count too
   build-fmu check unknown.fmu --no-run          without running code of others
   build-fmu check unknown.fmu --signs           which way its outputs go when an input is raised
+  build-fmu check extended.fmu --replay         whether the experiments in it come out as they state
   build-fmu check X.fmu --fmpy ~/venv/bin/python
                                                 with the validation of that Python's fmpy
 
@@ -201,6 +202,10 @@ pub struct CheckArguments {
     #[arg(long, conflicts_with = "no_run")]
     pub signs: bool,
 
+    /// Run the experiments that the FMU brings along (FMI-LS-REF), and compare with the errors that they state
+    #[arg(long, conflicts_with = "no_run")]
+    pub replay: bool,
+
     /// Do not load the library, so that nothing of the FMU is run
     #[arg(long)]
     pub no_run: bool,
@@ -295,6 +300,10 @@ pub struct Arguments {
     /// Folder of prebuilt libraries, from `build-fmu libraries`; cargo builds missing ones [env: STRUT_LIBRARIES=]
     #[arg(long, value_name = "DIR")]
     pub libraries: Option<PathBuf>,
+
+    /// What travels with the FMUs of `parameters`, for callers that are programs.
+    #[arg(skip)]
+    pub related: Option<strut_related::Files>,
 
     /// Parameter set (TOML) to make an FMU of
     #[arg(long, value_name = "FILE")]

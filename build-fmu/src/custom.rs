@@ -60,7 +60,8 @@ pub fn with_values(fmu: &Fmu, values: &[String], name: Option<&str>, files: &Pat
     let parsed = ParameterSet::parse(&text)
         .map_err(|error| Failure::new(format!("the values for {} do not fit: {error}", fmu.name)))?;
     let folder = fmu.set.as_ref().map_or_else(|| files.to_owned(), |set| set.folder.clone());
-    let custom = Fmu { name: parsed.fmu.clone(), entry: fmu.entry, set: Some(Set { parsed, text, folder }) };
+    let (name, set) = (parsed.fmu.clone(), Some(Set { parsed, text, folder }));
+    let custom = Fmu { name, entry: fmu.entry, set, related: None };
     custom.interface()?;
     Ok(custom)
 }
@@ -91,7 +92,7 @@ mod tests {
         let parsed = ParameterSet::parse(text).unwrap();
         let entry = CATALOGUE.iter().find(|entry| entry.about.name == parsed.model).unwrap();
         let set = Set { parsed, text: (*text).into(), folder: "".into() };
-        Fmu { name: name.into(), entry: *entry, set: Some(set) }
+        Fmu { name: name.into(), entry: *entry, set: Some(set), related: None }
     }
 
     fn with(fmu: &Fmu, values: &[&str], name: Option<&str>) -> Result<Fmu> {

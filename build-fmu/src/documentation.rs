@@ -173,6 +173,7 @@ mod tests {
             name: entry.about.name.into(),
             entry: *entry,
             set: None,
+            related: None,
         });
         let published = strut_physics::PARAMETER_SETS.iter().map(|(_, text)| {
             let parsed = ParameterSet::parse(text).unwrap();
@@ -182,6 +183,7 @@ mod tests {
                 name: parsed.fmu.clone(),
                 entry,
                 set: Some(Set { parsed, text: (*text).into(), folder: folder.clone() }),
+                related: None,
             }
         });
         for fmu in plain.chain(published) {

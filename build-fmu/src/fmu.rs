@@ -6,11 +6,12 @@ use strut_model::{Causality, Entry, Error, Interface, ParameterSet};
 #[cfg(feature = "strut")]
 use strut_model::{Inputs, Trajectory};
 use strut_model_description::Header;
+use strut_related::{Files, Related, media};
 
 use crate::archive::Archive;
 use crate::documentation::{self, Page};
 use crate::failure::{Failure, Result};
-use crate::{platform::Platform, version::Version};
+use crate::{platform::Platform, related, version::Version};
 
 /// A published parameter set with where it comes from.
 #[derive(Clone, Debug)]
@@ -32,6 +33,8 @@ pub struct Fmu {
     pub entry: Entry,
     /// The parameter set; none for the model's own start values.
     pub set: Option<Set>,
+    /// What travels with it in place of its parameter set and its default experiment.
+    pub related: Option<Files>,
 }
 
 /// A packed FMU.
@@ -79,8 +82,17 @@ impl Fmu {
         let trajectory =
             self.entry.demonstrate(self.parsed(), self.folder()).map_err(|error| self.refused(&error))?;
         let page = documentation::html(&Page { fmu: self, interface: &interface, trajectory: &trajectory });
+        let recorded = self.entry.record(self.parsed(), self.folder(), related::STEPS);
+        let (recorded, inputs) = recorded.map_err(|error| self.refused(&error))?;
         let archive = |version: &Version| {
-            let bytes = self.archive(*version, (&interface, &page), libraries, license)?.bytes();
+            let mut archive = self.archive(*version, (&interface, &page), libraries, license)?;
+            let mut files = related::files(self, *version, &interface, (&recorded, inputs));
+            if !license.is_empty() {
+                let source = format!("../../{}", version.license());
+                files.name(Related::new(media::TEXT, &source, "document", "Licence"));
+            }
+            files.archived().for_each(|(path, contents)| archive.add(path, contents));
+            let bytes = archive.bytes();
             Ok(Packed { bytes, interface: interface.clone() })
         };
         versions.iter().map(archive).collect()
@@ -196,7 +208,8 @@ mod tests {
         let folder =
             PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../fmu-src/physics/parameters/resources");
         let entry = *strut_physics::CATALOGUE.iter().find(|entry| entry.about.name == "Road").unwrap();
-        Fmu { name: parsed.fmu.clone(), entry, set: Some(Set { parsed, text: (*text).into(), folder }) }
+        let set = Set { parsed, text: (*text).into(), folder };
+        Fmu { name: set.parsed.fmu.clone(), entry, set: Some(set), related: None }
     }
 
     fn archived(fmu: &Fmu, version: Version, libraries: &[(Platform, Vec<u8>)], license: &str) -> Packed {
@@ -224,6 +237,10 @@ mod tests {
                 "documentation/licenses/LICENSE.txt",
                 "resources/parameters.toml",
                 "resources/profile.csv",
+                "extra/org.fmi-standard.fmi-ls-ref/fmi-ls-manifest.xml",
+                "extra/org.fmi-standard.fmi-ls-ref/parameters.ssv",
+                "extra/org.fmi-standard.fmi-ls-ref/default-experiment.exp",
+                "extra/org.fmi-standard.fmi-ls-ref/default-experiment-out.csv",
             ]
         );
         let mut xml = String::new();
@@ -253,6 +270,10 @@ mod tests {
                 "documentation/licenses/license.txt",
                 "resources/parameters.toml",
                 "resources/profile.csv",
+                "extra/org.fmi-standard.fmi-ls-ref/fmi-ls-manifest.xml",
+                "extra/org.fmi-standard.fmi-ls-ref/parameters.ssv",
+                "extra/org.fmi-standard.fmi-ls-ref/default-experiment.exp",
+                "extra/org.fmi-standard.fmi-ls-ref/default-experiment-out.csv",
             ]
         );
         let mut xml = String::new();

@@ -53,6 +53,7 @@ mod plan;
 mod platform;
 mod plot;
 mod prebuilt;
+mod related;
 mod run;
 mod style;
 mod system;
@@ -133,10 +134,10 @@ pub fn strut() -> Project<'static> {
 
 /// One FMU to make.
 #[cfg(feature = "strut")]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Wanted<'a> {
-    /// That of a parameter set in a file.
-    Parameters(&'a Path),
+    /// That of a parameter set in a file, with what travels with it.
+    Parameters(&'a Path, strut_related::Files),
     /// That of a name, with values `NAME=VALUE` and perhaps another name.
     Values(&'a str, &'a [String], Option<&'a str>),
 }
@@ -155,7 +156,10 @@ pub fn make(
 ) -> Result<PathBuf, String> {
     let mut arguments = Arguments { out: out.into(), ..arguments(libraries) };
     match wanted {
-        Wanted::Parameters(path) => arguments.parameters.push(path.into()),
+        Wanted::Parameters(path, related) => {
+            arguments.parameters.push(path.into());
+            arguments.related = Some(related);
+        }
         Wanted::Values(fmu, values, name) => {
             arguments.names.push(fmu.into());
             arguments.set = values.into();

@@ -42,7 +42,7 @@ impl Plan {
         let mut fmus: Vec<Fmu> = project
             .catalogue
             .iter()
-            .map(|entry| Fmu { name: entry.about.name.into(), entry: *entry, set: None })
+            .map(|entry| Fmu { name: entry.about.name.into(), entry: *entry, set: None, related: None })
             .collect();
         for (name, text) in project.parameter_sets {
             fmus.push(with_set(project, name, text, files)?);
@@ -63,7 +63,8 @@ impl Plan {
         let given_fmus = fmus.len();
         for path in &arguments.parameters {
             let folder = path.parent().unwrap_or(Path::new(""));
-            let fmu = with_set(project, &path.display().to_string(), &read(path)?, folder)?;
+            let mut fmu = with_set(project, &path.display().to_string(), &read(path)?, folder)?;
+            fmu.related.clone_from(&arguments.related);
             // The user's set takes the place of a published one of the same name.
             match fmus.iter().position(|other| other.set.is_some() && other.name == fmu.name) {
                 Some(index) if index < given_fmus => {
@@ -229,7 +230,8 @@ fn with_set(project: &Project, file: &str, text: &str, folder: &Path) -> Result<
     })?;
     let name = parsed.fmu.clone();
     check_identifier(&name, &format!("the parameter set `{file}`"))?;
-    Ok(Fmu { name, entry: *entry, set: Some(Set { parsed, text: text.into(), folder: folder.into() }) })
+    let set = Set { parsed, text: text.into(), folder: folder.into() };
+    Ok(Fmu { name, entry: *entry, set: Some(set), related: None })
 }
 
 /// The name of a library's functions begins with the FMU's.

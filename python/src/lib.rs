@@ -92,11 +92,18 @@ fn simulate(
 
 /// Checks an FMU or SSP; the report as JSON. `program` is the command that runs libraries.
 #[pyfunction]
-fn check(py: Python<'_>, path: PathBuf, program: Vec<PathBuf>, run: bool, timeout: f64) -> PyResult<String> {
+fn check(
+    py: Python<'_>,
+    path: PathBuf,
+    program: Vec<PathBuf>,
+    [run, replay]: [bool; 2],
+    timeout: f64,
+) -> PyResult<String> {
     let timeout = Duration::try_from_secs_f64(timeout).map_err(|error| wrong(error.to_string()))?;
     let work = move || {
         let fmpy = strut_check::Fmpy::Without;
-        let options = strut_check::Options { fmpy, run, signs: false, timeout, program, listener: None };
+        let options =
+            strut_check::Options { fmpy, run, signs: false, replay, timeout, program, listener: None };
         let failed = |error: String| format!("{}: {error}", path.display());
         strut_check::check(&path, &options).map_err(failed).map(|report| {
             let strut_check::Report { about, findings, done, skipped, .. } = report;

@@ -55,18 +55,21 @@ class Report:
         return "\n".join(lines)
 
 
-def check(path: str | os.PathLike[str], *, run: bool = True, timeout: float = 30.0) -> Report:
+def check(
+    path: str | os.PathLike[str], *, run: bool = True, replay: bool = False, timeout: float = 30.0
+) -> Report:
     """Checks an FMU or SSP, anyone's: its description, its libraries, and how they behave.
 
     Libraries run in processes of their own: one that crashes is a finding.
 
     :param run: Whether code of the FMU is run.
+    :param replay: Whether the experiments in the FMU are run and compared with the errors that they state.
     :param timeout: Time that each run may take in s.
     :raises ValueError: If the file cannot be read.
 
     >>> strut.check(strut.fmu("LinearMotor", folder="fmus")).problems
     0
     """
-    report = json.loads(_strut.check(os.fspath(path), [str(PROGRAM), "probe"], run, timeout))
+    report = json.loads(_strut.check(os.fspath(path), [str(PROGRAM), "probe"], [run, replay], timeout))
     report["findings"] = [Finding(**it) for it in report["findings"]]
     return Report(**report)

@@ -10,7 +10,7 @@ use crate::lines::Lines;
 use crate::package::Package;
 use crate::rules::fmi;
 use crate::text::{self, Standard};
-use crate::{Options, behaviour, fmpy, head, libraries, probe, schema, structure, variables};
+use crate::{Options, behaviour, fmpy, head, libraries, probe, related, schema, structure, variables};
 
 /// The file that an FMU must have.
 pub const FILE: &str = "modelDescription.xml";
@@ -27,6 +27,7 @@ pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Re
     if description.is_of_another_version() {
         let version = &description.version;
         report.skipped.push(format!("the rules for FMI 2.0 and running it: this is FMI {version}"));
+        related::check(package, &description, &mut report)?;
         return if fmpy::validate(file, fmpy::What::Fmu, &options.fmpy, &mut report)? {
             Ok(report)
         } else {
@@ -51,6 +52,12 @@ pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Re
         report.about.push(platforms.join(", "));
         report.done.push(format!("libraries: {}", platforms.join(", ")));
     }
+    let experiments = related::check(package, &description, &mut report)?;
+    report.tell();
+    if options.replay && experiments.is_empty() {
+        report.skipped.push("replay: there is no experiment in it that can be run (FMI-LS-REF)".into());
+    }
+    let experiments = if options.replay { &experiments[..] } else { &[] };
     if options.run {
         let failed = |error: std::io::Error| format!("there is no folder to unpack to: {error}");
         let folder = tempfile::tempdir().map_err(failed)?;
@@ -61,7 +68,8 @@ pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Re
         }
         let unpacked = behaviour::Unpacked { plain: &plain, odd: &odd };
         let probe = probe::Probe { program: options.program.clone(), timeout: options.timeout };
-        behaviour::run(&description, &unpacked, &probe, options.signs, &mut report)?;
+        let further = behaviour::Further { signs: options.signs, experiments };
+        behaviour::run(&description, &unpacked, &probe, &further, &mut report)?;
     } else {
         report.skipped.push("running it: not wanted".into());
     }

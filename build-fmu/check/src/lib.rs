@@ -19,6 +19,7 @@ mod lines;
 mod names;
 mod package;
 mod probe;
+mod related;
 mod rules;
 mod schema;
 mod structure;
@@ -48,6 +49,8 @@ pub struct Options {
     pub run: bool,
     /// Whether the signs of the outputs' responses to a raised input are reported.
     pub signs: bool,
+    /// Whether the experiments in the FMU are run again.
+    pub replay: bool,
     /// How long each call of a library may take.
     pub timeout: Duration,
     /// The program that calls [`probe`], with its arguments before the folder.

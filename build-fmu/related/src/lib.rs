@@ -5,14 +5,16 @@
 //! (<https://github.com/modelica/ma-hs-experiments>). Each document is declared here once, with its writer and its reader.
 
 mod experiments;
+mod files;
 mod manifest;
 mod parameters;
 mod series;
 mod xml;
 
 pub use experiments::{Agreement, Between, Experiment, Experiments, Stated, Table};
+pub use files::Files;
 pub use manifest::{Manifest, ROLES, Related, Role};
-pub use parameters::{Given, ParameterSet};
+pub use parameters::{Given, ParameterSet, Value};
 pub use series::{Series, rounded};
 pub use xml::Element;
 

@@ -8,7 +8,31 @@ use crate::Element;
 const ANNOTATION: &str = "io.github.strut-fmu.parameter";
 const NAMESPACE: &str = "https://github.com/strut-fmu/strut/parameter";
 
-/// A parameter set of real values.
+/// A value of a type of SSP 1.0.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// `<ssv:Real>`.
+    Real(f64),
+    /// `<ssv:Integer>`; of an enumeration too.
+    Integer(i32),
+    /// `<ssv:Boolean>`.
+    Boolean(bool),
+    /// `<ssv:String>`.
+    Text(String),
+}
+
+impl Value {
+    fn element(&self) -> Element {
+        match self {
+            Self::Real(value) => Element::new("ssv:Real").with("value", format!("{value:?}")),
+            Self::Integer(value) => Element::new("ssv:Integer").with("value", value),
+            Self::Boolean(value) => Element::new("ssv:Boolean").with("value", value),
+            Self::Text(value) => Element::new("ssv:String").with("value", value),
+        }
+    }
+}
+
+/// A parameter set.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ParameterSet {
     /// Its name.
@@ -20,12 +44,12 @@ pub struct ParameterSet {
 }
 
 /// A value with its provenance.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Given {
     /// Name of the variable.
     pub name: String,
     /// In the variable's unit.
-    pub value: f64,
+    pub value: Value,
     /// The variable's unit, for people: conversions are the importer's.
     pub unit: String,
     /// Where the value comes from.
@@ -53,8 +77,7 @@ impl Given {
             parameter = parameter.with("description", words.join("; "));
         }
         let annotation = Element::new("ssc:Annotation").with("type", ANNOTATION).of([told]);
-        let value = Element::new("ssv:Real").with("value", number(self.value));
-        parameter.of([value, Element::new("ssv:Annotations").of([annotation])])
+        parameter.of([self.value.element(), Element::new("ssv:Annotations").of([annotation])])
     }
 }
 
@@ -80,7 +103,7 @@ mod tests {
     fn a_value_has_its_source_and_interval() {
         let value = Given {
             name: "strut.coulomb.force".into(),
-            value: 60.5,
+            value: Value::Real(60.5),
             unit: "N".into(),
             source: "fitted to the records".into(),
             interval: Some([59.0, 62.0]),

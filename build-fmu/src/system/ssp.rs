@@ -15,9 +15,9 @@ use super::adapter::Adapter;
 use super::check::Checked;
 use super::face::{Kind, Variable};
 use super::wire::{End, Sink, Source, Way};
-use strut_related::Element;
 use super::{Packed, System};
 use crate::archive::Archive;
+use strut_related::Element;
 
 /// All parameter sets bear this name: Ecos applies one name at a time.
 const SET: &str = "defaults";

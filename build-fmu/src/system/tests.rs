@@ -33,6 +33,7 @@ fn fmu(name: &str) -> Fmu {
         name: name.into(),
         entry,
         set: Some(crate::fmu::Set { parsed, text: text.into(), folder: "".into() }),
+        related: None,
     }
 }
 

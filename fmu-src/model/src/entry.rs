@@ -116,6 +116,46 @@ impl Entry {
         run(&mut *self.instance(set, resources)?, &driven, signals, step, stop)
     }
 
+    /// The default experiment as an importer records it, in at most so many communication steps: inputs are set and held, outputs are
+    /// read where a step arrives. Its driven inputs, all outputs, and how many of both are inputs.
+    ///
+    /// # Errors
+    /// If the model refuses the parameter set or the integration fails.
+    pub fn record(
+        &self,
+        set: Option<&ParameterSet>,
+        resources: Option<&Path>,
+        most: usize,
+    ) -> Result<(Trajectory, usize), Error> {
+        let Experiment { stop, step, .. } = self.about.experiment;
+        let interface = self.interface(set, resources)?;
+        let driven = driven(&self.about.experiment, &interface);
+        let steps = ((stop / step).round() as usize).clamp(1, most.max(1));
+        let mut record = Recording::new(signals(&interface, &driven, |_| true));
+        let simulation = &mut *self.instance(set, resources)?;
+        simulation.set_up(0.0, None)?;
+        let step = stop / steps as f64;
+        for index in 0..=steps {
+            let time = index as f64 * step;
+            if index > 0 {
+                simulation.step((index - 1) as f64 * step, step)?;
+                record.read(simulation, time)?;
+            }
+            let access = if index == 0 { Access::All } else { Access::Tunable };
+            for (column, Driven { reference, at }) in driven.iter().enumerate() {
+                simulation.set_real(&[*reference], &[at(time)], access)?;
+                if let Some(last) = record.trajectory.signals[column].2.last_mut() {
+                    *last = at(time);
+                }
+            }
+            if index == 0 {
+                simulation.initialize()?;
+                record.read(simulation, time)?;
+            }
+        }
+        Ok((record.trajectory, driven.len()))
+    }
+
     /// Simulates from zero to `stop` in communication steps of `step`, in seconds; its driven inputs and all outputs. Without
     /// `inputs`, they do what they do in the default experiment; what is not driven rests at its start value.
     ///
@@ -234,6 +274,32 @@ fn signals(interface: &Interface, driven: &[Driven], shown: impl Fn(&str) -> boo
     inputs.chain(outputs).filter_map(of).collect()
 }
 
+/// A trajectory that grows.
+struct Recording {
+    references: Vec<u32>,
+    values: Vec<f64>,
+    trajectory: Trajectory,
+}
+
+impl Recording {
+    fn new(signals: Vec<Signal>) -> Self {
+        let references: Vec<u32> = signals.iter().map(|signal| signal.reference).collect();
+        let signals = signals.into_iter().map(|signal| (signal.name, signal.unit, Vec::new())).collect();
+        let trajectory = Trajectory { time: Vec::new(), signals };
+        Self { values: vec![0.0; references.len()], references, trajectory }
+    }
+
+    /// Writes down the values of now.
+    fn read(&mut self, simulation: &mut dyn Instance, time: f64) -> Result<(), Error> {
+        simulation.real(&self.references, &mut self.values)?;
+        self.trajectory.time.push(time);
+        for ((_, _, signal), value) in self.trajectory.signals.iter_mut().zip(&self.values) {
+            signal.push(*value);
+        }
+        Ok(())
+    }
+}
+
 fn run(
     simulation: &mut dyn Instance,
     driven: &[Driven],
@@ -241,12 +307,7 @@ fn run(
     step: f64,
     stop: f64,
 ) -> Result<Trajectory, Error> {
-    let references: Vec<u32> = signals.iter().map(|signal| signal.reference).collect();
-    let mut values = vec![0.0; references.len()];
-    let mut trajectory = Trajectory {
-        time: Vec::new(),
-        signals: signals.into_iter().map(|signal| (signal.name, signal.unit, Vec::new())).collect(),
-    };
+    let mut record = Recording::new(signals);
     simulation.set_up(0.0, None)?;
     simulation.initialize()?;
     let steps = (stop / step).round() as usize;
@@ -255,16 +316,12 @@ fn run(
         for Driven { reference, at } in driven {
             simulation.set_real(&[*reference], &[at(time)], Access::Continuous)?;
         }
-        simulation.real(&references, &mut values)?;
-        trajectory.time.push(time);
-        for ((_, _, signal), value) in trajectory.signals.iter_mut().zip(&values) {
-            signal.push(*value);
-        }
+        record.read(simulation, time)?;
         if index < steps {
             simulation.step(time, step)?;
         }
     }
-    Ok(trajectory)
+    Ok(record.trajectory)
 }
 
 #[cfg(test)]

@@ -173,7 +173,9 @@ impl Bench<'_> {
             let mut acts = subject.fresh(self.unpacked.plain);
             acts.extend(subject.initialize());
             acts.extend(subject.excite(0, 1.0));
-            acts.push((Act::InputDerivatives(inputs), true));
+            // Derivatives of zero leave a run as it is.
+            let rates = vec![0.0; inputs.len()];
+            acts.push((Act::InputDerivatives(inputs, rates), true));
             acts.push(subject.advance(subject.time(0)));
             acts.extend(subject.reads());
             let run = self.obey(acts)?;

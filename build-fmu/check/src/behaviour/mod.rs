@@ -8,12 +8,14 @@ mod subject;
 use std::path::Path;
 
 pub use signs::Response;
-use subject::{STEPS, Subject, plain, read};
+pub use subject::plain;
+use subject::{STEPS, Subject, read};
 
 use crate::description::{Description, Kind};
 use crate::finding::{Finding, Report};
 use crate::libraries;
 use crate::probe::{ABSENT, Act, Ending, Probe, RESTLESS, Run};
+use crate::related::{self, Prepared};
 use crate::rules::{Rule, fmi, practice};
 
 /// Folders that an FMU is unpacked to.
@@ -24,7 +26,15 @@ pub struct Unpacked<'a> {
     pub odd: &'a Path,
 }
 
-/// Runs each interface for which there is a library; reports the signs of the outputs' responses on request.
+/// What is done beyond the rules, on request.
+pub struct Further<'a> {
+    /// Whether the signs of the outputs' responses are reported.
+    pub signs: bool,
+    /// Experiments that are run again.
+    pub experiments: &'a [Prepared],
+}
+
+/// Runs each interface for which there is a library.
 ///
 /// # Errors
 /// If processes cannot be started.
@@ -32,7 +42,7 @@ pub fn run(
     description: &Description,
     unpacked: &Unpacked,
     probe: &Probe,
-    signs: bool,
+    further: &Further,
     report: &mut Report,
 ) -> Result<(), String> {
     let mut first = true;
@@ -50,17 +60,24 @@ pub fn run(
         let subject = Subject::new(description, interface, library);
         let bench = Bench { subject, unpacked, probe };
         bench.check(first, report)?;
-        if signs {
+        if further.signs {
             bench.signs(report)?;
+        }
+        for experiment in further.experiments.iter().filter(|_| kind == Kind::CoSimulation) {
+            related::replay(&bench, experiment, report)?;
+            report.tell();
         }
         first = false;
     }
     Ok(())
 }
 
-struct Bench<'a> {
-    subject: Subject<'a>,
-    unpacked: &'a Unpacked<'a>,
+/// An FMU with what it is run by.
+pub struct Bench<'a> {
+    /// What is run.
+    pub subject: Subject<'a>,
+    /// Where it is.
+    pub unpacked: &'a Unpacked<'a>,
     probe: &'a Probe,
 }
 
@@ -136,7 +153,11 @@ impl Bench<'_> {
         }
     }
 
-    fn obey(&self, acts: Acts) -> Result<Run, String> {
+    /// Has a process of its own make the calls.
+    ///
+    /// # Errors
+    /// If it cannot be started.
+    pub fn obey(&self, acts: Acts) -> Result<Run, String> {
         self.probe.run(self.subject.orders(self.unpacked.plain, acts))
     }
 
@@ -152,7 +173,7 @@ impl Bench<'_> {
     }
 
     /// Whether a run went through; what went wrong is reported.
-    fn ran(&self, rule: &'static Rule, what: &str, run: &Run, report: &mut Report) -> bool {
+    pub fn ran(&self, rule: &'static Rule, what: &str, run: &Run, report: &mut Report) -> bool {
         let message = match (&run.ending, run.failure()) {
             (Ending::Crashed { function, how }, _) => {
                 format!("the library crashes in {function} during {what}: {how}")

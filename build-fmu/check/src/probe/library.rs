@@ -254,18 +254,19 @@ impl Library {
         )
     }
 
-    /// `fmi2SetRealInputDerivatives`: first derivatives of zero, which leave a run as it is.
-    pub fn set_input_derivatives(&self, instance: Instance, references: &[u32]) -> Status {
-        let (orders, values) = (vec![1; references.len()], vec![0.0; references.len()]);
+    /// `fmi2SetRealInputDerivatives`: first derivatives.
+    pub fn set_input_derivatives(&self, instance: Instance, references: &[u32], rates: &[f64]) -> Status {
+        let count = references.len().min(rates.len());
+        let orders = vec![1; count];
         call!(
             self.library,
             "fmi2SetRealInputDerivatives",
             instance,
             (*const u32, usize, *const c_int, *const f64),
             references.as_ptr(),
-            references.len(),
+            count,
             orders.as_ptr(),
-            values.as_ptr()
+            rates.as_ptr()
         )
     }
 

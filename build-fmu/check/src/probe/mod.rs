@@ -53,8 +53,8 @@ pub enum Act {
     Serialize(usize, usize),
     /// Directional derivative of some unknowns towards a known.
     Directional(Vec<u32>, u32),
-    /// `fmi2SetRealInputDerivatives`: the first derivatives of inputs, all zero.
-    InputDerivatives(Vec<u32>),
+    /// `fmi2SetRealInputDerivatives`: the first derivatives of inputs.
+    InputDerivatives(Vec<u32>, Vec<f64>),
     /// `fmi2GetRealOutputDerivatives` of an order.
     OutputDerivatives(Vec<u32>, i32),
     /// `fmi2GetNominalsOfContinuousStates` of that many states.
@@ -215,7 +215,7 @@ impl Act {
             Self::FreeState(_) => "fmi2FreeFMUstate",
             Self::Serialize(..) => "fmi2SerializeFMUstate and fmi2DeSerializeFMUstate",
             Self::Directional(..) => "fmi2GetDirectionalDerivative",
-            Self::InputDerivatives(_) => "fmi2SetRealInputDerivatives",
+            Self::InputDerivatives(..) => "fmi2SetRealInputDerivatives",
             Self::OutputDerivatives(..) => "fmi2GetRealOutputDerivatives",
             Self::Nominals(_) => "fmi2GetNominalsOfContinuousStates",
             Self::DiscreteStates => "fmi2NewDiscreteStates",
@@ -298,7 +298,9 @@ impl Stage<'_> {
                 reals = vec![0.0; unknowns.len()];
                 library.directional(instance, unknowns, *known, &mut reals)
             }
-            Act::InputDerivatives(references) => library.set_input_derivatives(instance, references),
+            Act::InputDerivatives(references, rates) => {
+                library.set_input_derivatives(instance, references, rates)
+            }
             Act::OutputDerivatives(references, order) => {
                 reals = vec![0.0; references.len()];
                 library.output_derivatives(instance, references, *order, &mut reals)

@@ -6,6 +6,7 @@
 pub mod fmi;
 mod page;
 pub mod practice;
+pub mod related;
 pub mod ssp;
 
 use serde::Serialize;
@@ -48,7 +49,7 @@ pub struct Table {
 }
 
 /// All rules.
-pub const TABLES: [&Table; 3] = [&fmi::TABLE, &ssp::TABLE, &practice::TABLE];
+pub const TABLES: [&Table; 4] = [&fmi::TABLE, &ssp::TABLE, &related::TABLE, &practice::TABLE];
 
 /// Declares the rules of a standard: `NAME "name" "section" "sentence"`, and `"section" "sentence" "why it is not checked"`.
 macro_rules! rules {

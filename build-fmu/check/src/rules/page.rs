@@ -27,7 +27,12 @@ pub fn page() -> String {
         sum(&|table| table.uncheckable.len()),
         sum(&|table| table.open.len()),
     );
-    let titles = ["Functional Mock-up Interface", "System Structure and Parameterization", "Practice"];
+    let titles = [
+        "Functional Mock-up Interface",
+        "System Structure and Parameterization",
+        "Related files (draft)",
+        "Practice",
+    ];
     for (table, title) in TABLES.iter().zip(titles) {
         let _ = write!(text, "\n## {title}\n\n{}", body(table));
     }

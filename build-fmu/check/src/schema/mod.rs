@@ -3,6 +3,7 @@
 //! Each schema is declared once, as data, and read by one validator.
 
 pub mod fmi;
+pub mod related;
 pub mod ssp;
 mod validator;
 mod values;

@@ -24,6 +24,7 @@ use dictionaries::Dictionaries;
 use structure::{Content, Element, Structure};
 
 pub use structure::FILE;
+pub use values::{Parameter, Values};
 
 /// A system with what its components are made of.
 struct System {
