@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use crate::mutations::{Case, archives, descriptions, documents, fmus, libraries, systems};
+use crate::mutations::{Case, archives, descriptions, documents, fmus, libraries, related, systems};
 use crate::subject::{check, problems};
 
 /// Rules whose findings are for a machine, or a program, that is not at hand in each run.
@@ -56,9 +56,14 @@ fn mutated_libraries_are_found() {
 }
 
 #[test]
+fn mutated_related_files_are_found() {
+    each_is_found(&related::all(), &["--replay", "--timeout", "5"]);
+}
+
+#[test]
 fn nothing_is_found_in_what_is_not_mutated() {
     let folder = tempfile::tempdir().unwrap();
-    let good = [fmus::good(), descriptions::good(), systems::good()];
+    let good = [fmus::good(), descriptions::good(), systems::good(), related::good()];
     let files: Vec<PathBuf> = (0..)
         .zip(&good)
         .map(|(index, case)| {
@@ -67,11 +72,13 @@ fn nothing_is_found_in_what_is_not_mutated() {
             path
         })
         .collect();
-    let (code, answers) = check(&files, &["--no-fmpy"]);
+    let (code, answers) = check(&files, &["--no-fmpy", "--replay"]);
     for answer in answers.as_array().unwrap() {
         assert_eq!(problems(answer), Vec::<String>::new());
     }
     assert_eq!(code, 0);
+    let done = answers[3]["report"]["done"].to_string();
+    assert!(done.contains("replay of `rise` (10 steps of 0.1 s): the stated error comes out"), "{done}");
 }
 
 /// What is spoilt at random is found if, and only if, the standards' own schemas find it.
@@ -115,7 +122,7 @@ fn each_rule_that_is_checked_has_a_mutation() {
     let named = page.lines().filter_map(|line| line.strip_suffix("` |")?.rsplit_once("| `"));
     let checked: BTreeSet<&str> = named.map(|(_, name)| name).collect();
     let all: Vec<Case> =
-        [fmus::all(), descriptions::all(), archives::all(), systems::all(), libraries::all()]
+        [fmus::all(), descriptions::all(), archives::all(), systems::all(), libraries::all(), related::all()]
             .into_iter()
             .flatten()
             .collect();

@@ -4,6 +4,7 @@ pub mod archives;
 pub mod descriptions;
 pub mod fmus;
 pub mod libraries;
+pub mod related;
 mod schema;
 pub mod systems;
 
