@@ -37,7 +37,11 @@ SHORT = {
 def jobs(folder, short, unpacked):
     for path in sorted(folder.glob("*.fmu")):
         if not short or path.stem in SHORT:
-            yield "fmu", path, matrix_jobs.single(path)
+            job = matrix_jobs.single(path)
+            yield "fmu", path, job
+            # The same job with the FMU of FMI 3.0; what it is to come to is what that of FMI 2.0 does.
+            if (later := folder / "fmi3" / path.name).exists():
+                yield "fmi3", later, job
     for path in sorted(folder.glob("*.ssp")):
         if not short or path.stem in SHORT:
             yield "ssp", path, matrix_jobs.system(path, Path(unpacked) / path.stem)
@@ -61,7 +65,7 @@ def main():
             references = {}
             row = table[kind, job.name] = {}
             for master in masters:
-                reason = master.cannot(kind, job)
+                reason = master.cannot(kind, job) or (matrix_masters.ONE if kind == "fmi3" and not master.fmi3 else None)
                 if reason:
                     row[master.name] = reason
                     continue
@@ -79,7 +83,7 @@ def main():
                     continue
                 if not row[master.name] <= KINKED.get(job.name, TOLERANCE):
                     failures.append(f"{master.name}, {job.name}: {row[master.name]:.1e} apart")
-            print(job.name, *(f"{name}: {cell:.0e}" if isinstance(cell, float) else f"{name}: -"
+            print(job.name, *(["(FMI 3.0)"] if kind == "fmi3" else []), *(f"{name}: {cell:.0e}" if isinstance(cell, float) else f"{name}: -"
                               for name, cell in row.items()), flush=True)
     assert table, f"no FMUs in {arguments.folder}"
     if arguments.page:

@@ -22,7 +22,10 @@ ONE = "one"
 
 
 class Master:
-    """Of one name and version; without restrictions."""
+    """Of one name and version; without restrictions, but for FMI 3.0."""
+
+    # Whether it is given FMUs of FMI 3.0.
+    fmi3 = False
 
     def __init__(self, name, release):
         self.name, self.version = name, release
@@ -32,6 +35,8 @@ class Master:
 
 
 class Fmpy(Master):
+    fmi3 = True
+
     def run(self, kind, path, job):
         if kind == "ssp":
             return columns(MASTERS["fmpy"][0], path, job), ZeroAtFirst
@@ -75,6 +80,8 @@ class Libcosimpy(Master):
 
 
 class Ecos(Master):
+    fmi3 = True
+
     def run(self, kind, path, job):
         if kind == "ssp":
             return columns(MASTERS["ecos"][0], path, job), ExchangedAfterwards
@@ -172,6 +179,8 @@ class Cofmupy(Master):
 class FmiSim(Master):
     """Runs single FMUs."""
 
+    fmi3 = True
+
     def __init__(self, program):
         # It tells its version as an error.
         told = subprocess.run([program, "--version"], capture_output=True, text=True)
@@ -227,12 +236,15 @@ class OMSimulator(Master):
 class FmiCrate(Master):
     """The crate `fmi`, as examples/rust-master uses it."""
 
+    fmi3 = True
+
     def __init__(self, program):
         super().__init__("fmi (crate)", "0.8")
         self.program = program
 
     def run(self, kind, path, job):
-        lines = [f"component\t{name}\t{file}" for name, file in job.components.items()]
+        components = {"fmu": path.resolve()} if kind == "fmi3" else job.components
+        lines = [f"component\t{name}\t{file}" for name, file in components.items()]
         lines += [f"connect\t{source}\t{target}" for source, target in job.connections]
         lines += [f"set\t{name}\t{value!r}" for name, value in job.values.items()]
         lines += [f"signal\t{signal}" for signal in job.signals] + [f"run\t{job.step!r}\t{job.count}"]

@@ -104,7 +104,7 @@ def page(path, table, masters, minutes, ecco):
     names = [master.name for master in masters]
     text = HEAD.format(minutes=minutes, **{master.name: master.version for master in masters})
     counts = Counter()
-    for kind, title in (("fmu", "Single FMUs"), ("ssp", "Systems")):
+    for kind, title in (("fmu", "Single FMUs"), ("fmi3", "Single FMUs of FMI 3.0"), ("ssp", "Systems")):
         used = [name for name in names if any(row[name] != "one" for (k, _), row in table.items() if k == kind)]
         text += f"\n## {title}\n\n| | " + " | ".join(used) + " |\n|---|" + "--:|" * len(used) + "\n"
         for (row_kind, name), row in sorted(table.items()):
@@ -112,5 +112,8 @@ def page(path, table, masters, minutes, ecco):
                 checked = {master: "✓" if master == "fmutool" and row[master] == 0.0 else cell(row[master]) for master in used}
                 text += f"| {name} | " + " | ".join(checked[master] for master in used) + " |\n"
                 counts[kind] += sum(isinstance(row[master], float) for master in used)
-    summary = f"{counts['fmu']} runs of single FMUs and {counts['ssp']} of systems, all within the tolerance."
+    summary = (
+        f"{counts['fmu']} runs of single FMUs, {counts['fmi3']} of FMUs of FMI 3.0 and {counts['ssp']} of systems, all "
+        "within the tolerance."
+    )
     path.write_text(text + NOTES.format(summary=summary, ecco=ecco), encoding="utf-8")

@@ -3,8 +3,10 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use fmi::fmi2::instance::{CoSimulation, Common, InstanceCS};
-use fmi::{fmi2::import::Fmi2Import, traits::FmiImport};
+#[path = "component.rs"]
+mod component;
+
+use component::Component;
 
 pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
@@ -14,9 +16,7 @@ type Signal = (usize, u32);
 /// Components with their connections: `targets[i]` is told what `sources[i]` is.
 #[derive(Default)]
 pub struct System {
-    instances: Vec<InstanceCS>,
-    /// They hold the unpacked folders, in which the instances' libraries and resources lie.
-    imports: Vec<Fmi2Import>,
+    components: Vec<Component>,
     variables: HashMap<String, Signal>,
     sources: Vec<Signal>,
     targets: Vec<Signal>,
@@ -27,16 +27,10 @@ impl System {
     pub fn new(folder: &Path, components: &[(&str, &str)], connections: &[(&str, &str)]) -> Result<Self> {
         let mut system = Self::default();
         for (index, (name, fmu)) in components.iter().enumerate() {
-            let path = folder.join(format!("{fmu}.fmu"));
-            let unusable = |error| format!("{}: {error}; cargo run --release builds it", path.display());
-            let import: Fmi2Import = fmi::import::from_path(&path).map_err(unusable)?;
-            for variable in import.model_description().get_model_variables() {
-                system
-                    .variables
-                    .insert(format!("{name}.{}", variable.name), (index, variable.value_reference));
-            }
-            system.instances.push(import.instantiate_cs(name, false, false)?);
-            system.imports.push(import);
+            let (component, variables) = Component::load(name, &folder.join(format!("{fmu}.fmu")))?;
+            let named = |(variable, reference)| (format!("{name}.{variable}"), (index, reference));
+            system.variables.extend(variables.into_iter().map(named));
+            system.components.push(component);
         }
         for (source, target) in connections {
             system.sources.push(system.signal(source)?);
@@ -51,23 +45,18 @@ impl System {
 
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         let (component, reference) = self.signal(name)?;
-        self.instances[component].set_real(&[reference], &[value])?;
-        Ok(())
+        self.components[component].set(reference, value)
     }
 
     fn read(&mut self, signals: &[Signal]) -> Result<Vec<f64>> {
-        let mut values = vec![0.0; signals.len()];
-        for ((component, reference), value) in signals.iter().zip(&mut values) {
-            self.instances[*component].get_real(&[*reference], std::slice::from_mut(value))?;
-        }
-        Ok(values)
+        signals.iter().map(|(component, reference)| self.components[*component].get(*reference)).collect()
     }
 
     /// Outputs to inputs: all are read before any is set.
     fn exchange(&mut self) -> Result<()> {
         let values = self.read(&self.sources.clone())?;
         for ((component, reference), value) in self.targets.iter().zip(values) {
-            self.instances[*component].set_real(&[*reference], &[value])?;
+            self.components[*component].set(*reference, value)?;
         }
         Ok(())
     }
@@ -75,25 +64,22 @@ impl System {
     /// Simulates from 0 to `stop`: rows of signals at 0 and after every step, read before the next exchange.
     pub fn run(mut self, stop: f64, step: f64, signals: &[&str]) -> Result<Vec<Vec<f64>>> {
         let recorded = signals.iter().map(|name| self.signal(name)).collect::<Result<Vec<_>>>()?;
-        for instance in &mut self.instances {
-            instance.setup_experiment(None, 0.0, None)?;
-            instance.enter_initialization_mode()?;
-        }
+        self.components.iter_mut().try_for_each(Component::begin)?;
         // A value that passes through a component arrives only in the next exchange.
-        for _ in 0..self.instances.len() {
+        for _ in 0..self.components.len() {
             self.exchange()?;
         }
-        self.instances.iter_mut().try_for_each(|instance| instance.exit_initialization_mode().map(drop))?;
+        self.components.iter_mut().try_for_each(Component::ready)?;
         let mut rows = vec![self.read(&recorded)?];
         for index in 0..(stop / step).round() as u32 {
             self.exchange()?;
-            for instance in &self.instances {
+            for component in &mut self.components {
                 // Not added up: after many steps a sum of steps is no longer a multiple of the step.
-                instance.do_step(f64::from(index) * step, step, true)?;
+                component.step(f64::from(index) * step, step)?;
             }
             rows.push(self.read(&recorded)?);
         }
-        self.instances.iter_mut().try_for_each(|instance| instance.terminate().map(drop))?;
+        self.components.iter_mut().try_for_each(Component::terminate)?;
         Ok(rows)
     }
 }
