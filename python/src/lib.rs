@@ -20,6 +20,7 @@ use strut_diagnosis::data::map::Map;
 use strut_diagnosis::estimation::deadline::Deadline;
 use strut_diagnosis::experiment::Limits;
 use strut_diagnosis::report;
+use strut_diagnosis::report::extend::Packing;
 use strut_diagnosis::report::findings::SignalAccount;
 use strut_diagnosis::rig::Rig;
 use strut_model::Inputs;
@@ -185,15 +186,22 @@ impl PyOutcome {
     }
 
     /// Writes the report and the extended model.
-    fn save(&self, py: Python<'_>, folder: PathBuf, fmu: bool, libraries: Option<PathBuf>) -> PyResult<()> {
+    fn save(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        [fmu, record]: [bool; 2],
+        libraries: Option<PathBuf>,
+    ) -> PyResult<()> {
         let Outcome { findings, extended } = &self.0;
         let failures = py.detach(|| {
             let mut failures = Vec::new();
             let written = report::write(findings, &folder);
             failures.extend(written.err().into_iter().flatten().map(|error| error.to_string()));
             if let Some(extended) = extended.as_ref().filter(|_| folder.is_dir()) {
-                failures
-                    .extend(extended.write(&folder, fmu, libraries.as_deref()).err().into_iter().flatten());
+                let packing = Packing { libraries: libraries.as_deref(), record };
+                let written = extended.write(findings, &folder, fmu.then_some(packing));
+                failures.extend(written.err().into_iter().flatten());
             }
             failures
         });

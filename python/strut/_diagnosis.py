@@ -122,13 +122,14 @@ class Diagnosis:
             axes[1].set(xlabel="time in s", ylabel=f"missing at the {missing['place']} in {missing['unit']}")
         return figure
 
-    def save(self, folder: str | os.PathLike[str] = "report", *, fmu: bool = True) -> Path:
+    def save(self, folder: str | os.PathLike[str] = "report", *, fmu: bool = True, record: bool = True) -> Path:
         """Writes ``report.html``, ``report.json`` and the extended model (``extended.toml``, ``.ssv``, ``.fmu``).
 
         :param fmu: Whether ``extended.fmu`` is made.
+        :param record: Whether a part of a validation record goes into it, so that others can replay it.
         :raises OSError: With all files that could not be written; the others are there.
         """
-        self._outcome.save(os.fspath(folder), fmu, _libraries())
+        self._outcome.save(os.fspath(folder), [fmu, record], _libraries())
         return Path(folder)
 
     def __repr__(self) -> str:

@@ -110,6 +110,10 @@ pub struct DiagnosisArguments {
     /// Do not build extended.fmu
     #[arg(long)]
     pub no_fmu: bool,
+
+    /// Leave the part of a validation record out of extended.fmu
+    #[arg(long)]
+    pub no_record: bool,
 }
 
 /// A virtual rig.

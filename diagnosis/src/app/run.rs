@@ -19,6 +19,7 @@ use crate::data::map::Map;
 use crate::estimation::deadline::Deadline;
 use crate::experiment::Limits;
 use crate::report;
+use crate::report::extend::Packing;
 use crate::report::file::replace;
 use crate::report::findings::Verdict;
 use crate::rig::Rig;
@@ -102,7 +103,8 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
     }
     if let Some(extended) = extended.filter(|_| arguments.out.is_dir()) {
         let bar = spinner("building the extended model");
-        let done = extended.write(&arguments.out, !arguments.no_fmu, arguments.libraries.as_deref());
+        let packing = Packing { libraries: arguments.libraries.as_deref(), record: !arguments.no_record };
+        let done = extended.write(&findings, &arguments.out, (!arguments.no_fmu).then_some(packing));
         bar.finish_and_clear();
         failures.extend(done.err().into_iter().flatten());
     }

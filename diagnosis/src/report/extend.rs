@@ -1,15 +1,21 @@
 //! The extended model: a parameter set, an SSV and an FMU.
 
+mod validation;
+
 use std::fmt::Write;
 use std::path::Path;
 
 use strut_model::Value;
+use strut_related::{Files, Given, ParameterSet, Related, media};
 
 use crate::catalogue::naming;
 use crate::diagnosis::Diagnosis;
 use crate::estimation::fit::Unknown;
 use crate::report::file::replace;
+use crate::report::findings::Findings;
 use crate::rig::Rig;
+
+use validation::Validation;
 
 /// Name of the FMU.
 pub const NAME: &str = "extended";
@@ -86,50 +92,70 @@ impl Diagnosis<'_> {
         text
     }
 
-    /// The fitted values as a parameter set of SSP 1.0, for the starting model's FMU.
-    fn ssv(&self) -> String {
+    /// The fitted values for the starting model's FMU, with their intervals.
+    fn fitted(&self) -> ParameterSet {
         let rig: &Rig = self.baseline.rig;
         let point = self.found.extended.point.within(&rig.plant);
-        let mut text = String::from(
-            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ssv:ParameterSet version=\"1.0\" name=\"extended\" \
-             xmlns:ssv=\"http://ssp-standard.org/SSP1/SystemStructureParameterValues\">\n  <ssv:Parameters>\n",
-        );
-        for (index, declared) in rig.plant.parameters.iter().enumerate() {
+        let given = |(index, declared): (usize, &strut_model::Declaration)| {
             let value = point.parameters[index];
-            if value != rig.parameters[index] {
-                let _ = writeln!(
-                    text,
-                    "    <ssv:Parameter name=\"{}\"><ssv:Real value=\"{value:?}\"/></ssv:Parameter>",
-                    declared.name
-                );
+            if value == rig.parameters[index] {
+                return None;
             }
+            let interval = self.intervals.iter().find(|it| it.handle == Unknown::Parameter(index));
+            let interval = interval.filter(|it| it.half.is_finite()).map(|it| [it.low(), it.high()]);
+            Some(Given {
+                name: declared.name.clone(),
+                value: strut_related::Value::Real(value),
+                unit: declared.unit.symbol.into(),
+                source: "fitted to the records".into(),
+                interval,
+            })
+        };
+        ParameterSet {
+            name: NAME.into(),
+            description: format!("{} as a diagnosis has extended it", rig.fmu),
+            values: rig.plant.parameters.iter().enumerate().filter_map(given).collect(),
         }
-        text.push_str("  </ssv:Parameters>\n</ssv:ParameterSet>\n");
-        text
     }
 
     /// The extended model's files.
     pub fn extended(&self) -> Extended {
-        Extended { parameters: self.parameter_set(), ssv: self.ssv() }
+        let ssv = String::from_utf8(self.fitted().document()).expect("XML is written in UTF-8");
+        Extended { parameters: self.parameter_set(), ssv, validation: self.validation() }
     }
 }
 
 /// The extended model's files.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Extended {
     /// The parameter set in TOML, as `build-fmu --parameters` takes it.
     pub parameters: String,
     /// The fitted values as SSP's parameter set.
     pub ssv: String,
+    validation: Option<Validation>,
+}
+
+/// How `extended.fmu` is made.
+#[derive(Clone, Copy, Debug)]
+pub struct Packing<'a> {
+    /// Folder of prebuilt libraries; without one, they are beside the program, or cargo builds them.
+    pub libraries: Option<&'a Path>,
+    /// Whether a part of a validation record goes into it.
+    pub record: bool,
 }
 
 impl Extended {
-    /// Writes `extended.toml` and `extended.ssv` into a folder that exists, and `extended.fmu` if asked for, of the library
-    /// in `libraries` or beside the program, or else by cargo. One failure does not keep the others from being written.
+    /// Writes `extended.toml` and `extended.ssv` into a folder that exists, and `extended.fmu` if asked for. One failure does not
+    /// keep the others from being written.
     ///
     /// # Errors
     /// Every file that cannot be written or built, with what to do.
-    pub fn write(&self, folder: &Path, fmu: bool, libraries: Option<&Path>) -> Result<(), Vec<String>> {
+    pub fn write(
+        &self,
+        findings: &Findings,
+        folder: &Path,
+        fmu: Option<Packing<'_>>,
+    ) -> Result<(), Vec<String>> {
         let set = folder.join("extended.toml");
         let mut failures = Vec::new();
         for (path, text) in [(&set, &self.parameters), (&folder.join("extended.ssv"), &self.ssv)] {
@@ -137,13 +163,39 @@ impl Extended {
                 failures.push(format!("cannot write `{}`: {error}", path.display()));
             }
         }
-        if fmu && failures.is_empty() {
-            let wanted = build_fmu::Wanted::Parameters(&set);
-            if let Err(error) = build_fmu::make(&build_fmu::strut(), wanted, folder, libraries) {
+        if let (Some(packing), true) = (fmu, failures.is_empty()) {
+            let wanted = build_fmu::Wanted::Parameters(&set, self.related(findings, packing.record));
+            if let Err(error) = build_fmu::make(&build_fmu::strut(), wanted, folder, packing.libraries) {
                 let error = error.strip_prefix("error: ").unwrap_or(&error);
                 failures.push(format!("no extended.fmu: {error}"));
             }
         }
         if failures.is_empty() { Ok(()) } else { Err(failures) }
     }
+
+    /// What travels with the FMU.
+    fn related(&self, findings: &Findings, record: bool) -> Files {
+        let mut files = Files::default();
+        let text = "Fitted values for the starting model, with 95 % intervals; this FMU has them itself";
+        files
+            .add(Related::new(media::PARAMETERS, "extended.ssv", "parameter", text), self.ssv.clone().into());
+        let text = "Verdict, effects, parameters with intervals, errors and account of the diagnosis; without pictures, \
+                    candidates and the missing signal over time";
+        files.add(Related::new(media::JSON, "report.json", "report", text), digest(findings).into());
+        if let Some(validation) = self.validation.as_ref().filter(|_| record) {
+            validation.add(&mut files);
+        }
+        files
+    }
+}
+
+/// The findings without what fills megabytes.
+fn digest(findings: &Findings) -> String {
+    let mut value = serde_json::to_value(findings).expect("plain data");
+    if let Some(fields) = value.as_object_mut() {
+        for large in ["pictures", "candidates", "missing", "deciding"] {
+            fields.remove(large);
+        }
+    }
+    serde_json::to_string_pretty(&value).expect("plain data")
 }

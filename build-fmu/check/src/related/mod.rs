@@ -158,7 +158,7 @@ fn values<'a>(
         }
         match description.named(&parameter.name) {
             None => unknown.push(parameter.name),
-            Some(variable) if !takes(variable) || kind(variable) != parameter.kind => {
+            Some(variable) if !takes(variable) || !is_of(variable, &parameter.kind) => {
                 refused.push(parameter.name)
             }
             Some(variable) => given.push((variable, parameter)),
@@ -168,7 +168,8 @@ fn values<'a>(
         return Err(format!("the FMU has no variable {}", names(&unknown)));
     }
     if !refused.is_empty() {
-        return Err(format!("{} takes no such value before the initialisation", names(&refused)));
+        let names = names(&refused);
+        return Err(format!("no such value can be given before the initialisation to {names}"));
     }
     Ok(given)
 }
@@ -179,6 +180,7 @@ fn takes(variable: &Variable) -> bool {
     variable.variability != "constant" && (variable.causality == "input" || initial)
 }
 
-fn kind(variable: &Variable) -> &str {
-    &variable.kind
+/// Whether a value of a kind is one for a variable: SSP 1.0 gives whole numbers to enumerations.
+fn is_of(variable: &Variable, kind: &str) -> bool {
+    variable.kind == kind || (variable.kind == "Enumeration" && kind == "Integer")
 }
