@@ -225,7 +225,7 @@ fn there_is_nothing_to_find_where_there_is_no_fault() {
     let mut files: Vec<PathBuf> = ours.iter().map(|name| strut::fmus().join(format!("{name}.fmu"))).collect();
     files.push(faultless);
     let python = strut::interpreter();
-    let (code, answers) = check(&files, &["--fmpy", python.to_str().unwrap()]);
+    let (code, answers) = check(&files, &["--fmpy", python.to_str().unwrap(), "--replay"]);
     for answer in answers.as_array().unwrap() {
         assert_eq!(problems(answer), Vec::<String>::new(), "{}", answer["file"]);
         let done = answer["report"]["done"].to_string();

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde_json::Value;
+use zip::ZipArchive;
 
 const RIG: &str = "tum-linear-measured-quarter-car";
 
@@ -66,7 +67,46 @@ fn a_hidden_friction_is_found_and_the_extended_model_has_the_errors_that_are_tol
     assert!(number("low") <= 60.0 && 60.0 <= number("high"), "{force}");
     assert!((number("value") / 60.0 - 1.0).abs() < 0.02, "{force}");
     print!("{}", strut::python("tests/masters/diagnosed.py", [&out, &records]));
+    replayed(&out.join("extended.fmu"));
     looked_at(&out.join("report.html"));
+}
+
+/// Who gets the FMU alone finds the stated errors; and would not with another measured value, or another library's output.
+fn replayed(fmu: &Path) {
+    let check = |fmu: &Path| crate::subject::check(&[fmu.to_owned()], &["--no-fmpy", "--replay"]);
+    let (code, answers) = check(fmu);
+    let done = answers[0]["report"]["done"].to_string();
+    assert_eq!((code, crate::subject::problems(&answers[0])), (0, Vec::new()));
+    assert!(done.contains("replay of `validation`") && done.contains("the 6 stated errors come out"), "{done}");
+    let mut archive = ZipArchive::new(fs::File::open(fmu).expect("it was just made")).expect("a zip archive");
+    let files: Vec<(String, Vec<u8>)> = (0..archive.len())
+        .map(|index| {
+            let mut file = archive.by_index(index).expect("an entry");
+            let mut contents = Vec::new();
+            std::io::Read::read_to_end(&mut file, &mut contents).expect("readable");
+            (file.name().to_owned(), contents)
+        })
+        .collect();
+    assert!(files.iter().any(|(name, _)| name.ends_with("fmi-ls-ref/report.json")));
+    let altered = fmu.with_file_name("altered.fmu");
+    for (file, column, share) in [("validation-out.csv", "body.acceleration", 1.01), ("validation-in.csv", "road.position", 1.01)]
+    {
+        let changed = files.iter().map(|(name, contents)| {
+            let own = name.ends_with(file);
+            let text = || scaled(std::str::from_utf8(contents).expect("CSV"), column, share).into_bytes();
+            (name.as_str(), if own { text() } else { contents.clone() })
+        });
+        let changed: Vec<(&str, Vec<u8>)> = changed.collect();
+        assert!(changed.iter().zip(&files).any(|(one, other)| one.1 != other.1), "{file}");
+        let deflated = zip::CompressionMethod::Deflated;
+        let bytes = crate::subject::archive(changed.iter().map(|(name, bytes)| (*name, bytes.as_slice(), deflated)));
+        fs::write(&altered, bytes).expect("it is ours");
+        let (code, answers) = check(&altered);
+        let problems = crate::subject::problems(&answers[0]);
+        assert_eq!(code, 1);
+        assert!(problems.iter().all(|it| it.starts_with("related.replay.agreement: ")), "{problems:?}");
+    }
+    fs::remove_file(altered).expect("it is ours");
 }
 
 /// A sensor's wrong gain lies outside of the extended model, and the report gives it so that the errors come out all the same.

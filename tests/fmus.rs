@@ -1,6 +1,8 @@
 //! Every FMU, through FMPy: one test, one claim. What is checked stands in `masters/fmpy_checks.py` and, for FMI 3.0,
 //! `masters/fmi3_checks.py`.
 
+use std::path::{Path, PathBuf};
+
 fn check(script: &str, name: &str) {
     let output = strut::python(script, [name.as_ref(), strut::fmus().as_os_str()]);
     print!("{output}");
@@ -45,4 +47,18 @@ fn references() {
 #[test]
 fn references_can_be_made_again() {
     print!("{}", strut::python("tests/reference/make_references.py", ["--check"]));
+}
+
+/// The experiment that each FMU brings along comes out as it states.
+#[test]
+fn replay() {
+    let fmus = strut::fmus().read_dir().expect("the folder exists").map(|entry| entry.expect("readable").path());
+    let files: Vec<PathBuf> = fmus.filter(|path| path.extension() == Some("fmu".as_ref())).collect();
+    let (_, answers) = crate::subject::check(&files, &["--no-fmpy", "--replay"]);
+    for answer in answers.as_array().expect("an answer each") {
+        let name = Path::new(answer["file"].as_str().expect("a name")).file_stem().expect("a stem").to_owned();
+        let (problems, done) = (crate::subject::problems(answer), answer["report"]["done"].to_string());
+        assert_eq!(problems, Vec::<String>::new(), "{}", name.display());
+        assert!(done.contains("replay of `default-experiment`"), "{}: {done}", name.display());
+    }
 }

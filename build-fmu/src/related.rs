@@ -17,6 +17,8 @@ const DIGITS: i32 = 9;
 /// How far a replay may be from the expected outputs, as a share of the largest value: far beyond rounding, far within what any
 /// change of the model does.
 const WITHIN: f64 = 1e-6;
+/// A signal below this share of its nominal value is rounding, as a velocity between the edges of a square.
+const NOTHING: f64 = 1e-6;
 
 /// The files of an FMU whose default experiment was recorded; its inputs come first.
 pub fn files(fmu: &Fmu, version: Version, interface: &Interface, recorded: (&Trajectory, usize)) -> Files {
@@ -47,7 +49,7 @@ fn own(
         }
     }
     if trajectory.signals.len() > inputs {
-        regression(&mut files, trajectory, inputs);
+        regression(&mut files, interface, trajectory, inputs);
     }
     files
 }
@@ -82,7 +84,7 @@ fn parameters(set: &Set, version: Version, interface: &Interface) -> ParameterSe
 }
 
 /// The default experiment with what came of it when the FMU was packed.
-fn regression(files: &mut Files, trajectory: &Trajectory, inputs: usize) {
+fn regression(files: &mut Files, interface: &Interface, trajectory: &Trajectory, inputs: usize) {
     let steps = trajectory.time.len() - 1;
     let stop = trajectory.time[steps];
     let table = |signals: &[(String, String, Vec<f64>)], digits: i32| Series {

@@ -87,7 +87,12 @@ Component fmi2Instantiate(const char *name, int kind, const char *guid, const ch
     return model;
 }
 
-void fmi2FreeInstance(Component c) { free(c); }
+void fmi2FreeInstance(Component c) {
+#ifdef FAULT_FREE
+    ((volatile Model *)c)->values.x = 0.0;
+#endif
+    free(c);
+}
 Status fmi2SetDebugLogging(Component c, int on, size_t n, const char *const *categories) { return OK; }
 Status fmi2SetupExperiment(Component c, int has, double tolerance, double start, int stop, double end) {
     ((Model *)c)->values.time = start;
@@ -105,7 +110,12 @@ Status fmi2ExitInitializationMode(Component c) {
     ((Model *)c)->values.stepping = 1;
     return OK;
 }
-Status fmi2Terminate(Component c) { return OK; }
+Status fmi2Terminate(Component c) {
+#ifdef FAULT_TERMINATED
+    ((Model *)c)->values.x = 0.0;
+#endif
+    return OK;
+}
 Status fmi2Reset(Component c) {
 #ifdef FAULT_RESET
     double x = ((Model *)c)->values.x;
@@ -197,6 +207,9 @@ NONE(String, String)
 #endif
 
 Status fmi2GetFMUstate(Component c, void **state) {
+#ifdef FAULT_KEPT
+    if (*state) return OK;
+#endif
     if (!*state) *state = malloc(sizeof(Values));
     *(Values *)*state = ((Model *)c)->values;
     return OK;
@@ -215,7 +228,11 @@ Status fmi2SetFMUstate(Component c, void *state) {
 #endif
     return OK;
 }
+#ifdef FAULT_POINTER
+Status fmi2FreeFMUstate(Component c, void **state) { return free(*state), OK; }
+#else
 Status fmi2FreeFMUstate(Component c, void **state) { return free(*state), *state = NULL, OK; }
+#endif
 Status fmi2SerializedFMUstateSize(Component c, void *state, size_t *size) { return *size = sizeof(Values), OK; }
 Status fmi2SerializeFMUstate(Component c, void *state, char *bytes, size_t size) {
     return memcpy(bytes, state, size), OK;

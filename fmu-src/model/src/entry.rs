@@ -142,11 +142,9 @@ impl Entry {
                 record.read(simulation, time)?;
             }
             let access = if index == 0 { Access::All } else { Access::Tunable };
-            for (column, Driven { reference, at }) in driven.iter().enumerate() {
+            for Driven { reference, at } in &driven {
                 simulation.set_real(&[*reference], &[at(time)], access)?;
-                if let Some(last) = record.trajectory.signals[column].2.last_mut() {
-                    *last = at(time);
-                }
+                record.note(*reference, at(time));
             }
             if index == 0 {
                 simulation.initialize()?;
@@ -297,6 +295,14 @@ impl Recording {
             signal.push(*value);
         }
         Ok(())
+    }
+
+    /// Writes another value of a signal over that of now.
+    fn note(&mut self, reference: u32, value: f64) {
+        let column = self.references.iter().position(|it| *it == reference);
+        if let Some(last) = column.and_then(|column| self.trajectory.signals[column].2.last_mut()) {
+            *last = value;
+        }
     }
 }
 

@@ -42,6 +42,10 @@ pub fn all() -> Vec<Case> {
         ("LEAK", "run.memory.freed"),
         ("FOREIGN", "run.memory.foreign"),
         ("NOMINALS", "run.nominals"),
+        ("FREE", "run.free"),
+        ("TERMINATED", "run.terminated"),
+        ("KEPT", "run.state.again"),
+        ("POINTER", "run.state.freed"),
     ];
     let mut cases: Vec<(String, &'static str, Parts)> =
         faults.iter().map(|(fault, rule)| ((*fault).to_owned(), *rule, parts(fault))).collect();

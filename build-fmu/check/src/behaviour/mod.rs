@@ -1,6 +1,7 @@
 //! Rules for what a library does. Each has a process of its own.
 
 mod answers;
+mod ends;
 mod lives;
 mod signs;
 mod subject;
@@ -110,6 +111,10 @@ impl Bench<'_> {
             self.guid(report)?;
             report.tell();
             self.unknown_reference(report)?;
+            report.tell();
+            self.nothing(report)?;
+            self.terminated(report)?;
+            self.again(report)?;
             report.tell();
         }
         let again = self.obey(self.whole(self.unpacked.plain, false))?;

@@ -156,6 +156,11 @@ impl Library {
         }
     }
 
+    /// Frees no instance: a null pointer.
+    pub fn free_nothing(&self) {
+        self.free(Instance(null_mut()));
+    }
+
     /// A function with the instance as its only argument.
     pub fn plain(&self, function: &str, instance: Instance) -> Status {
         call!(self.library, function, instance, (),)
@@ -297,9 +302,9 @@ impl Library {
         call!(self.library, "fmi2DoStep", instance, (f64, f64, c_int), time, size, 1)
     }
 
-    /// `fmi2GetFMUstate` into a new state.
-    pub fn save(&self, instance: Instance) -> (Status, Saved) {
-        let mut state: *mut c_void = null_mut();
+    /// `fmi2GetFMUstate` into a new state, or over one that is there.
+    pub fn save(&self, instance: Instance, over: Option<Saved>) -> (Status, Saved) {
+        let mut state = over.map_or(null_mut(), |Saved(state)| state);
         let status = call!(self.library, "fmi2GetFMUstate", instance, (*mut *mut c_void), &raw mut state);
         (status, Saved(state))
     }
@@ -309,9 +314,10 @@ impl Library {
         call!(self.library, "fmi2SetFMUstate", instance, (*mut c_void), state.0)
     }
 
-    /// `fmi2FreeFMUstate`.
-    pub fn free_state(&self, instance: Instance, mut state: Saved) -> Status {
-        call!(self.library, "fmi2FreeFMUstate", instance, (*mut *mut c_void), &raw mut state.0)
+    /// `fmi2FreeFMUstate`, and whether the pointer is null then.
+    pub fn free_state(&self, instance: Instance, mut state: Saved) -> (Status, bool) {
+        let status = call!(self.library, "fmi2FreeFMUstate", instance, (*mut *mut c_void), &raw mut state.0);
+        (status, state.0.is_null())
     }
 
     /// A state as bytes.

@@ -43,11 +43,13 @@ pub enum Act {
     SetReals(Vec<u32>, Vec<f64>),
     /// `fmi2DoStep`.
     Step(f64, f64),
-    /// Saves the state under a number.
+    /// Frees a null pointer in place of an instance.
+    FreeNothing,
+    /// Saves the state under a number, over the one that it has.
     Save(usize),
     /// Restores it.
     Restore(usize),
-    /// Frees it.
+    /// Frees it; the integer is 1 if its pointer is null then.
     FreeState(usize),
     /// Turns it into bytes and these into the state of another number.
     Serialize(usize, usize),
@@ -203,6 +205,7 @@ impl Act {
             Self::SetUp { .. } => "fmi2SetupExperiment",
             Self::Plain(name) => name,
             Self::Free => "fmi2FreeInstance",
+            Self::FreeNothing => "fmi2FreeInstance with a null pointer",
             Self::Use(_) => "nothing",
             Self::Reals(_) => "fmi2GetReal",
             Self::Integers(_, false) => "fmi2GetInteger",
@@ -259,6 +262,10 @@ impl Stage<'_> {
                 library.free(instance);
                 0
             }
+            Act::FreeNothing => {
+                library.free_nothing();
+                0
+            }
             Act::Reals(references) => {
                 reals = vec![0.0; references.len()];
                 library.reals(instance, references, &mut reals)
@@ -272,16 +279,18 @@ impl Stage<'_> {
             Act::SetReals(references, values) => library.set_reals(instance, references, values),
             Act::Step(time, size) => library.step(instance, *time, *size),
             Act::Save(number) => {
-                let (status, state) = library.save(instance);
+                let (status, state) = library.save(instance, self.states.get(number).copied());
                 self.states.insert(*number, state);
                 status
             }
             Act::Restore(number) => {
                 self.states.get(number).map_or(ABSENT, |state| library.restore(instance, *state))
             }
-            Act::FreeState(number) => {
-                self.states.remove(number).map_or(ABSENT, |state| library.free_state(instance, state))
-            }
+            Act::FreeState(number) => self.states.remove(number).map_or(ABSENT, |state| {
+                let (status, is_null) = library.free_state(instance, state);
+                outcome.integers = vec![i32::from(is_null)];
+                status
+            }),
             Act::Serialize(from, to) => match self.states.get(from) {
                 None => ABSENT,
                 Some(state) => {

@@ -131,6 +131,13 @@ fn one(
         ("experiment", media::EXPERIMENTS | media::EARLIER_EXPERIMENTS) => {
             experiments::prepared(&bytes, &path, package, description, report)
         }
+        ("result", media::TABLE) => {
+            let result = Prepared::of_result(&path, bytes, description);
+            if result.is_none() {
+                report.skipped.push(format!("the result {path}: it is no table of this FMU's Reals alone"));
+            }
+            Ok(result.into_iter().collect())
+        }
         ("experiment", other) => {
             report.skipped.push(format!("the experiments of {path}: the type {other} is not known"));
             Ok(Vec::new())
