@@ -84,7 +84,7 @@ fn replayed(fmu: &Path) {
             let mut file = archive.by_index(index).expect("an entry");
             let mut contents = Vec::new();
             std::io::Read::read_to_end(&mut file, &mut contents).expect("readable");
-            (file.name().to_owned(), contents)
+            (file.name().expect("UTF-8").into_owned(), contents)
         })
         .collect();
     assert!(files.iter().any(|(name, _)| name.ends_with("fmi-ls-ref/report.json")));

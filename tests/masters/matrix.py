@@ -65,7 +65,9 @@ def main():
             references = {}
             row = table[kind, job.name] = {}
             for master in masters:
-                reason = master.cannot(kind, job) or (matrix_masters.ONE if kind == "fmi3" and not master.fmi3 else None)
+                reason = master.cannot(kind, job)
+                if kind == "fmi3" and not master.fmi3:
+                    reason = matrix_masters.ONE
                 if reason:
                     row[master.name] = reason
                     continue
@@ -83,8 +85,9 @@ def main():
                     continue
                 if not row[master.name] <= KINKED.get(job.name, TOLERANCE):
                     failures.append(f"{master.name}, {job.name}: {row[master.name]:.1e} apart")
-            print(job.name, *(["(FMI 3.0)"] if kind == "fmi3" else []), *(f"{name}: {cell:.0e}" if isinstance(cell, float) else f"{name}: -"
-                              for name, cell in row.items()), flush=True)
+            title = f"{job.name} (FMI 3.0)" if kind == "fmi3" else job.name
+            print(title, *(f"{name}: {cell:.0e}" if isinstance(cell, float) else f"{name}: -"
+                           for name, cell in row.items()), flush=True)
     assert table, f"no FMUs in {arguments.folder}"
     if arguments.page:
         ecco = subprocess.run([sys.executable, Path(__file__).with_name("connected_ecco.py"), arguments.folder],

@@ -9,6 +9,7 @@ import logging
 import re
 import subprocess
 import tempfile
+import zipfile
 from collections import Counter
 from importlib.metadata import version
 from pathlib import Path
@@ -176,6 +177,25 @@ class Cofmupy(Master):
             return np.load(rows), InTurn
 
 
+@contextlib.contextmanager
+def without_units(kind, path):
+    """An FMU of FMI 3.0 without units and nominal values: fmi-schema 0.8.0, by which the crate `fmi` and fmi-sim read
+    descriptions, knows neither, and refuses what it does not know (`unknown field "unit" in element "FmiFloat64"`)."""
+    if kind != "fmi3":
+        yield path
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        target = Path(folder) / path.name
+        with zipfile.ZipFile(path) as source, zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive:
+            for entry in source.infolist():
+                content = source.read(entry)
+                if entry.filename == "modelDescription.xml":
+                    text = re.sub("<UnitDefinitions>.*</UnitDefinitions>", "", content.decode(), flags=re.DOTALL)
+                    content = re.sub(' (unit|nominal)="[^"]*"', "", text).encode()
+                archive.writestr(entry, content)
+        yield target
+
+
 class FmiSim(Master):
     """Runs single FMUs."""
 
@@ -193,7 +213,7 @@ class FmiSim(Master):
     def run(self, kind, path, job):
         values = [f"{name.split('.', 1)[1]}={value!r}" for name, value in job.values.items()]
         values = [part for value in values for part in ("--init-values", value)]
-        with tempfile.TemporaryDirectory() as folder:
+        with tempfile.TemporaryDirectory() as folder, without_units(kind, path) as path:
             rows = Path(folder) / "rows.csv"
             done = subprocess.run(
                 [self.program, "--model", path, "-o", rows, "co-simulation", "--step", str(job.step),
@@ -243,7 +263,10 @@ class FmiCrate(Master):
         self.program = program
 
     def run(self, kind, path, job):
-        components = {"fmu": path.resolve()} if kind == "fmi3" else job.components
+        with without_units(kind, path) as path:
+            return self.told(job, {"fmu": path.resolve()} if kind == "fmi3" else job.components)
+
+    def told(self, job, components):
         lines = [f"component\t{name}\t{file}" for name, file in components.items()]
         lines += [f"connect\t{source}\t{target}" for source, target in job.connections]
         lines += [f"set\t{name}\t{value!r}" for name, value in job.values.items()]

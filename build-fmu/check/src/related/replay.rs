@@ -75,10 +75,11 @@ pub fn replay(bench: &Bench, prepared: &Prepared, report: &mut Report) -> Result
         Some(agreement) => {
             let wrong = disagreements(agreement, &errors);
             if wrong.is_empty() {
-                let stated = count(agreement.signals.len(), "stated error");
-                report
-                    .done
-                    .push(format!("replay of `{name}` ({steps}): {stated} come out; {}", agreement.origin));
+                let agree = match agreement.signals.len() {
+                    1 => "the stated error comes out".into(),
+                    number => format!("the {number} stated errors come out"),
+                };
+                report.done.push(format!("replay of `{name}` ({steps}): {agree}; {}", agreement.origin));
             }
             for message in wrong {
                 let finding =
