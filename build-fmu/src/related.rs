@@ -93,13 +93,12 @@ fn regression(files: &mut Files, interface: &Interface, trajectory: &Trajectory,
     };
     let (driven, found) = trajectory.signals.split_at(inputs);
     let stated = |(name, unit, values): &(String, String, Vec<f64>)| {
-        let largest = values.iter().fold(0.0_f64, |largest, it| largest.max(it.abs()));
-        Stated {
-            name: name.clone(),
-            unit: unit.clone(),
-            rms: 0.0,
-            within: WITHIN * largest + f64::MIN_POSITIVE,
-        }
+        let nominal = match interface.variable(name).map(|it| &it.kind) {
+            Some(VariableKind::Real { nominal, .. }) => nominal.unwrap_or(1.0),
+            _ => 1.0,
+        };
+        let largest = values.iter().fold(NOTHING * nominal, |largest, it| largest.max(it.abs()));
+        Stated { name: name.clone(), unit: unit.clone(), rms: 0.0, within: WITHIN * largest }
     };
     let origin = "the expected outputs are those of the packager, which has the same equations: they show that the \
                   library still does what it did, and say nothing on how true the model is";

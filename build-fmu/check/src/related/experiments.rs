@@ -101,8 +101,8 @@ fn unsupported(experiment: &Experiment) -> Option<String> {
 impl Prepared {
     /// A result without an experiment: that of the default experiment, as the Reference FMUs have it. What it has to come to nobody
     /// says; none if it is of other than this FMU's Reals.
-    pub fn of_result(path: &str, bytes: Vec<u8>, description: &Description) -> Option<Self> {
-        let expected = Series::read(std::str::from_utf8(&bytes).ok()?).ok()?;
+    pub fn of_result(path: &str, bytes: &[u8], description: &Description) -> Option<Self> {
+        let expected = Series::read(std::str::from_utf8(bytes).ok()?).ok()?;
         let outputs = references(&expected, description, |_| true, "variables").ok()??;
         let name = path.rsplit('/').next().unwrap_or(path).to_owned();
         Some(Self {

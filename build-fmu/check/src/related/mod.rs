@@ -132,7 +132,7 @@ fn one(
             experiments::prepared(&bytes, &path, package, description, report)
         }
         ("result", media::TABLE) => {
-            let result = Prepared::of_result(&path, bytes, description);
+            let result = Prepared::of_result(&path, &bytes, description);
             if result.is_none() {
                 report.skipped.push(format!("the result {path}: it is no table of this FMU's Reals alone"));
             }
@@ -166,7 +166,7 @@ fn values<'a>(
         match description.named(&parameter.name) {
             None => unknown.push(parameter.name),
             Some(variable) if !takes(variable) || !is_of(variable, &parameter.kind) => {
-                refused.push(parameter.name)
+                refused.push(parameter.name);
             }
             Some(variable) => given.push((variable, parameter)),
         }
