@@ -77,7 +77,10 @@ fn replayed(fmu: &Path) {
     let (code, answers) = check(fmu);
     let done = answers[0]["report"]["done"].to_string();
     assert_eq!((code, crate::subject::problems(&answers[0])), (0, Vec::new()));
-    assert!(done.contains("replay of `validation`") && done.contains("the 6 stated errors come out"), "{done}");
+    assert!(
+        done.contains("replay of `validation`") && done.contains("the 6 stated errors come out"),
+        "{done}"
+    );
     let mut archive = ZipArchive::new(fs::File::open(fmu).expect("it was just made")).expect("a zip archive");
     let files: Vec<(String, Vec<u8>)> = (0..archive.len())
         .map(|index| {
@@ -89,7 +92,8 @@ fn replayed(fmu: &Path) {
         .collect();
     assert!(files.iter().any(|(name, _)| name.ends_with("fmi-ls-ref/report.json")));
     let altered = fmu.with_file_name("altered.fmu");
-    for (file, column, share) in [("validation-out.csv", "body.acceleration", 1.01), ("validation-in.csv", "road.position", 1.01)]
+    for (file, column, share) in
+        [("validation-out.csv", "body.acceleration", 1.01), ("validation-in.csv", "road.position", 1.01)]
     {
         let changed = files.iter().map(|(name, contents)| {
             let own = name.ends_with(file);
@@ -99,7 +103,8 @@ fn replayed(fmu: &Path) {
         let changed: Vec<(&str, Vec<u8>)> = changed.collect();
         assert!(changed.iter().zip(&files).any(|(one, other)| one.1 != other.1), "{file}");
         let deflated = zip::CompressionMethod::Deflated;
-        let bytes = crate::subject::archive(changed.iter().map(|(name, bytes)| (*name, bytes.as_slice(), deflated)));
+        let bytes =
+            crate::subject::archive(changed.iter().map(|(name, bytes)| (*name, bytes.as_slice(), deflated)));
         fs::write(&altered, bytes).expect("it is ours");
         let (code, answers) = check(&altered);
         let problems = crate::subject::problems(&answers[0]);

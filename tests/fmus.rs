@@ -52,11 +52,13 @@ fn references_can_be_made_again() {
 /// The experiment that each FMU brings along comes out as it states.
 #[test]
 fn replay() {
-    let fmus = strut::fmus().read_dir().expect("the folder exists").map(|entry| entry.expect("readable").path());
+    let fmus =
+        strut::fmus().read_dir().expect("the folder exists").map(|entry| entry.expect("readable").path());
     let files: Vec<PathBuf> = fmus.filter(|path| path.extension() == Some("fmu".as_ref())).collect();
     let (_, answers) = crate::subject::check(&files, &["--no-fmpy", "--replay"]);
     for answer in answers.as_array().expect("an answer each") {
-        let name = Path::new(answer["file"].as_str().expect("a name")).file_stem().expect("a stem").to_owned();
+        let name =
+            Path::new(answer["file"].as_str().expect("a name")).file_stem().expect("a stem").to_owned();
         let (problems, done) = (crate::subject::problems(answer), answer["report"]["done"].to_string());
         assert_eq!(problems, Vec::<String>::new(), "{}", name.display());
         assert!(done.contains("replay of `default-experiment`"), "{}: {done}", name.display());

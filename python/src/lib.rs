@@ -97,9 +97,10 @@ fn check(
     py: Python<'_>,
     path: PathBuf,
     program: Vec<PathBuf>,
-    [run, replay]: [bool; 2],
+    runs: [bool; 2],
     timeout: f64,
 ) -> PyResult<String> {
+    let [run, replay] = runs;
     let timeout = Duration::try_from_secs_f64(timeout).map_err(|error| wrong(error.to_string()))?;
     let work = move || {
         let fmpy = strut_check::Fmpy::Without;
@@ -190,9 +191,10 @@ impl PyOutcome {
         &self,
         py: Python<'_>,
         folder: PathBuf,
-        [fmu, record]: [bool; 2],
+        parts: [bool; 2],
         libraries: Option<PathBuf>,
     ) -> PyResult<()> {
+        let [fmu, record] = parts;
         let Outcome { findings, extended } = &self.0;
         let failures = py.detach(|| {
             let mut failures = Vec::new();

@@ -179,7 +179,7 @@ class Cofmupy(Master):
 
 @contextlib.contextmanager
 def without_units(kind, path):
-    """An FMU of FMI 3.0 without units and nominal values: fmi-schema 0.8.0, by which the crate `fmi` and fmi-sim read
+    """An FMU of FMI 3.0 without units and nominal values: fmi-schema 0.8.0, by which the crate `fmi` reads
     descriptions, knows neither, and refuses what it does not know (`unknown field "unit" in element "FmiFloat64"`)."""
     if kind != "fmi3":
         yield path
@@ -199,8 +199,6 @@ def without_units(kind, path):
 class FmiSim(Master):
     """Runs single FMUs."""
 
-    fmi3 = True
-
     def __init__(self, program):
         # It tells its version as an error.
         told = subprocess.run([program, "--version"], capture_output=True, text=True)
@@ -213,7 +211,7 @@ class FmiSim(Master):
     def run(self, kind, path, job):
         values = [f"{name.split('.', 1)[1]}={value!r}" for name, value in job.values.items()]
         values = [part for value in values for part in ("--init-values", value)]
-        with tempfile.TemporaryDirectory() as folder, without_units(kind, path) as path:
+        with tempfile.TemporaryDirectory() as folder:
             rows = Path(folder) / "rows.csv"
             done = subprocess.run(
                 [self.program, "--model", path, "-o", rows, "co-simulation", "--step", str(job.step),

@@ -52,7 +52,7 @@ NOTES = """\
 |---|---|
 | FMPy and fmucontainer read no start values of a system (`.ssv`). What our systems give there the FMUs have built in, so it is the same system | `connected_parameters.py` shows which masters read them; fmucontainer's `assembly.py` takes components and connections only |
 | libcosimpy knows no enumerations: such a start value is not set | its start values are kept |
-| fmi (crate) and fmi-sim read no FMU of FMI 3.0 with units or nominal values: they get the FMU without them | fmi-schema 0.8.0: `unknown field "unit" in element "FmiFloat64"` |
+| fmi (crate) reads no FMU of FMI 3.0 with units or nominal values: it gets the FMU without them | fmi-schema 0.8.0: `unknown field "unit" in element "FmiFloat64"` |
 | cofmupy, fmi (our example) set numbers of type Real only | `wrappers.py`: `setReal` |
 | FMPy ignores factors of connections | `connected_gains.py`; [what to do](../../examples/third-party/README.md) |
 

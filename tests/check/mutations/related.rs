@@ -57,7 +57,12 @@ pub fn all() -> Vec<Case> {
     let changes: [(&str, &str, &str, &str); 33] = [
         ("related.manifest", "fmi-ls-manifest.xml", "</fmiReferences>", ""),
         ("related.manifest", "fmi-ls-manifest.xml", "fmiReferences", "fmiReference"),
-        ("related.manifest", "fmi-ls-manifest.xml", "\"org.fmi-standard.fmi-ls-ref\"", "\"org.fmi-standard.fmi-ls-xcp\""),
+        (
+            "related.manifest",
+            "fmi-ls-manifest.xml",
+            "\"org.fmi-standard.fmi-ls-ref\"",
+            "\"org.fmi-standard.fmi-ls-xcp\"",
+        ),
         ("related.manifest", "fmi-ls-manifest.xml", "fmi-ls:fmi-ls-version=\"1.0.0-alpha.1\"", ""),
         ("related.manifest", "fmi-ls-manifest.xml", "encoding=\"UTF-8\"", "encoding=\"ISO-8859-1\""),
         ("related.schema", "fmi-ls-manifest.xml", "<Related ", "<Other/><Related "),
