@@ -99,8 +99,8 @@ fn a_sensor_s_gain_is_beside_the_extended_model() {
     print!("{}", strut::python("tests/masters/diagnosed.py", [&out, &records]));
 }
 
-/// A sensor that shows nothing of what is slow has a response without a name. It lies outside of the model, and is told such
-/// that the errors come out.
+/// A sensor that shows nothing of what is slow has a response without a name. It lies outside of the model, and is
+/// reported so that the errors come out.
 #[test]
 fn a_sensor_s_response_without_a_name_is_told_by_its_curve() {
     let folder = folder("response");
@@ -216,7 +216,7 @@ fn the_magnetorheological_damper_is_explained() {
     }
 }
 
-/// By hand 80 % and 79 % were reached on the two held-out records, with presliding friction. The damper has a backlash, as its
+/// By hand 80 % and 79 % were reached on the two validation records, with presliding friction. The damper has a backlash, as its
 /// makers say, and pulls harder in one direction.
 #[test]
 fn the_friction_damper_is_explained() {
