@@ -25,6 +25,8 @@ myst_heading_anchors = 4
 exclude_patterns = ["_build", "requirements.txt"]
 html_show_copyright = False
 html_copy_source = False
+html_static_path = ["static"]
+html_css_files = ["book.css"]
 # The module's docstrings are read without the compiled part and without what it needs.
 autodoc_mock_imports = ["strut._strut", "numpy", "pandas", "matplotlib"]
 autodoc_typehints = "signature"

@@ -43,7 +43,7 @@ pub const LIST: &[Entry] = &[
     entry("overlap of the valve", "spool overlap (dead band)", Everywhere),
     entry("catalogue of diagnosis", "docs/effects.md, with the effect's number", Everywhere),
     // In what a diagnosis shows.
-    entry("Φ|phi", "fit", Report),
+    entry("Φ", "fit", Report),
     entry("training", "estimation data", Report),
     entry("judge|judges|judged", "compare", Report),
     entry("cause|causes", "effect", Report),
