@@ -1,4 +1,4 @@
-"""What the examples share besides the master: where FMUs are found and where pictures go."""
+"""What the examples share apart from the importer: where FMUs are found and where pictures go."""
 
 import argparse
 from pathlib import Path

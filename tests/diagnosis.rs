@@ -145,8 +145,8 @@ fn a_sensor_s_gain_is_beside_the_extended_model() {
     print!("{}", strut::python("tests/masters/diagnosed.py", [&out, &records]));
 }
 
-/// A sensor that shows nothing of what is slow has a response without a name. It lies outside of the model, and is told such
-/// that the errors come out.
+/// A sensor that shows nothing of what is slow has a response without a name. It lies outside of the model, and is
+/// reported so that the errors come out.
 #[test]
 fn a_sensor_s_response_without_a_name_is_told_by_its_curve() {
     let folder = folder("response");

@@ -19,6 +19,7 @@ Examples:
                                                 with another value, under another name
   build-fmu --parameters my-rig.toml            a model with your own parameter set
   build-fmu --system my-system.toml             your own composition, as an SSP
+  build-fmu new my-model                        a crate for your own model
   build-fmu --manifest-path my-model/Cargo.toml your own model
   build-fmu --fmi 3                             for FMI 3.0
   build-fmu --fmi 2 --fmi 3                     for both: FMI 3.0 in the folder fmi3 of the output
@@ -72,6 +73,16 @@ Examples:
 Exit codes: 0 nothing found, 1 problems found, 2 a file that cannot be read.";
 
 #[cfg(feature = "tools")]
+const NEW_EXAMPLES: &str = "\
+Examples:
+  build-fmu new my-rig                          a crate in the folder my-rig
+  build-fmu new my-rig --path ~/strut           with Strut from a checkout: no network is needed
+
+The crate needs Rust and a C linker, and Strut's sources: its crates are in no registry, so that it takes them from a
+checkout or by git. `cargo test` compares the model with scipy's solution, `build-fmu --manifest-path my-rig/Cargo.toml`
+makes the FMU.";
+
+#[cfg(feature = "tools")]
 const COMPLETIONS_EXAMPLES: &str = "\
 Examples:
   build-fmu completions bash > ~/.local/share/bash-completion/completions/build-fmu
@@ -102,18 +113,20 @@ impl CommandLine {
     }
 }
 
-/// The names of what there is to do besides building: what a misspelt one may have been meant for.
+/// The names of the subcommands: what a misspelt one may have been meant for.
 pub const COMMANDS: &[&str] = &[
     "list",
     "describe",
     "libraries",
+    #[cfg(feature = "tools")]
+    "new",
     #[cfg(feature = "tools")]
     "check",
     #[cfg(feature = "tools")]
     "completions",
 ];
 
-/// What there is to do besides building.
+/// The subcommands.
 #[derive(Subcommand, Debug)]
 pub enum Command {
     /// Lists the FMUs and systems that can be built
@@ -126,6 +139,10 @@ pub enum Command {
     #[cfg(feature = "tools")]
     #[command(after_help = CHECK_EXAMPLES)]
     Check(CheckArguments),
+    /// Makes a crate for a model of your own, with a test against scipy
+    #[cfg(feature = "tools")]
+    #[command(after_help = NEW_EXAMPLES)]
+    New(NewArguments),
     /// Builds the library of every model into a folder, from which FMUs are made without cargo
     #[command(after_help = LIBRARIES_EXAMPLES)]
     Libraries(LibrariesArguments),
@@ -176,6 +193,19 @@ pub struct DescribeArguments {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// A crate for a model of one's own.
+#[cfg(feature = "tools")]
+#[derive(Args, Debug)]
+pub struct NewArguments {
+    /// Name of the crate, also with folders before it: my-rig becomes the model MyRig
+    #[arg(value_name = "NAME")]
+    pub name: std::ffi::OsString,
+
+    /// Checkout of Strut that the crate depends on [default: the one this program was built in, else the public repository]
+    #[arg(long, value_name = "DIR", value_hint = clap::ValueHint::DirPath)]
+    pub path: Option<PathBuf>,
 }
 
 /// What to check, and how.
@@ -230,7 +260,7 @@ fn seconds(text: &str) -> Result<Duration, String> {
     some.ok_or_else(|| "a run takes some seconds: give a number above zero".to_owned())
 }
 
-/// Models, sets and systems besides those that come along.
+/// Models, sets and systems of your own.
 #[derive(Args, Clone, Debug, Default)]
 pub struct ModelArguments {
     /// Parameter set (TOML) of your own

@@ -72,7 +72,10 @@ impl Package {
             }
         }
         eprintln!("note: compiling a packager for `{}`", self.described.name);
-        let status = command.arg("--").args(std::env::args_os().skip(1)).status();
+        // `strut fmu …` is our `build-fmu …`.
+        let mut ours = std::env::args_os().skip(1).peekable();
+        ours.next_if(|word| word == "fmu");
+        let status = command.arg("--").args(ours).status();
         let status = status.map_err(|error| Failure::new(format!("cannot run cargo: {error}")))?;
         match status.code() {
             Some(code @ 0..=2) => Ok(ExitCode::from(code as u8)),

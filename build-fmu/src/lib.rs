@@ -49,6 +49,8 @@ mod icon;
 mod libraries;
 mod list;
 mod needs;
+#[cfg(feature = "tools")]
+mod new;
 mod plan;
 mod platform;
 mod plot;
@@ -66,9 +68,11 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
-#[cfg(feature = "tools")]
-pub use cli::CheckArguments;
 pub use cli::{Arguments, Command, CommandLine, DescribeArguments, ListArguments};
+#[cfg(feature = "tools")]
+pub use cli::{CheckArguments, NewArguments};
+#[cfg(feature = "tools")]
+pub use completions::with_names;
 use strut_model::{Entry, ParameterSet};
 #[cfg(feature = "strut")]
 use strut_model::{Inputs, Trajectory};
@@ -222,6 +226,12 @@ fn arguments(libraries: Option<&Path>) -> Arguments {
         manifest_path: Some(workspace).filter(|manifest| manifest.exists()),
         ..Arguments::default()
     }
+}
+
+/// The names of the FMUs and systems of a project: those of its published files, whatever folder it is asked in.
+#[cfg(all(feature = "strut", feature = "tools"))]
+pub fn names(project: &Project) -> Vec<String> {
+    run::plan(project, &arguments(None)).map_or_else(|_| Vec::new(), |plan| completions::names(&plan))
 }
 
 /// Builds what the command line asks for; failures are told on stderr.

@@ -20,7 +20,7 @@ use crate::system::{self, Face, System};
 use crate::version::{Version, without_systems};
 use crate::{Project, Source, describe, foreign, list, table};
 #[cfg(feature = "tools")]
-use crate::{check, completions};
+use crate::{check, completions, new};
 
 /// Does what the arguments say.
 ///
@@ -37,7 +37,7 @@ pub fn run(project: &Project, line: &CommandLine) -> Result<ExitCode> {
         #[cfg(feature = "tools")]
         Some(Command::Probe { folder }) => return Ok(strut_check::probe(folder)),
         #[cfg(feature = "tools")]
-        Some(Command::Completions { .. }) => &None,
+        Some(Command::Completions { .. } | Command::New(_)) => &None,
     };
     if let (Some(manifest), Source::Workspace { .. }) = (manifest, project.source)
         && let Some(package) = foreign::package(manifest)?
@@ -69,6 +69,8 @@ pub fn run(project: &Project, line: &CommandLine) -> Result<ExitCode> {
             let plan = plan(project, &Arguments::default())?;
             completions::script(*shell, &plan)
         }
+        #[cfg(feature = "tools")]
+        Some(Command::New(arguments)) => new::make(arguments)?,
         #[cfg(feature = "tools")]
         Some(Command::Check(_) | Command::Probe { .. }) => unreachable!("done above, without a project"),
     };

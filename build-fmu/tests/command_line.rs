@@ -1,4 +1,4 @@
-//! What the command line answers. Nothing is compiled here but in the last test.
+//! What the command line answers. Nothing is compiled here but in the last two tests.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -306,4 +306,43 @@ fn the_same_sources_give_the_same_bytes() {
         std::fs::read(&files[0]).unwrap()
     };
     assert!(build() == build());
+}
+
+/// From an empty folder to an FMU, as the command says.
+#[test]
+fn a_new_crate_compiles_agrees_with_scipy_and_becomes_an_fmu() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = folder.path().join("my-rig");
+    let (code, stdout, stderr) = answer(&["new", made.to_str().unwrap(), "--path", root().to_str().unwrap()]);
+    assert_eq!(code, 0, "{stderr}");
+    assert!(stdout.contains("cd ") && stdout.contains("strut fmu --manifest-path Cargo.toml"), "{stdout}");
+    let manifest = made.join("Cargo.toml");
+    // What it shares with other runs is compiled once.
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("my-rig");
+    let cargo = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO"));
+        let output = command
+            .args(arguments)
+            .arg("--manifest-path")
+            .arg(&manifest)
+            .env("CARGO_TARGET_DIR", &target)
+            .output();
+        let output = output.unwrap();
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        (output.status.success(), text(&output.stdout) + &text(&output.stderr))
+    };
+    let (passed, said) = cargo(&["test"]);
+    assert!(passed && said.contains("the_default_experiment_agrees_with_scipy ... ok"), "{said}");
+    // Another stiffness in the model alone is found.
+    let source = made.join("src/lib.rs");
+    let text = std::fs::read_to_string(&source).unwrap();
+    std::fs::write(&source, text.replace("start = 2000.0", "start = 2001.0")).unwrap();
+    let (passed, said) = cargo(&["test"]);
+    assert!(!passed && said.contains("position at "), "{said}");
+    std::fs::write(&source, text).unwrap();
+
+    let out = folder.path().join("fmus");
+    let arguments = ["--manifest-path", manifest.to_str().unwrap(), "--out", out.to_str().unwrap()];
+    let (code, stdout, stderr) = answer(&arguments);
+    assert!(code == 0 && out.join("MyRig.fmu").is_file(), "{stdout}{stderr}");
 }

@@ -1,10 +1,12 @@
 //! One command for all: `strut fmu` is `build-fmu`, `strut diagnose` is `diagnose`.
 
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use build_fmu::{CheckArguments, CommandLine, DescribeArguments, ListArguments};
-use clap::{Parser, Subcommand};
+use build_fmu::{CheckArguments, CommandLine, DescribeArguments, ListArguments, NewArguments};
+use clap::{CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
 use strut_diagnosis::app::cli::Arguments as DiagnoseArguments;
 
 const EXAMPLES: &str = "\
@@ -17,6 +19,9 @@ Examples:
                                               records of a virtual rig with friction hidden in it
   strut diagnose --rig tum-linear-measured-quarter-car --train records/train.csv --test records/test.csv
                                               what the model lacks, where and how much, into report/
+  strut new my-rig                            a crate for a model of your own, with a test
+  strut completions bash > ~/.local/share/bash-completion/completions/strut
+                                              completion for a shell
 
 `build-fmu` is the same as `strut fmu`, and `diagnose` as `strut diagnose`.";
 
@@ -42,6 +47,17 @@ enum Command {
     List(ListArguments),
     /// Shows an FMU's variables, equations and sources, or a system's components and connections
     Describe(DescribeArguments),
+    /// Makes a crate for a model of your own, with a test against scipy
+    New(NewArguments),
+    /// Prints a script that completes commands, options and names in a shell
+    Completions {
+        /// The shell
+        #[arg(value_enum)]
+        shell: Shell,
+    },
+    /// Prints the help of all commands as a page in Markdown
+    #[command(hide = true)]
+    Reference,
     /// Runs a library, for `check`: a crash ends this program and not that one
     #[command(hide = true)]
     Probe {
@@ -57,15 +73,60 @@ fn main() -> ExitCode {
         Command::Check(arguments) => CommandLine::of(build_fmu::Command::Check(arguments)),
         Command::List(arguments) => CommandLine::of(build_fmu::Command::List(arguments)),
         Command::Describe(arguments) => CommandLine::of(build_fmu::Command::Describe(arguments)),
+        Command::New(arguments) => CommandLine::of(build_fmu::Command::New(arguments)),
+        Command::Completions { shell } => return print(&completions(shell)),
+        Command::Reference => return print(&reference()),
         Command::Probe { folder } => return strut_check::probe(&folder),
     };
     build_fmu::run(&build_fmu::strut(), &line)
 }
 
+/// The script for a shell, with the names of FMUs, systems and rigs.
+fn completions(shell: Shell) -> String {
+    let names = build_fmu::names(&build_fmu::strut());
+    let mut command = Strut::command()
+        .mut_subcommand("fmu", |fmu| build_fmu::with_names(fmu, &names))
+        .mut_subcommand("list", |list| build_fmu::with_names(list, &names))
+        .mut_subcommand("describe", |describe| build_fmu::with_names(describe, &names))
+        .mut_subcommand("diagnose", strut_diagnosis::app::completions::with_rigs);
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut command, "strut", &mut script);
+    String::from_utf8_lossy(&script).into_owned()
+}
+
+/// The page of the book with the help of all commands.
+fn reference() -> String {
+    let mut page = String::from(
+        "<!-- Printed by `strut reference`. -->\n# Commands\n\n\
+         `build-fmu` is `strut fmu`, and `diagnose` is `strut diagnose`. Results go to stdout, messages to stderr. The exit code is 0, 1 \
+         after a failure, and 2 for a command line that is not understood.\n",
+    );
+    let mut strut = Strut::command();
+    strut.build();
+    chapter(&mut page, &strut, "strut");
+    page
+}
+
+fn chapter(page: &mut String, command: &clap::Command, path: &str) {
+    // Values of the environment are this machine's.
+    let mut shown = command.clone().bin_name(path).mut_args(|it| it.hide_env_values(true));
+    let help = shown.render_help().to_string();
+    let lines: Vec<&str> = help.lines().map(str::trim_end).collect();
+    *page += &format!("\n## `{path}`\n\n```text\n{}\n```\n", lines.join("\n").trim_end());
+    for inner in command.get_subcommands().filter(|it| !it.is_hide_set() && it.get_name() != "help") {
+        chapter(page, inner, &format!("{path} {}", inner.get_name()));
+    }
+}
+
+fn print(text: &str) -> ExitCode {
+    // Whoever closed the pipe has read enough.
+    let _ = std::io::stdout().write_all(text.as_bytes());
+    ExitCode::SUCCESS
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn the_command_line_is_sound() {
@@ -73,11 +134,63 @@ mod tests {
     }
 
     #[test]
-    fn the_names_of_old_lead_to_the_same() {
-        for line in
-            ["fmu QuarterCar --out x", "fmu check a.fmu", "check a.fmu", "list --json", "diagnose rigs"]
-        {
+    fn the_old_names_lead_to_the_same() {
+        for line in [
+            "fmu QuarterCar --out x",
+            "new my-rig",
+            "fmu check a.fmu",
+            "check a.fmu",
+            "list --json",
+            "diagnose rigs",
+        ] {
             assert!(Strut::try_parse_from(["strut"].into_iter().chain(line.split(' '))).is_ok(), "{line}");
         }
+    }
+
+    #[test]
+    fn the_page_of_commands_is_what_they_say() {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/cli.md");
+        let page = std::fs::read_to_string(file).unwrap_or_default();
+        assert_eq!(page, reference(), "run `cargo run --package strut-command -- reference > docs/cli.md`");
+    }
+
+    #[test]
+    fn completions_know_commands_fmus_and_rigs() {
+        for shell in [Shell::Bash, Shell::Zsh] {
+            let script = completions(shell);
+            for word in
+                ["completions", "sample-rate", "TumQuarterVehicle", "quanser-lqr", "tum-quarter-vehicle"]
+            {
+                assert!(script.contains(word), "{word} is missing for {shell}");
+            }
+        }
+        assert!(completions(Shell::Fish).contains("sample-rate"));
+    }
+
+    /// What bash offers for the last of some words.
+    #[cfg(unix)]
+    fn offered(words: &str) -> String {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("completions");
+        std::fs::write(&path, completions(Shell::Bash)).unwrap();
+        let asks = format!(
+            "source '{}'; COMP_WORDS=({words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); \
+             $(complete -p strut | sed 's/.*-F \\([^ ]*\\).*/\\1/') strut \"${{COMP_WORDS[-1]}}\" \
+             \"${{COMP_WORDS[-2]}}\"; echo \"${{COMPREPLY[*]}}\"",
+            path.display()
+        );
+        let output = std::process::Command::new("bash").args(["-c", &asks]).output().unwrap();
+        String::from_utf8(output.stdout).unwrap().trim().to_owned()
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn bash_completes() {
+        assert_eq!(offered("strut desc"), "describe");
+        assert_eq!(offered("strut describe TumQ"), "TumQuarterVehicle");
+        assert_eq!(offered("strut fmu QuanserQ"), "QuanserQuarterCar");
+        assert_eq!(offered("strut fmu check --str"), "--strict");
+        assert_eq!(offered("strut diagnose rigs kogut-s"), "kogut-sas-rig");
+        assert_eq!(offered("strut diagnose simulate --samp"), "--sample-rate");
     }
 }

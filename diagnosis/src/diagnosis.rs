@@ -1,4 +1,4 @@
-//! From records to findings: base fit, search, and what is told about it.
+//! From records to findings: nominal fit, search, and what is told about it.
 
 mod kept;
 mod nominal;
@@ -21,7 +21,7 @@ use crate::screening::rms;
 pub struct Diagnosis<'a> {
     /// What it was about.
     pub baseline: Baseline<'a>,
-    /// The held-out records as they were measured.
+    /// The validation records as they were measured.
     pub measured: &'a [Dataset],
     /// The starting model as it was given.
     pub before: Estimate,

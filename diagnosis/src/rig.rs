@@ -76,7 +76,7 @@ pub struct DrivenBy {
     pub item: &'static str,
     /// The input that acts then.
     pub input: &'static str,
-    /// Further base parameters that matter then.
+    /// Further nominal parameters that matter then.
     pub base: &'static [&'static str],
     /// Columns that are this input where none has its name.
     pub columns: &'static [&'static str],

@@ -24,7 +24,7 @@ pub use typical::typical;
 /// How many times as long as a sensor remembers a stretch has to be: what a signal was before is not known.
 const MEMORIES: f64 = 4.0;
 
-/// What every term would change beside a fit, in the signals predicted of the training data.
+/// What every term would change beside a fit, in the signals predicted of the estimation data.
 pub struct TriedOut {
     /// The terms.
     pub terms: Vec<Term>,

@@ -52,7 +52,7 @@ fn scale(table: &mut Table, name: &str, factor: f64) {
 fn found(rig: &str, hidden: &[(&str, f64)], change: impl Fn(&mut Table)) -> Vec<DataProblem> {
     let mut rig = Rig::published(rig).unwrap();
     let hidden = hidden.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
-    let experiment = Experiment { hidden, noise: 0.01, seed: 3, step: 2e-3, length: 8.0 };
+    let experiment = Experiment { hidden, amplitude: 1.0, noise: 0.01, seed: 3, step: 2e-3, length: 8.0 };
     let mut table = table(&virtual_rig::record(&rig, &experiment, 1).unwrap());
     change(&mut table);
     let folder = tempfile::tempdir().unwrap();

@@ -110,7 +110,7 @@ fn told(diagnosis: &Diagnosis<'_>) -> Vec<String> {
     all.map(|it| name(it.term, &diagnosis.baseline.rig.plant).short()).collect()
 }
 
-/// Numbers and places of what is found on held-out data, and the values of the extended model's parameters.
+/// Numbers and places of what is found on validation data, and the values of the extended model's parameters.
 fn found(changes: &[(&str, f64)]) -> (Vec<String>, Vec<(String, f64)>) {
     let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
     let records = Split::new(&[record(&rig, 1, changes)], [record(&rig, 20, changes)].to_vec());

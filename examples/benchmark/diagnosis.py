@@ -6,7 +6,7 @@ One iteration of a least-squares fit needs the residuals of all signals and thei
 parameter and every state at the start. Here `scipy.optimize.least_squares` gets them by differences of simulations of
 the FMU through FMPy, and the diagnosis by its own integration with derivatives; both in one run on one record: the TUM
 rig, five signals, 60 s at 1 kHz. That both have the same information is shown, too. Then a whole diagnosis of that
-record, with a second one held out.
+record, with a second one for validation.
 """
 
 import argparse

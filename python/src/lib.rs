@@ -130,6 +130,7 @@ fn rig(name: &str) -> PyResult<String> {
 
 /// Estimation and validation record of a virtual rig, as CSV.
 #[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "Python names them")]
 fn virtual_records(
     py: Python<'_>,
     rig: &str,
@@ -138,17 +139,21 @@ fn virtual_records(
     seed: u64,
     step: f64,
     length: f64,
+    amplitude: f64,
 ) -> PyResult<[String; 2]> {
     let rig = Rig::published(rig).map_err(wrong)?;
     let hidden = hide.iter().map(|text| virtual_rig::hidden(&rig, text));
     let hidden = hidden.collect::<Result<Vec<_>, _>>().map_err(wrong)?;
+    if !(amplitude.is_finite() && amplitude > 0.0) {
+        return Err(wrong("amplitude is a positive factor".into()));
+    }
     let sound = noise.is_finite() && noise >= 0.0 && step > 0.0 && length >= 100.0 * step && length <= 1e4;
     if !sound {
         return Err(wrong(
             "noise must not be negative, and a record has at least 100 steps, at most 10 000 s".into(),
         ));
     }
-    let experiment = Experiment { hidden, noise, seed, step, length };
+    let experiment = Experiment { hidden, amplitude, noise, seed, step, length };
     let [train, test] = py.detach(|| [1, 2].map(|number| virtual_rig::record(&rig, &experiment, number)));
     Ok([train.map_err(wrong)?, test.map_err(wrong)?])
 }

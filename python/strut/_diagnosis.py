@@ -231,21 +231,24 @@ def virtual_records(
     seed: int = 1,
     step_size: float = 1e-3,
     length: float = 20.0,
+    amplitude: float = 1.0,
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Records of a virtual rig, for estimation and for validation, to try a diagnosis with.
 
-    :param hide: Parameters that differ from the rig's, in SI units, e.g. ``{"strut.coulomb.force": 60}`` (N).
+    :param hide: Parameters that differ from the rig's, in SI units, e.g. ``{"strut.coulomb.force": 60}`` (N), and
+        distortions of sensors, e.g. ``{"body.acceleration.gain": 0.05}``.
     :param noise: Standard deviation of the noise over the root mean square of each signal.
     :param seed: For phases and noise.
     :param step_size: Distance of the samples in s.
     :param length: Length of each record in s.
+    :param amplitude: Size of the excitation, relative to the rig's usual one.
 
     >>> train, test = strut.virtual_records("tum-quarter-vehicle", length=5.0)
     >>> len(train)
     5000
     """
     hidden = [f"{name}={float(value)!r}" for name, value in (hide or {}).items()]
-    texts = _strut.virtual_records(rig, hidden, noise, seed, step_size, length)
+    texts = _strut.virtual_records(rig, hidden, noise, seed, step_size, length, amplitude)
     train, test = (pd.read_csv(io.StringIO(text)) for text in texts)
     return train, test
 

@@ -57,7 +57,7 @@ fn the_magnetorheological_damper_is_explained() {
     }
 }
 
-/// By hand 80 % and 79 % were reached on the two held-out records, with presliding friction. The damper has a backlash, as its
+/// By hand 80 % and 79 % were reached on the two validation records, with presliding friction. The damper has a backlash, as its
 /// makers say, and pulls harder in one direction.
 #[test]
 fn the_friction_damper_is_explained() {

@@ -60,14 +60,14 @@ NOTES = """\
 
 | master | why | what was done instead |
 |---|---|---|
-| Simulink, Dymola, CarMaker | licences | [what to click](../../examples/masters.md), from their documents |
+| Simulink, Dymola, CarMaker | licences | [what to click](../../docs/importers.md), from their documents |
 
 ## OMSimulator
 
 It is in no registry: PyPI's `OMSimulator` (3.0.0) is a script that downloads binaries from elsewhere when it is installed. Where
 a program is, `STRUT_OMSIMULATOR=/path/to/OMSimulator cargo test --test whole masters` runs it with the others. It was last run
 in November 2026, as its sources of December 2025 build it (3.0.0.post120): **17 of 17 systems**, by the command line that
-[the page for users](../../examples/masters.md) gives.
+[the page for users](../../docs/importers.md) gives.
 
 | what | largest difference of 1000 steps |
 |---|--:|

@@ -67,12 +67,12 @@ CASES = [
         "hysteresis.maxwell.time": 0.03,
         "hysteresis.mount.gap": 3e-4,
         "hysteresis.mount.compliance": 2e-6,
-    }, "Presliding friction, a Maxwell branch and a damper in a bush with play."),
+    }, "Presliding friction, a Maxwell branch and a damper in a bush with backlash."),
     with_effects("quarter-car-play", {
         "strut.coulomb.force": 0.0,
         "hysteresis.presliding.force": 90.0,
         "hysteresis.presliding.stiffness": 1.5e5,
         "hysteresis.presliding.exponent": 0.7,
         "hysteresis.presliding.gap": 4e-4,
-    }, "Presliding friction behind play."),
+    }, "Presliding friction behind backlash."),
 ]

@@ -6,7 +6,7 @@ An analogue channel, in volts, S the sensitivity:
 
     Direct       y = S x
     FirstOrder   y' = w_b (S x - y),  w_b = 2 pi bandwidth
-    SecondOrder  y'' = w^2 (S x - y) - 2 d w y',  w such that |y / (S x)|^2 = 1/2 at w_b
+    SecondOrder  y'' = w^2 (S x - y) - 2 d w y',  w from |y / (S x)|^2 = 1/2 at w_b
     sensor       u = (1 + e) y + u_0, held within the full scale
     filter       f' = 2 pi f_c (u - f), or f = u without
     converter    q round(((1 + e_c) f + u_c) / q) between -range and range - q; without steps no rounding

@@ -116,5 +116,5 @@ fn ask(python: &Path, what: What, file: &Path) -> Result<Answer, String> {
         });
     }
     let line = stdout.trim().lines().last().unwrap_or_default();
-    serde_json::from_str(line).map_err(|_| format!("`{shown}` answers something else than expected: {line}"))
+    serde_json::from_str(line).map_err(|_| format!("`{shown}` gives an unexpected answer: {line}"))
 }

@@ -1,6 +1,6 @@
 //! The classical Runge–Kutta method over the samples of a record, for any scalar.
 
-use strut_model::{Bundle, Declarations, Model, Now, Real};
+use strut_model::{Bundle, Declarations, Instant, Model, Real};
 
 use super::jet::{Jet, Scalar};
 use super::pace::Pace;
@@ -167,9 +167,9 @@ impl<'a, M: Model, R: Scalar> Run<'a, M, R> {
     }
 
     #[inline]
-    fn now<'b>(&'b self, time: R, state: &'b M::State<R>, input: &'b M::Input<R>) -> Now<'b, M, R> {
+    fn now<'b>(&'b self, time: R, state: &'b M::State<R>, input: &'b M::Input<R>) -> Instant<'b, M, R> {
         let (parameters, derived, memory) = (&self.parameters, &self.derived, &self.memory);
-        Now { time, state, input, parameters, derived, memory, tick: self.ticks }
+        Instant { time, state, input, parameters, derived, memory, tick: self.ticks }
     }
 
     /// Makes the tick of a sampled part that is due.

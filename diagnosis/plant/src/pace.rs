@@ -5,7 +5,7 @@
 //! and one that is enough at rest, and goes between them by what the stages of each step tell.
 
 use num_dual::Dual64;
-use strut_model::{Bundle, Declaration, Declarations, Model, Now, Real};
+use strut_model::{Bundle, Declaration, Declarations, Instant, Model, Real};
 
 use super::Drive;
 use super::jet::Scalar;
@@ -16,7 +16,7 @@ const LONGEST_STEP: f64 = 4e-3;
 const STABLE: f64 = 1.2;
 /// The same of the step and the largest slope of a delay's states, 12 over the delay: a sixteenth of the delay is a step.
 const WELL_BELOW: f64 = 0.75;
-/// How far what friction and bushes remember is displaced to look for contact, SI: beyond any play.
+/// How far what friction and bushes remember is displaced to look for contact, SI: beyond any backlash.
 const DISPLACED: f64 = 0.1;
 /// The same of what follows behind a backlash, whatever its unit: beyond the band its rate has one slope.
 const BEYOND_BANDS: f64 = 1e9;
@@ -120,7 +120,7 @@ fn range<M: Model>(
         let mut jacobian = nalgebra::DMatrix::<f64>::zeros(states, states);
         for column in 0..states {
             let state = Bundle::from_fn(|i| Dual64::new(at[i], f64::from(i == column)));
-            let now = Now {
+            let now = Instant {
                 time: Dual64::from(0.0),
                 state: &state,
                 input: &input,
@@ -143,7 +143,7 @@ fn range<M: Model>(
     let rest: Vec<f64> = declared.iter().map(|state| state.start).collect();
     let resting = jacobian_at(&rest);
     let mut fastest = fastest_of(&resting);
-    // What has play is loose at rest: it is looked at where it is in contact, too.
+    // What has backlash is loose at rest: it is looked at where it is in contact, too.
     for (index, state) in declared.iter().enumerate() {
         let by = match &state.name {
             name if name.starts_with("hysteresis.") => DISPLACED,

@@ -10,9 +10,34 @@ Examples:
   diagnose simulate --hide strut.coulomb.force=60 --out records
                                       records of a virtual rig with friction hidden in it
   diagnose --rig tum-linear-measured-quarter-car --train records/train.csv --test records/test.csv --out report
-                                      what the model gets wrong, why, and by how much it can gain
+                                      what the model lacks, where, and how much of the error it explains
 
 In the workspace, write `cargo run --release --package strut-diagnosis --` for `diagnose`.";
+
+const SIMULATE_EXAMPLES: &str = "\
+Examples:
+  diagnose simulate --hide strut.coulomb.force=60
+                                      60 N of friction; records/train.csv and records/test.csv
+  diagnose simulate --rig tum-quarter-vehicle --hide strut.stiffness=10000 --duration 60 --sample-rate 500
+                                      a stiffer spring, a minute at 500 Hz
+  diagnose simulate --hide body.acceleration.gain=0.05 --hide body.acceleration.delay=0.002 --amplitude 0.5
+                                      a sensor that shows 5 % too much, 2 ms late, on half the road
+
+`diagnose rigs NAME` lists the parameters for --hide. Each signal has the distortions gain, offset, drift, lag, delay, quadratic,
+cubic, rate and limit.";
+
+const RIGS_EXAMPLES: &str = "\
+Examples:
+  diagnose rigs                       the rigs with their models
+  diagnose rigs tum-quarter-vehicle   its signals, nominal parameters and effects";
+
+const COMPLETIONS_EXAMPLES: &str = "\
+Examples:
+  diagnose completions bash > ~/.local/share/bash-completion/completions/diagnose
+  diagnose completions zsh > ~/.zfunc/_diagnose
+  diagnose completions fish > ~/.config/fish/completions/diagnose.fish
+
+Names of rigs are completed in bash and zsh.";
 
 /// Finds out what a simulation gets wrong, from measured data
 #[derive(Parser, Debug)]
@@ -30,14 +55,23 @@ pub struct Arguments {
 #[derive(Subcommand, Debug)]
 pub enum Command {
     /// Makes records of a virtual rig, to try the diagnosis with
+    #[command(after_help = SIMULATE_EXAMPLES)]
     Simulate(SimulateArguments),
-    /// Lists the rigs, or tells of one what its records may hold and what is looked for in them
+    /// Lists the rigs, or the signals, parameters and effects of one
+    #[command(after_help = RIGS_EXAMPLES)]
     Rigs {
         /// The rig, e.g. tum-quarter-vehicle
         name: Option<String>,
     },
     /// Prints the catalogue of effects as a page in Markdown: laws, parameters, literature, experiments
     Effects,
+    /// Prints a script that completes commands, options and rigs in a shell
+    #[command(after_help = COMPLETIONS_EXAMPLES)]
+    Completions {
+        /// The shell
+        #[arg(value_enum)]
+        shell: clap_complete::Shell,
+    },
 }
 
 /// A diagnosis.
@@ -63,7 +97,7 @@ pub struct DiagnosisArguments {
     #[arg(long, value_name = "FILE")]
     pub map: Option<PathBuf>,
 
-    /// A value that was measured otherwise, with its standard deviation: sprung_mass=94.4±0.5
+    /// Independently measured parameter with its standard deviation: sprung_mass=94.4±0.5
     #[arg(long, value_name = "NAME=VALUE±DEVIATION")]
     pub known: Vec<String>,
 
@@ -119,20 +153,32 @@ pub struct DiagnosisArguments {
 /// A virtual rig.
 #[derive(Args, Debug)]
 pub struct SimulateArguments {
-    /// The rig
-    #[arg(long, default_value = "tum-linear-measured-quarter-car")]
+    /// The rig; `diagnose rigs` lists them
+    #[arg(long, value_name = "NAME", default_value = "tum-linear-measured-quarter-car")]
     pub rig: String,
 
-    /// A parameter that differs from the rig's: strut.coulomb.force=60
+    /// A parameter that differs from the rig's, or the distortion of a sensor, in SI units; several times for several
     #[arg(long, value_name = "NAME=VALUE")]
     pub hide: Vec<String>,
 
-    /// Standard deviation of the noise, over the root mean square of each signal
-    #[arg(long, default_value_t = 0.01)]
+    /// Duration of each record in s
+    #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = positive)]
+    pub duration: f64,
+
+    /// Samples per second in Hz
+    #[arg(long, value_name = "HZ", default_value_t = 1000.0, value_parser = positive)]
+    pub sample_rate: f64,
+
+    /// Size of the excitation, relative to the rig's usual one
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = positive)]
+    pub amplitude: f64,
+
+    /// Standard deviation of the noise, relative to the root mean square of each signal
+    #[arg(long, value_name = "SHARE", default_value_t = 0.01)]
     pub noise: f64,
 
-    /// For phases and noise
-    #[arg(long, default_value_t = 1)]
+    /// Seed of phases and noise: the same seed gives the same records
+    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     pub seed: u64,
 
     /// Folder for train.csv and test.csv; made if it is missing

@@ -1,6 +1,7 @@
 //! The command line, the whole diagnosis that it asks for, and the virtual rig.
 
 pub mod cli;
+pub mod completions;
 pub mod run;
 pub mod study;
 pub mod virtual_rig;

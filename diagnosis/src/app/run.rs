@@ -11,6 +11,7 @@ use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::app::cli::{Arguments, Command, DiagnosisArguments, SimulateArguments};
+use crate::app::completions;
 use crate::app::study::{self, Outcome, Study};
 use crate::app::virtual_rig::{self, Experiment};
 use crate::catalogue;
@@ -24,11 +25,6 @@ use crate::report::file::replace;
 use crate::report::findings::Verdict;
 use crate::rig::Rig;
 
-/// Time between two samples of a virtual rig's record in seconds.
-const STEP: f64 = 1e-3;
-/// Length of a virtual rig's record in seconds.
-const LENGTH: f64 = 20.0;
-
 /// Does what the command line says; failures are told on stderr.
 ///
 /// The exit code is 0, 1 after a failure, and 2 if the command line was not understood.
@@ -41,7 +37,7 @@ pub fn execute(arguments: &Arguments) -> ExitCode {
     let done = match (&arguments.command, &arguments.diagnosis) {
         (Some(Command::Simulate(arguments)), _) => simulate(arguments),
         (Some(Command::Rigs { name: None }), _) => {
-            tell(&format!("{}\n", Rig::names().join("\n")));
+            tell(&report::rigs());
             Ok(())
         }
         (Some(Command::Rigs { name: Some(name) }), _) => {
@@ -49,6 +45,10 @@ pub fn execute(arguments: &Arguments) -> ExitCode {
         }
         (Some(Command::Effects), _) => {
             tell(&catalogue::page());
+            Ok(())
+        }
+        (Some(Command::Completions { shell }), _) => {
+            tell(&completions::script(*shell));
             Ok(())
         }
         (None, Some(arguments)) => run(arguments),
@@ -175,8 +175,16 @@ fn simulate(arguments: &SimulateArguments) -> Result<(), String> {
             arguments.noise
         ));
     }
-    let experiment =
-        Experiment { hidden, noise: arguments.noise, seed: arguments.seed, step: STEP, length: LENGTH };
+    let (step, length) = (arguments.sample_rate.recip(), arguments.duration);
+    if !(100.0..=1e7).contains(&(length / step)) {
+        let samples = (length / step).round();
+        return Err(format!(
+            "--duration {length} and --sample-rate {} give {samples} samples: a record has from 100 to 10 000 000",
+            arguments.sample_rate
+        ));
+    }
+    let SimulateArguments { amplitude, noise, seed, .. } = *arguments;
+    let experiment = Experiment { hidden, amplitude, noise, seed, step, length };
     // All of them first: a mistake leaves nothing behind.
     let records = [(1, "train.csv"), (2, "test.csv")]
         .map(|(number, name)| virtual_rig::record(&rig, &experiment, number).map(|text| (name, text)));

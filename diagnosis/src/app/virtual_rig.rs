@@ -1,5 +1,6 @@
 //! A virtual rig: records of a model with something hidden in it, to try the diagnosis with.
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
@@ -8,13 +9,16 @@ use crate::dataset::recorded::derivative;
 use crate::plant::{Between, Drive};
 use crate::rig::Rig;
 use crate::screening::rms;
+use crate::signal::distortion::{Correction, Fault, Samples};
 use crate::signal::random::Random;
 
 /// What is recorded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Experiment {
-    /// Parameters that differ from the rig's, with their values.
+    /// Parameters that differ from the rig's, and distortions of measured signals, with their values.
     pub hidden: Vec<(String, f64)>,
+    /// Size of the excitation over the rig's usual one.
+    pub amplitude: f64,
     /// Standard deviation of the noise over the root mean square of each signal.
     pub noise: f64,
     /// For phases and noise.
@@ -25,7 +29,16 @@ pub struct Experiment {
     pub length: f64,
 }
 
-/// A parameter that differs from the rig's, e.g. `strut.coulomb.force=60` in its SI unit.
+/// A signal and its distortion: `body.acceleration.gain`. Parameters of the model come first.
+fn distortion<'a>(rig: &Rig, name: &'a str) -> Option<(&'a str, Fault)> {
+    let (signal, last) = name.rsplit_once('.').filter(|_| rig.plant.parameter(name).is_none())?;
+    let fault = Fault::NAMED.into_iter().find(|fault| fault.name() == last)?;
+    let mut signals = rig.plant.inputs.iter().chain(&rig.plant.outputs);
+    signals.any(|it| it.name == signal).then_some((signal, fault))
+}
+
+/// A parameter that differs from the rig's, e.g. `strut.coulomb.force=60` in its SI unit, or the distortion of a measured
+/// signal, e.g. `body.acceleration.gain=0.05`.
 ///
 /// # Errors
 /// If the text is of another form, the rig has no parameter of the name, or the value is out of its bounds.
@@ -33,9 +46,15 @@ pub fn hidden(rig: &Rig, text: &str) -> Result<(String, f64), String> {
     let wrong = || format!("{text}: write NAME=VALUE, as in strut.coulomb.force=60");
     let (name, value) = text.split_once('=').ok_or_else(wrong)?;
     let (name, value) = (name.trim(), value.trim().parse::<f64>().map_err(|_| wrong())?);
+    if distortion(rig, name).is_some() && value.is_finite() {
+        return Ok((name.to_owned(), value));
+    }
     let index = rig.plant.parameter(name).ok_or_else(|| {
         let hint = did_you_mean(name, rig.plant.parameters.iter().map(|it| it.name.as_str()));
-        format!("{text}: {} has no parameter `{name}`{hint}", rig.name)
+        format!(
+            "{text}: {} has no parameter `{name}`{hint}; `diagnose rigs {}` lists them",
+            rig.name, rig.name
+        )
     })?;
     let declared = &rig.plant.parameters[index];
     let (low, high) = (declared.min.unwrap_or(f64::MIN), declared.max.unwrap_or(f64::MAX));
@@ -58,7 +77,12 @@ pub fn hidden(rig: &Rig, text: &str) -> Result<(String, f64), String> {
 /// If the rig has no parameter of a name, or refuses the values.
 pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String, String> {
     let mut parameters = rig.parameters.clone();
+    let mut distorted: BTreeMap<&str, Correction> = BTreeMap::new();
     for (name, value) in &experiment.hidden {
+        if let Some((signal, fault)) = distortion(rig, name) {
+            distorted.entry(signal).or_default().set(fault, *value);
+            continue;
+        }
         let index = rig.plant.parameter(name).ok_or_else(|| {
             let names: Vec<&str> = rig.plant.parameters.iter().map(|it| it.name.as_str()).collect();
             format!("{} has no parameter `{name}`; it has {}", rig.name, names.join(", "))
@@ -76,7 +100,7 @@ pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String,
         .iter()
         .map(|declared| match rig.excitation(declared) {
             Some((amplitude, band)) => {
-                let signal = multisine(count, step, amplitude, band, &mut random);
+                let signal = multisine(count, step, amplitude * experiment.amplitude, band, &mut random);
                 signal.into_iter().map(|value| declared.start + value).collect()
             }
             None => vec![declared.start; count],
@@ -99,6 +123,9 @@ pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String,
         })
         .map(|(declared, signal)| {
             let deviation = experiment.noise * rms(signal);
+            let all = Samples { step, first: 0 };
+            let shown = distorted.get(&*declared.name).map(|it| it.applied(signal, all));
+            let signal = shown.as_ref().unwrap_or(signal);
             let noisy = signal.iter().map(|value| value + deviation * random.normal()).collect();
             (format!("{} [{}]", declared.name, declared.unit.symbol), noisy)
         })
@@ -147,4 +174,48 @@ fn multisine(
             grown * grown * (3.0 - 2.0 * grown) * sum / scale
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn columns(experiment: &Experiment) -> Vec<(String, Vec<f64>)> {
+        let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
+        let text = record(&rig, experiment, 1).unwrap();
+        let mut lines = text.lines();
+        let mut all: Vec<(String, Vec<f64>)> =
+            lines.next().unwrap().split(',').map(|name| (name.to_owned(), Vec::new())).collect();
+        for line in lines {
+            for (column, number) in all.iter_mut().zip(line.split(',')) {
+                column.1.push(number.parse().unwrap());
+            }
+        }
+        all
+    }
+
+    fn plain() -> Experiment {
+        Experiment { hidden: Vec::new(), amplitude: 1.0, noise: 0.0, seed: 1, step: 2e-3, length: 4.0 }
+    }
+
+    #[test]
+    fn a_sensors_gain_is_in_its_own_column_alone() {
+        let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
+        let hidden = vec![hidden(&rig, "body.acceleration.gain=0.5").unwrap()];
+        let (before, after) = (columns(&plain()), columns(&Experiment { hidden, ..plain() }));
+        for ((name, before), (_, after)) in before.iter().zip(&after) {
+            let factor = if name.starts_with("body.acceleration") { 1.5 } else { 1.0 };
+            assert!((rms(after) - factor * rms(before)).abs() < 1e-5 * rms(before), "{name}");
+        }
+        assert!(super::hidden(&rig, "body.acceleration.gian=0.5").is_err());
+    }
+
+    #[test]
+    fn amplitude_rate_and_duration_are_as_asked_for() {
+        let twice = columns(&Experiment { amplitude: 2.0, step: 4e-3, length: 8.0, ..plain() });
+        assert_eq!(twice[0].1.len(), 2000);
+        let once = columns(&Experiment { step: 4e-3, length: 8.0, ..plain() });
+        let road = once.iter().position(|it| it.0.starts_with("road.position")).unwrap();
+        assert!((rms(&twice[road].1) / rms(&once[road].1) - 2.0).abs() < 1e-6);
+    }
 }

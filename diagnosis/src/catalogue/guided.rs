@@ -12,7 +12,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     Effect {
         id: "33",
         element: Element::Guide,
-        name: "constant force",
+        name: "force offset",
         equation: "F = F_0",
         parts: &[part("constant_load", Scale::FORCE, (-10.0, 10.0), &[0.1])],
         literature: &["Janot2019"],

@@ -12,7 +12,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     Effect {
         id: "18",
         element: Element::Frame,
-        name: "frame mode",
+        name: "test-rig resonance",
         equation: "F = m_f (w^2 y + 2 z w y'), y'' + 2 z w y' + w^2 y = -a_s",
         parts: &[
             part("frame.mass", Scale::ONE, (0.0, 50.0), &[1.0]),
@@ -53,7 +53,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     Effect {
         id: "28",
         element: Element::Valve,
-        name: "overlap of the valve",
+        name: "spool overlap (dead band)",
         equation: "opening = dz(x_v, delta)",
         parts: &[part("actuator.spool.overlap", Scale::DEFLECTION, (0.0, 2.0), &[0.1])],
         literature: &["Merritt1967", "Jelali2003"],

@@ -59,7 +59,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     Effect {
         id: "03b",
         element: Element::Strut,
-        name: "friction with presliding behind play",
+        name: "friction with presliding behind backlash",
         equation: "F = dz(y, sigma b), y' = sigma v |1 - sgn(v) F/F_c|^n sgn(1 - sgn(v) F/F_c)",
         contains: &["01", "03"],
         parts: &[
@@ -69,7 +69,7 @@ pub(super) const EFFECTS: &[Effect] = &[
             part("hysteresis.presliding.exponent", Scale::ONE, (0.2, 4.0), &[1.0]),
         ],
         literature: &["Dahl1968", "Nordin2002"],
-        experiment: "reverse slowly at several places: the force rests at zero over the play",
+        experiment: "reverse slowly at several places: the force rests at zero over the backlash",
         ..PLAIN
     },
     Effect {
@@ -192,7 +192,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     Effect {
         id: "12",
         element: Element::Strut,
-        name: "play in a damper bush",
+        name: "backlash in a damper bush",
         equation: "F = dz(x - w, g)/c, w' = F/d",
         contains: &["13"],
         onset: Onset::Threshold,
@@ -207,7 +207,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     Effect {
         id: "13",
         element: Element::Strut,
-        name: "soft damper mount",
+        name: "top-mount compliance",
         equation: "F = (x - w)/c, w' = F/d",
         prevalence: Prevalence::Background,
         parts: &[part("hysteresis.mount.compliance", Scale::COMPLIANCE, (3e-3, 10.0), &[0.02, 0.1, 0.5])],
@@ -218,7 +218,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     Effect {
         id: "14",
         element: Element::Strut,
-        name: "kinematic ratio",
+        name: "motion ratio",
         equation: "i = 1 + i_1 x on spring and damper",
         parts: &[part("strut.linkage.slope", Scale::PER_DEFLECTION, (-0.3, 0.3), &[0.05])],
         literature: &["Milliken1995"],
@@ -243,7 +243,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     Effect {
         id: "33",
         element: Element::Strut,
-        name: "constant force",
+        name: "force offset",
         equation: "F = F_0",
         replaces: Some(Replaced { inputs: "actuator.force", distortion: Fault::Offset }),
         parts: &[part("strut.preload", Scale::FORCE, (-10.0, 10.0), &[0.1])],

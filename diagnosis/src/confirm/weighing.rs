@@ -52,7 +52,7 @@ impl Baseline<'_> {
         let total: f64 = counts.iter().sum();
         let shares = |unit: &Fitted, fitted: &Fitted| self.shares_of(term, unit, fitted);
         let (before, after) = (shares(base, null), shares(base, fitted));
-        let [learnt, held_out] = [before[0] - after[0], before[1] - after[1]];
+        let [estimation, validation] = [before[0] - after[0], before[1] - after[1]];
         let steadiness = self.steadiness(term, &null.train, &fitted.train);
         let validated = self.steadiness(term, &null.test, &fitted.test);
         Evidence {
@@ -61,7 +61,7 @@ impl Baseline<'_> {
             chance: (self.looks * steadiness.chance_of_gain()).min(1.0),
             held_out_t: validated.t,
             held_out_chance: (self.looks * validated.chance()).min(1.0),
-            explained: if is_resonance(term) { learnt.max(held_out) } else { held_out },
+            explained: if is_resonance(term) { estimation.max(validation) } else { validation },
             phi_gain: everywhere(term, self.phi_gains(null, fitted)),
             taken: everywhere(term, shares(null, fitted).map(|share| 1.0 - share)),
             usual: self.is_usual(term, fitted) && !self.is_open(&null.test),
@@ -112,7 +112,7 @@ impl Baseline<'_> {
         rms(&values.collect::<Vec<_>>()).powi(2)
     }
 
-    /// The largest rise of Φ among the signals: on the training and on the held-out data. It is of what the model has to tell:
+    /// The largest rise of Φ among the signals: on the estimation and on the validation data. It is of what the model has to tell:
     /// over a short stretch, a moving drive's position is mostly a straight line.
     fn phi_gains(&self, null: &Fitted, fitted: &Fitted) -> [f64; 2] {
         let of = |records: &[Dataset], null: &Residuals, fitted: &Residuals| {
@@ -166,13 +166,13 @@ impl Baseline<'_> {
         student(&all).t
     }
 
-    /// Errors left on the training and on the held-out data together, in those of another fit: two where nothing is
+    /// Errors left on the estimation and on the validation data together, in those of another fit: two where nothing is
     /// gained.
     pub(super) fn left(&self, unit: &Fitted, fitted: &Fitted) -> f64 {
         self.shares(unit, fitted).iter().sum()
     }
 
-    /// Share of another fit's error that is left, on the training and on the held-out data: mean over the signals.
+    /// Share of another fit's error that is left, on the estimation and on the validation data: mean over the signals.
     fn shares(&self, unit: &Fitted, fitted: &Fitted) -> [f64; 2] {
         [(&unit.train, &fitted.train), (&unit.test, &fitted.test)].map(|(unit, fitted)| {
             let each = self.each(unit, fitted);
@@ -208,13 +208,13 @@ pub(super) fn is_in_time(term: Term, fitted: &Fitted) -> Option<bool> {
     }
 }
 
-/// A gain on the training or the held-out data, whichever is less; of a resonance, whichever is more.
+/// A gain on the estimation or the validation data, whichever is less; of a resonance, whichever is more.
 fn everywhere(term: Term, [train, test]: [f64; 2]) -> f64 {
     if is_resonance(term) { train.max(test) } else { train.min(test) }
 }
 
 /// Whether records that do not excite it show nothing of a term: how large it is, those tell that do. Whether it is there at
-/// all, the held-out data have to tell as of any other.
+/// all, the validation data have to tell as of any other.
 fn is_resonance(term: Term) -> bool {
     matches!(term, Term::Effect(effect) if effect.element == Element::Frame)
 }

@@ -67,7 +67,7 @@ pub fn write(record: &Record, sink: impl io::Write) -> io::Result<()> {
     writer.flush()
 }
 
-/// UTF-8 with or without mark, or else Latin-1, which measuring programs of old write.
+/// UTF-8 with or without mark, or else Latin-1, which old measuring programs write.
 fn decode<'a>(file: &str, bytes: &'a [u8]) -> Result<Cow<'a, str>, DataError> {
     if bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) {
         return Err(DataError::file(file, "is UTF-16: save it as UTF-8"));

@@ -78,16 +78,19 @@ impl Table {
             .or_else(|| self.columns.iter().position(named))
             .or_else(|| self.columns.first().filter(|column| timed(column)).map(|_| 0))
             .ok_or_else(|| {
-                let names: Vec<_> = self.columns.iter().take(12).map(|c| c.name.as_str()).collect();
+                let names = listed(self.columns.iter().map(|c| c.name.as_str()));
                 let text = format!(
                     "no column of time among {}: call it `time [s]`, or name it in the map: \
                      `time = {{ column = \"…\", unit = \"s\" }}`",
-                    names.join(", ")
+                    names
                 );
                 DataError::file(&self.name, text)
             })
     }
 }
+
+/// Names that a message lists before it counts the rest.
+const LISTED: usize = 12;
 
 /// `: did you mean x?` if one of the names is near, and otherwise the names.
 pub(crate) fn did_you_mean<'a>(wrong: &str, names: impl Iterator<Item = &'a str> + Clone) -> String {
@@ -95,7 +98,18 @@ pub(crate) fn did_you_mean<'a>(wrong: &str, names: impl Iterator<Item = &'a str>
     let best = names.clone().max_by(|a, b| near(a).total_cmp(&near(b)));
     match best {
         Some(best) if near(best) > 0.8 => format!(": did you mean `{best}`?"),
-        Some(_) => format!(": there are {}", names.take(12).collect::<Vec<_>>().join(", ")),
+        Some(_) => format!(": there are {}", listed(names)),
         None => String::new(),
     }
+}
+
+/// Names as a list, which says how many it leaves out.
+fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let all: Vec<&str> = names.collect();
+    let shown = if all.len() > LISTED + 1 { LISTED } else { all.len() };
+    let rest = match all.len() - shown {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!("{}{rest}", all[..shown].join(", "))
 }

@@ -212,7 +212,7 @@ fn product(tokens: &mut &[&str]) -> Option<Size> {
         };
         size = multiply(size, factor, sign)?;
         empty = false;
-        // In `N.m/s.A` only the s is below the bar, as FMI has it; ambiguous spellings need brackets.
+        // In `N.m/s.A` only the s is below the bar, by FMI; ambiguous spellings need brackets.
         sign = 1;
     }
     (!empty && sign == 1).then_some(size)

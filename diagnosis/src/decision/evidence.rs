@@ -9,20 +9,20 @@ use super::criteria::CRITERIA;
 pub struct Evidence {
     /// Fall of the Bayesian information criterion, samples counted as far as they are independent.
     pub delta_bic: f64,
-    /// Student's t of the gain over the blocks of the training data.
+    /// Student's t of the gain over the blocks of the estimation data.
     pub block_t: f64,
     /// Chance that of as many effects as were compared the best one's gain is as steady, where none of them is there.
     pub chance: f64,
-    /// Student's t of the gain over the blocks of the held-out data.
+    /// Student's t of the gain over the blocks of the validation data.
     pub held_out_t: f64,
-    /// Chance that of as many effects as were compared the best one's gain on the held-out data is as steady, where none of them
+    /// Chance that of as many effects as were compared the best one's gain on the validation data is as steady, where none of them
     /// is there.
     pub held_out_chance: f64,
-    /// Share of the starting model's error power that it explains on the held-out data.
+    /// Share of the starting model's error power that it explains on the validation data.
     pub explained: f64,
-    /// Largest rise of Φ among the signals, on the training or the held-out data, whichever is less.
+    /// Largest rise of Φ among the signals, on the estimation or the validation data, whichever is less.
     pub phi_gain: f64,
-    /// Share that it takes away of the error's power that was left without it, on the training or the held-out data,
+    /// Share that it takes away of the error's power that was left without it, on the estimation or the validation data,
     /// whichever is less.
     pub taken: f64,
     /// Whether every rig has a little of it, so that more of it is asked for.
@@ -63,7 +63,7 @@ impl Evidence {
         self.taken > CRITERIA.bulk
     }
 
-    /// Whether so much of the error on held-out data goes that chance is no question, however few the blocks are.
+    /// Whether so much of the error on validation data goes that chance is no question, however few the blocks are.
     pub fn is_no_chance(&self) -> bool {
         let most_of_what_was_left = self.taken > self.required().taken && self.held_out_t > CRITERIA.certain;
         most_of_what_was_left || self.explained > CRITERIA.by_far && self.held_out_t > 0.0

@@ -66,7 +66,7 @@ pub(super) fn fit(baseline: &mut Baseline<'_>) -> Result<(Estimate, Fitted, Vec<
     Ok((before, base, reversed))
 }
 
-/// The base fit from where many short stretches lead, each with states of its own at the start: over a long stretch, a
+/// The nominal fit from where many short stretches lead, each with states of its own at the start: over a long stretch, a
 /// model that is far off loses the data's phase, or drifts away, and the way to the minimum is lost with it (multiple
 /// shooting; H. G. Bock, Recent advances in parameter identification techniques for o.d.e., 1983).
 fn shot(baseline: &Baseline<'_>, start: &Estimate) -> Option<Fitted> {

@@ -64,7 +64,7 @@ impl PartialEq for Term {
 pub struct Baseline<'a> {
     /// The rig.
     pub rig: &'a Rig,
-    /// The records that are learnt from.
+    /// The records of the estimation data.
     pub train: &'a [Dataset],
     /// The records that judge.
     pub test: &'a [Dataset],
@@ -95,17 +95,17 @@ pub struct Fitted {
     pub terms: Vec<Term>,
     /// The coordinates of the fit.
     pub coordinates: Vec<FreeParameter>,
-    /// Values, with the states at the start of the training sections.
+    /// Values, with the states at the start of the estimation sections.
     pub point: Estimate,
     /// The linearisation there.
     pub linear: Linear,
     /// What linearising left behind.
     pub trace: Trace,
-    /// Half the weighted sum of squares on the training data.
+    /// Half the weighted sum of squares on the estimation data.
     pub cost: f64,
-    /// Errors on the training data.
+    /// Errors on the estimation data.
     pub train: Residuals,
-    /// Errors on the held-out data.
+    /// Errors on the validation data.
     pub test: Residuals,
 }
 
@@ -218,7 +218,7 @@ impl Baseline<'_> {
         }
     }
 
-    /// What is fitted with the terms: base parameters first, then the terms' own, each once.
+    /// What is fitted with the terms: nominal parameters first, then the terms' own, each once.
     pub fn coordinates(&self, terms: &[Term]) -> Vec<FreeParameter> {
         let plant = &self.rig.plant;
         let mut coordinates: Vec<FreeParameter> = Vec::new();
@@ -335,7 +335,7 @@ impl Baseline<'_> {
         }
     }
 
-    /// Largest magnitude of a measured input on the training data.
+    /// Largest magnitude of a measured input on the estimation data.
     pub fn largest(&self, input: usize) -> f64 {
         let values = self.train.iter().filter_map(|record| match &record.inputs[input] {
             Source::Measured(values) => Some(values),
@@ -387,7 +387,7 @@ impl Baseline<'_> {
         })
     }
 
-    /// The point of the held-out data: the same parameters, states at the start of their own.
+    /// The point of the validation data: the same parameters, states at the start of their own.
     pub fn held_out_point(&self, dynamics: &dyn Dynamics, point: &Estimate) -> Estimate {
         let point = Estimate { starts: self.starts(self.test), ..point.clone() };
         self.fit(dynamics, self.test, Vec::new()).settled(point)

@@ -1,8 +1,8 @@
 //! How sure the coordinates of a fit are.
 //!
-//! Three things make a coordinate uncertain. Noise: the spread of its scores over blocks of the training data. Excitations:
+//! Three things make a coordinate uncertain. Noise: the spread of its scores over blocks of the estimation data. Excitations:
 //! errors of a model that is not quite right pull its parameters differently in each; what each excitation on its own would
-//! say is compared, held-out ones included, and the variance between them, after DerSimonian and Laird (Meta-analysis in
+//! say is compared, validation data included, and the variance between them, after DerSimonian and Laird (Meta-analysis in
 //! clinical trials, Controlled Clinical Trials 7, 1986), widens the interval. And what pulls alike in all excitations: small
 //! effects that are not in the model. Each effect of the catalogue that is not is assumed to be there by as much as the
 //! errors contain of it. The move of the coordinate with it is added, in squares, and as much again, since it hardly
@@ -65,8 +65,8 @@ struct Opinion {
     shift: f64,
     /// Its variance.
     variance: f64,
-    /// Whether it was learnt from.
-    learnt: bool,
+    /// Whether it is estimation data.
+    estimation: bool,
     /// The record's number, estimation records first.
     record: usize,
 }
@@ -117,7 +117,7 @@ impl Baseline<'_> {
     /// What each excitation says of each coordinate: a Gauss–Newton step from the fit.
     fn opinions(&self, fitted: &Fitted) -> Result<Vec<Vec<Opinion>>, String> {
         let dynamics = self.dynamics(&fitted.terms)?;
-        let of = |record: &Dataset, learnt: bool, number: usize| {
+        let of = |record: &Dataset, estimation: bool, number: usize| {
             let records = std::slice::from_ref(record);
             let starts = self.starts(records);
             let fit = self.fit(&*dynamics, records, fitted.coordinates.clone());
@@ -127,18 +127,18 @@ impl Baseline<'_> {
             let covariance = linear.robust_covariance(&trace.scores);
             let one = |index: usize| {
                 let variance = covariance[(index, index)];
-                Opinion { shift: shift[index], variance, learnt, record: number }
+                Opinion { shift: shift[index], variance, estimation, record: number }
             };
             (0..fitted.coordinates.len()).map(one).collect()
         };
         let pieces = EXCITATIONS.div_ceil(self.train.len() + self.test.len());
         let all = self.train.iter().map(|it| (it, true)).chain(self.test.iter().map(|it| (it, false)));
-        let cut = all.enumerate().flat_map(|(number, (record, learnt))| {
+        let cut = all.enumerate().flat_map(|(number, (record, estimation))| {
             cut(record, pieces)
                 .into_iter()
-                .map(move |sections| (Dataset { sections, ..record.clone() }, learnt, number))
+                .map(move |sections| (Dataset { sections, ..record.clone() }, estimation, number))
         });
-        Ok(cut.map(|(record, learnt, number)| of(&record, learnt, number)).collect())
+        Ok(cut.map(|(record, estimation, number)| of(&record, estimation, number)).collect())
     }
 }
 
@@ -157,7 +157,7 @@ fn cut(record: &Dataset, pieces: usize) -> Vec<Vec<Range<usize>>> {
     (0..pieces).map(piece).filter(|sections| !sections.is_empty()).collect()
 }
 
-/// The variance that differences between excitations bring to what was learnt from some of them, and the quantile of
+/// The variance that differences between excitations bring to estimates from some of them, and the quantile of
 /// Student's distribution that belongs to it.
 fn between(opinions: &[Opinion]) -> (f64, f64) {
     // A piece of one block has no variance that could be told, and a coordinate that does nothing in it an infinite one.
@@ -174,8 +174,8 @@ fn between(opinions: &[Opinion]) -> (f64, f64) {
     let mean = sum(&|it| weight(it) * it.shift) / first;
     let excess = sum(&|it| weight(it) * (it.shift - mean).powi(2)) - freedom;
     let each = (excess / spread).max(0.0);
-    let learnt = |power: i32| sum(&|it| if it.learnt { weight(it).powi(power) } else { 0.0 });
-    let share = learnt(2) / learnt(1).powi(2).max(f64::MIN_POSITIVE);
+    let weights = |power: i32| sum(&|it| if it.estimation { weight(it).powi(power) } else { 0.0 });
+    let share = weights(2) / weights(1).powi(2).max(f64::MIN_POSITIVE);
     let quantile = StudentsT::new(0.0, 1.0, freedom).map_or(NORMAL, |it| it.inverse_cdf(0.975));
     (each * share, quantile)
 }
@@ -190,14 +190,14 @@ mod tests {
         let of = |(index, shift): (usize, &f64)| Opinion {
             shift: *shift,
             variance,
-            learnt: index < 2,
+            estimation: index < 2,
             record: index,
         };
         shifts.iter().enumerate().map(of).collect()
     }
 
     /// With equal weights the estimator is the sample variance less the variance within, and half of it is left of two
-    /// records that were learnt from.
+    /// records of the estimation data.
     #[test]
     fn equal_opinions_leave_the_sample_variance_less_that_within() {
         let (between, quantile) = between(&opinions(&[1.0, -1.0, 3.0, -3.0], 0.5));
@@ -214,8 +214,12 @@ mod tests {
     #[test]
     fn what_no_variance_is_known_of_does_not_count() {
         let all = opinions(&[1.0, -1.0, 3.0, -3.0], 0.5);
-        let unknown =
-            [f64::INFINITY, 0.0].map(|variance| Opinion { shift: 7.0, variance, learnt: true, record: 0 });
+        let unknown = [f64::INFINITY, 0.0].map(|variance| Opinion {
+            shift: 7.0,
+            variance,
+            estimation: true,
+            record: 0,
+        });
         assert_eq!(between(&[all.clone(), unknown.to_vec()].concat()), between(&all));
         assert_eq!(between(&[all[..1].to_vec(), unknown.to_vec()].concat()), (0.0, 0.0));
     }

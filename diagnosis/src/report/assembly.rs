@@ -28,19 +28,19 @@ use crate::report::findings::{
 use crate::report::words::located;
 use crate::signal::distortion::{AFTER, Correction, Fault};
 
-/// Relative change of a base parameter that matters, if it is significant.
+/// Relative change of a nominal parameter that matters, if it is significant.
 const MISMATCH: f64 = 0.03;
 /// Fit of the best signal on validation data below which a model that drifts has lost what was measured: its errors are of what happened long before.
 const LOST: f64 = 0.95;
 
 impl Diagnosis<'_> {
-    /// Whether no signal on held-out data is met closely over the stretches that it is compared over. Of a model that drifts,
+    /// Whether no signal on validation data is met closely over the stretches that it is compared over. Of a model that drifts,
     /// shorter ones tell more then.
     pub fn is_lost(&self) -> bool {
         self.best() < LOST
     }
 
-    /// Φ of the signal on held-out data that is met best.
+    /// Φ of the signal on validation data that is met best.
     fn best(&self) -> f64 {
         self.left().iter().map(unmodelled::Left::phi).fold(f64::NEG_INFINITY, f64::max)
     }
@@ -148,7 +148,7 @@ impl Diagnosis<'_> {
         list
     }
 
-    /// The point of the held-out records as they were measured, and the errors there.
+    /// The point of the validation records as they were measured, and the errors there.
     fn measured(&self, terms: &[Term], point: &Estimate) -> Option<(Estimate, Residuals)> {
         self.baseline.as_measured(self.measured, (terms, point), &self.found.extended)
     }

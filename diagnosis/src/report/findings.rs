@@ -45,7 +45,7 @@ pub struct Findings {
     pub base_parameters: Vec<BaseParameter>,
     /// The errors of the models on the validation data.
     pub signals: Vec<Signal>,
-    /// The extended model's states where the simulation of each held-out stretch starts.
+    /// The extended model's states where the simulation of each validation stretch starts.
     pub starts: Vec<Start>,
     /// What signals pass on their way into the extended model and out of it; its FMU does not hold it.
     pub corrections: Vec<SignalCorrection>,

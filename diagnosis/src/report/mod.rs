@@ -16,7 +16,7 @@ pub(crate) mod words;
 
 pub use json::json;
 pub use page::html;
-pub use sheet::sheet;
+pub use sheet::{rigs, sheet};
 pub use terminal::{shares, terminal};
 
 use std::io;

@@ -2,17 +2,39 @@
 
 use std::collections::BTreeMap;
 
-use strut_model::Declaration;
+use strut_model::{Declaration, ParameterSet};
+use strut_physics::PARAMETER_SETS;
 use unicode_width::UnicodeWidthStr;
 
 use super::words::{digits, unit};
 use crate::catalogue;
 use crate::rig::Rig;
+use crate::signal::distortion::Fault;
 
 /// Digits of a parameter's value.
 const DIGITS: usize = 4;
 
-/// The signals that a record of the rig may hold, with their units; the nominal parameters; the effects of the catalogue.
+/// The rigs, one a line: name, model, title of the parameter set.
+pub fn rigs() -> String {
+    let rigs: Vec<Rig> = Rig::names().iter().filter_map(|name| Rig::published(name).ok()).collect();
+    let width = |of: fn(&Rig) -> &str| rigs.iter().map(|rig| of(rig).width()).max().unwrap_or(0);
+    let (name, model) = (width(|rig| &rig.name), width(|rig| &rig.plant.name));
+    rigs.iter().fold(String::new(), |all, rig| {
+        all + &format!("{:name$}  {:model$}  {}\n", rig.name, rig.plant.name, title(&rig.fmu))
+    })
+}
+
+/// Title of the parameter set of an FMU.
+fn title(fmu: &str) -> String {
+    let sets = PARAMETER_SETS.iter().filter_map(|(_, text)| ParameterSet::parse(text).ok());
+    sets.filter(|set| set.fmu == fmu)
+        .map(|set| set.title)
+        .next()
+        .unwrap_or_else(|| "declared start values".into())
+}
+
+/// The signals that a record of the rig may hold, with their units; the nominal parameters; the effects of the catalogue with
+/// their parameters.
 pub fn sheet(rig: &Rig) -> String {
     let plant = &rig.plant;
     let mut sheet = format!("{}: a {}, in the FMU {}\n", rig.name, plant.name, rig.fmu);
@@ -33,6 +55,27 @@ pub fn sheet(rig: &Rig) -> String {
     section(&mut sheet, title, effects.into_iter(), |((id, name), elements)| {
         (id.into(), elements.join(", "), name.into())
     });
+    let title = "Parameters of these effects, for `diagnose simulate --hide NAME=VALUE`";
+    let mut parameters: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for effect in catalogue::effects(plant) {
+        for part in effect.parts {
+            let effects = parameters.entry(part.parameter).or_default();
+            if !effects.contains(&effect.id) {
+                effects.push(effect.id);
+            }
+        }
+    }
+    section(&mut sheet, title, parameters.into_iter(), |(name, effects)| {
+        let declared = &plant.parameters[plant.parameter(name).expect("the effect is in the plant")];
+        (
+            name.into(),
+            format!("[{}]", declared.unit.symbol),
+            format!("{}; effect {}", declared.doc, effects.join(", ")),
+        )
+    });
+    sheet += "\nDistortions of every signal above, for --hide SIGNAL.DISTORTION=VALUE:\n  ";
+    sheet += &Fault::NAMED.map(Fault::name).join(", ");
+    sheet.push('\n');
     sheet
 }
 
@@ -70,6 +113,13 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_list_names_every_rig() {
+        let list = rigs();
+        let names: Vec<&str> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
+        assert_eq!(names, Rig::names());
+    }
+
+    #[test]
     fn the_sheet_of_a_rig_lists_every_signal_and_effect() {
         for name in Rig::names() {
             let rig = Rig::published(&name).unwrap();
@@ -80,6 +130,9 @@ mod tests {
             }
             for effect in catalogue::effects(&rig.plant) {
                 assert!(sheet.contains(effect.name), "{name}: {}\n{sheet}", effect.name);
+                for part in effect.parts {
+                    assert!(sheet.contains(&format!("  {} ", part.parameter)), "{name}: {}", part.parameter);
+                }
             }
         }
     }

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use clap::Parser;
 use rayon::prelude::*;
-use strut_model::{Bundle, Declarations, Lanes, Model, Now, Real, Settings};
+use strut_model::{Bundle, Declarations, Instant, Lanes, Model, Real, Settings};
 use strut_physics::rigs::QuarterCar;
 
 /// Height of the kerb in m.
@@ -101,7 +101,7 @@ fn peaks<R: Real>(rig: &QuarterCar, parameter: impl Fn(usize) -> R) -> [R; 3] {
     let input = <QuarterCar as Model>::Input::<R>::from_fn(|index| R::from(kerb(index)));
     let memory = Bundle::from_fn(|_| R::from(0.0));
     let equations = |state: &State<R>| {
-        rig.equations(Now {
+        rig.equations(Instant {
             time: R::from(0.0),
             state,
             input: &input,

@@ -1,5 +1,5 @@
 //! A leaking air spring: its pressure returns to the supply's through a throttle.
-use strut_model::{About, Model, NoSettings, Now, Real, Variables};
+use strut_model::{About, Model, NoSettings, Instant, Real, Variables};
 
 /// Parameters
 #[derive(Variables, Clone, Copy)]
@@ -29,8 +29,8 @@ impl Model for AirSpring {
         Ok(Self)
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, strut_model::Nothing) {
-        (State { force: -now.parameters.rate * now.state.force }, strut_model::Nothing)
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, strut_model::NoVariables) {
+        (State { force: -now.parameters.rate * now.state.force }, strut_model::NoVariables)
     }
 }
 

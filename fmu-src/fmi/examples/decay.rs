@@ -1,6 +1,6 @@
 //! The smallest FMU library: a tank that empties, x' = u - a x.
 
-use strut_model::{About, Model, Now, Real, Variables, unit};
+use strut_model::{About, Instant, Model, Real, Variables, unit};
 
 /// What it is made of.
 #[derive(Variables, Clone, Copy)]
@@ -45,7 +45,7 @@ impl Model for Decay {
         Ok(Self)
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let outflow = now.parameters.rate * now.state.level;
         (State { level: now.input.supply - outflow }, Output { outflow })
     }

@@ -28,7 +28,7 @@ impl Method {
 
 /// What was computed since the integrator was made or reset.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Work {
+pub struct SolverStats {
     /// Evaluations of the rates.
     pub rates: u64,
     /// Evaluations of the Jacobian.
@@ -57,7 +57,7 @@ pub struct Integrator<A: Array> {
     method: Method,
     settings: Settings<A>,
     memory: Memory<A>,
-    work: Work,
+    work: SolverStats,
 }
 
 impl<A: Array> Integrator<A> {
@@ -67,7 +67,7 @@ impl<A: Array> Integrator<A> {
     /// The first setting that cannot be used.
     pub fn new(method: Method, settings: Settings<A>) -> Result<Self, InvalidSettings> {
         settings.check()?;
-        Ok(Integrator { method, settings, memory: Memory::new(), work: Work::default() })
+        Ok(Integrator { method, settings, memory: Memory::new(), work: SolverStats::default() })
     }
 
     /// How steps are made.
@@ -94,7 +94,7 @@ impl<A: Array> Integrator<A> {
 
     /// What was computed since the integrator was made or reset.
     #[must_use]
-    pub fn work(&self) -> Work {
+    pub fn work(&self) -> SolverStats {
         self.work
     }
 
@@ -108,7 +108,7 @@ impl<A: Array> Integrator<A> {
     /// Forgets everything but method and settings.
     pub fn reset(&mut self) {
         self.memory = Memory::new();
-        self.work = Work::default();
+        self.work = SolverStats::default();
     }
 
     /// All that the result of later calls depends on, but for method and settings, as 4 + `A::LEN`

@@ -42,6 +42,6 @@ mod system;
 
 pub use array::{Array, Square};
 pub use error::{IntegrationError, InvalidSettings};
-pub use integrator::{Integrator, Method, Work};
+pub use integrator::{Integrator, Method, SolverStats};
 pub use settings::{ABSOLUTE_FRACTION, Settings};
 pub use system::System;

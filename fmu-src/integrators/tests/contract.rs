@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use strut_integrators::{Integrator, Method, Settings, Work};
+use strut_integrators::{Integrator, Method, Settings, SolverStats};
 
 /// Evaluations that a step costs.
 fn rates_per_step(method: Method) -> u64 {
@@ -65,7 +65,7 @@ fn the_last_derivative_opens_the_next_call() {
         // A caller who jumps in time.
         assert_eq!(cost(&mut integrator, 0.2), step + 1);
         integrator.reset();
-        assert_eq!(integrator.work(), Work::default());
+        assert_eq!(integrator.work(), SolverStats::default());
         assert!(cost(&mut integrator, 0.201) >= step + 2);
     }
 }
@@ -145,13 +145,19 @@ fn work_is_as_expected() {
         integrator.work()
     };
     // One step more than calls: the very first is cautious. Two rates more: it needs them.
-    let explicit = Work { rates: 6 * 1001 + 2, accepted: 1001, ..Work::default() };
+    let explicit = SolverStats { rates: 6 * 1001 + 2, accepted: 1001, ..SolverStats::default() };
     assert_eq!(short_calls(Method::Explicit), explicit);
-    let rosenbrock =
-        Work { rates: 8 * 1001 + 2, accepted: 1001, jacobians: 1001, inversions: 1001, ..Work::default() };
+    let rosenbrock = SolverStats {
+        rates: 8 * 1001 + 2,
+        accepted: 1001,
+        jacobians: 1001,
+        inversions: 1001,
+        ..SolverStats::default()
+    };
     assert_eq!(short_calls(Method::Rosenbrock), rosenbrock);
-    let explicit = Work { rates: 2018, accepted: 310, rejected: 26, ..Work::default() };
+    let explicit = SolverStats { rates: 2018, accepted: 310, rejected: 26, ..SolverStats::default() };
     assert_eq!(one_call(Method::Explicit), explicit);
-    let rosenbrock = Work { rates: 2738, jacobians: 284, accepted: 284, rejected: 58, inversions: 342 };
+    let rosenbrock =
+        SolverStats { rates: 2738, jacobians: 284, accepted: 284, rejected: 58, inversions: 342 };
     assert_eq!(one_call(Method::Rosenbrock), rosenbrock);
 }

@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use strut_integrators::{IntegrationError, Integrator, InvalidSettings, Method, Settings, Work};
+use strut_integrators::{IntegrationError, Integrator, InvalidSettings, Method, Settings, SolverStats};
 
 /// After an error the state is as it was, and the integrator as good as before.
 fn check_failure(
@@ -100,7 +100,7 @@ fn meaningless_times_are_refused() {
             let error = integrator.advance(&mut Linear([[1.0]]), t0, t1, &mut [1.0]);
             assert!(matches!(error, Err(IntegrationError::InvalidInterval { .. })));
         }
-        assert_eq!(integrator.work(), Work::default());
+        assert_eq!(integrator.work(), SolverStats::default());
     }
 }
 

@@ -106,9 +106,9 @@ pub trait Bundle<R>: Copy {
 
 /// No variables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Nothing;
+pub struct NoVariables;
 
-impl<R> Bundle<R> for Nothing {
+impl<R> Bundle<R> for NoVariables {
     const LEN: usize = 0;
     type Array = [f64; 0];
     #[inline]

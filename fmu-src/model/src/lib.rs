@@ -27,7 +27,7 @@ mod switching;
 mod tanh;
 pub mod unit;
 
-pub use bundle::{Bundle, Declaration, Declarations, Nothing};
+pub use bundle::{Bundle, Declaration, Declarations, NoVariables};
 pub use dependencies::Dependencies;
 pub use entry::{Entry, Inputs, Instance, Trajectory};
 pub use error::Error;
@@ -37,11 +37,11 @@ pub use interface::{
 };
 pub use lanes::Lanes;
 pub use log::LOG_CATEGORIES;
-pub use model::{About, Equation, Experiment, Kind, Method, Model, Now, Stimulus};
+pub use model::{About, Equation, Experiment, Instant, Kind, Method, Model, Stimulus};
 pub use noise::{noise, uniform};
 pub use parameter_set::{Given, ParameterSet};
 pub use real::Real;
 pub use setting::{Enumeration, NoSettings, Setting, SettingDeclaration, SettingKind, Settings, Value};
 pub use simulation::{Access, Simulation, Snapshot};
-pub use strut_integrators::{Array, IntegrationError, Work};
+pub use strut_integrators::{Array, IntegrationError, SolverStats};
 pub use strut_model_derive::{Choice, Settings, Variables};

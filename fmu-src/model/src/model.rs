@@ -52,7 +52,7 @@ pub trait Model: Sized + Send + 'static {
     }
 
     /// The rates of the states and the outputs.
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (Self::State<R>, Self::Output<R>);
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (Self::State<R>, Self::Output<R>);
 
     /// The sampling period in seconds; none for a model without ticks.
     fn period(parameters: &Self::Parameters<f64>) -> Option<f64> {
@@ -61,13 +61,13 @@ pub trait Model: Sized + Send + 'static {
     }
 
     /// The memory after a tick.
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Self::Memory<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Self::Memory<R> {
         *now.memory
     }
 }
 
 /// Everything that the equations may read.
-pub struct Now<'a, M: Model, R: Real> {
+pub struct Instant<'a, M: Model, R: Real> {
     /// Time in seconds.
     pub time: R,
     /// Continuous states.
@@ -86,12 +86,12 @@ pub struct Now<'a, M: Model, R: Real> {
 }
 
 // Not derived: the model itself need not be copied.
-impl<M: Model, R: Real> Clone for Now<'_, M, R> {
+impl<M: Model, R: Real> Clone for Instant<'_, M, R> {
     fn clone(&self) -> Self {
         *self
     }
 }
-impl<M: Model, R: Real> Copy for Now<'_, M, R> {}
+impl<M: Model, R: Real> Copy for Instant<'_, M, R> {}
 
 /// Names the bundles of a model; those that it leaves out are empty.
 ///
@@ -106,12 +106,12 @@ macro_rules! bundles {
      $(input: $input:ident $(,)?)? $(state: $state:ident $(,)?)? $(memory: $memory:ident $(,)?)?
      $(output: $output:ident $(,)?)?) => {
         type Settings = $crate::bundles!(@or $($settings,)? $crate::NoSettings);
-        type Parameters<R: $crate::Real> = $crate::bundles!(@or $($parameters<R>,)? $crate::Nothing);
-        type Derived<R: $crate::Real> = $crate::bundles!(@or $($derived<R>,)? $crate::Nothing);
-        type Input<R: $crate::Real> = $crate::bundles!(@or $($input<R>,)? $crate::Nothing);
-        type State<R: $crate::Real> = $crate::bundles!(@or $($state<R>,)? $crate::Nothing);
-        type Memory<R: $crate::Real> = $crate::bundles!(@or $($memory<R>,)? $crate::Nothing);
-        type Output<R: $crate::Real> = $crate::bundles!(@or $($output<R>,)? $crate::Nothing);
+        type Parameters<R: $crate::Real> = $crate::bundles!(@or $($parameters<R>,)? $crate::NoVariables);
+        type Derived<R: $crate::Real> = $crate::bundles!(@or $($derived<R>,)? $crate::NoVariables);
+        type Input<R: $crate::Real> = $crate::bundles!(@or $($input<R>,)? $crate::NoVariables);
+        type State<R: $crate::Real> = $crate::bundles!(@or $($state<R>,)? $crate::NoVariables);
+        type Memory<R: $crate::Real> = $crate::bundles!(@or $($memory<R>,)? $crate::NoVariables);
+        type Output<R: $crate::Real> = $crate::bundles!(@or $($output<R>,)? $crate::NoVariables);
     };
     (@or $first:ty $(, $rest:ty)?) => { $first };
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use strut_model::{
-    About, Access, Experiment, Method, Model, NoSettings, Now, ParameterSet, Real, Simulation, Variables,
+    About, Access, Experiment, Instant, Method, Model, NoSettings, ParameterSet, Real, Simulation, Variables,
     bundles,
 };
 use strut_physics::{PARAMETER_SETS, rigs::QuarterCar, signals::Motion};
@@ -37,7 +37,7 @@ impl Model for Linear {
     }
 
     #[inline]
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (State { body, wheel }, p, u) = (*now.state, now.parameters, now.input);
         let (deflection, velocity) = (body.position - wheel.position, body.velocity - wheel.velocity);
         let strut = p.strut.stiffness * deflection + p.strut.damping * velocity;

@@ -2,7 +2,7 @@
 
 use num_dual::Dual64;
 use strut_model::{
-    Bundle, Declaration, Declarations, Dependencies, Model, Now, Real, SettingKind, Settings, Value,
+    Bundle, Declaration, Declarations, Dependencies, Instant, Model, Real, SettingKind, Settings, Value,
 };
 use strut_physics::{CATALOGUE, actuators, controllers, rigs, roads, sensors, sources};
 
@@ -155,7 +155,7 @@ fn signals<M: Model, R: Real>(model: &M, parameter: impl Fn(usize, f64) -> R) ->
     let declared = Declarations::of::<M::Input<f64>>();
     let input = Bundle::from_fn(|i| near(&declared, i));
     let declared = Declarations::of::<M::Memory<f64>>();
-    let (rates, output) = model.equations(Now {
+    let (rates, output) = model.equations(Instant {
         time: R::from(0.3),
         state: &state,
         input: &input,

@@ -3,7 +3,7 @@
 
 #![allow(dead_code, reason = "each test uses its own part")]
 
-use strut_model::{About, Choice, Experiment, Model, Now, Real, Settings, Variables, bundles};
+use strut_model::{About, Choice, Experiment, Instant, Model, Real, Settings, Variables, bundles};
 
 /// Rolls.
 #[derive(Variables, Clone, Copy, Debug)]
@@ -98,7 +98,7 @@ impl Model for Wagon {
     fn derive<R: Real>(&self, p: &Parameters<R>) -> Derived<R> {
         Derived { frequency: p.stiffness / p.mass }
     }
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (x, p) = (now.state, now.parameters);
         let acceleration = (now.input.force - p.stiffness * x.position) / p.mass;
         let rates = State { position: x.velocity, velocity: acceleration };
@@ -120,24 +120,24 @@ pub struct Delay;
 impl Model for Delay {
     const ABOUT: About = About { name: "Delay", summary: "Holds its input", ..About::DEFAULT };
     type Settings = strut_model::NoSettings;
-    type Parameters<R: Real> = strut_model::Nothing;
-    type Derived<R: Real> = strut_model::Nothing;
+    type Parameters<R: Real> = strut_model::NoVariables;
+    type Derived<R: Real> = strut_model::NoVariables;
     type Input<R: Real> = Sampled<R>;
-    type State<R: Real> = strut_model::Nothing;
+    type State<R: Real> = strut_model::NoVariables;
     type Memory<R: Real> = Sample<R>;
     type Output<R: Real> = Held<R>;
 
     fn prepare(_: &Self::Settings, _: Option<&std::path::Path>) -> Result<Self, String> {
         Ok(Self)
     }
-    fn period(_: &strut_model::Nothing) -> Option<f64> {
+    fn period(_: &strut_model::NoVariables) -> Option<f64> {
         Some(0.01)
     }
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Sample<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Sample<R> {
         Sample { value: now.input.input }
     }
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (strut_model::Nothing, Held<R>) {
-        (strut_model::Nothing, Held { held: now.memory.value })
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (strut_model::NoVariables, Held<R>) {
+        (strut_model::NoVariables, Held { held: now.memory.value })
     }
 }
 
@@ -216,9 +216,9 @@ impl Model for Mast {
         Ok(Self)
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (strut_model::Nothing, Top<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (strut_model::NoVariables, Top<R>) {
         let ([a, b, c], foot) = (now.parameters.points, now.input.foot.height);
         let left = Side { force: foot };
-        (strut_model::Nothing, Top { top: End { height: foot + a * b + c * now.time, left } })
+        (strut_model::NoVariables, Top { top: End { height: foot + a * b + c * now.time, left } })
     }
 }

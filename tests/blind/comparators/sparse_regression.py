@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Sparse regression on the same physical terms, to compare with: no simulation, no hidden states, no held-out data.
+"""Sparse regression on the same physical terms, to compare with: no simulation, no hidden states, no validation data.
 
     sparse_regression.py --parameters SET --train A.csv ... --test B.csv ... --out DIR
 

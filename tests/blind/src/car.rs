@@ -51,7 +51,7 @@ pub struct Car {
     pub actuator: Actuator,
     /// A servo valve and its cylinder instead: the command is a voltage.
     pub servo: Option<Servo>,
-    /// What commands a force besides, of what the car does.
+    /// Controllers that command a force from the motion of the car.
     pub regulator: Option<Regulator>,
     /// When the actuator makes no force of its command.
     pub dropouts: Bursts,

@@ -281,11 +281,11 @@ pub struct Truth {
     pub case: Case,
     /// The hidden effects.
     pub effects: Vec<Present>,
-    /// The true base parameters.
+    /// The true nominal parameters.
     pub base: Vec<Value>,
     /// Deviation of each column's noise.
     pub noise: Vec<Value>,
-    /// What is left of the held-out records by who knows the parameters and the effects, but nothing of the clutter.
+    /// What is left of the validation records by who knows the parameters and the effects, but nothing of the clutter.
     pub oracle: Oracle,
 }
 

@@ -14,7 +14,7 @@ const PARTS: [&str; 21] = [
     "21", "23", "24", "25",
 ];
 
-/// Further effects of the quarter car's parts: frame, road and force as they act, friction behind play.
+/// Further effects of the quarter car's parts: frame, road and force as they act, friction behind backlash.
 const FURTHER: [&str; 5] = ["18", "22", "26", "26s", "03b"];
 
 /// Effects of a quarter car with a servo valve.
@@ -118,7 +118,7 @@ pub fn compact() -> Vec<Case> {
     all.push(driven(standard("drive-27", vec![Hidden::new("27")], 35)));
     // Which one curve over the velocity imitates.
     all.push(driven(standard("drive-16-33g", vec![Hidden::new("16"), Hidden::new("33g")], 36)));
-    // A bush with play imitates it, and is less common.
+    // A bush with backlash imitates it, and is less common.
     all.push(standard("common-07", vec![Hidden::new("07")], 1007));
     // Behind a late command, and that and a curved spring, which are only clutter.
     all.push(standard("behind-18", vec![Hidden::new("18")], 1012));

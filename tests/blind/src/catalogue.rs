@@ -47,7 +47,7 @@ pub enum Scale {
     Travel,
     /// The largest command.
     Command,
-    /// The base parameter of the same name.
+    /// The nominal parameter of the same name.
     Base,
     /// The rms of the sensor's signal about its rest without the effect.
     Signal,

@@ -73,7 +73,7 @@ impl Profile {
         Self { knots: scaled(&self.knots), rates: self.rates.as_ref().map(scaled) }
     }
 
-    /// The profile such that its largest absolute value is `peak`.
+    /// The profile so that its largest absolute value is `peak`.
     pub fn with_peak(&self, peak: f64) -> Self {
         let largest = self.knots.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         if largest > 0.0 { self.scaled(peak / largest) } else { self.clone() }

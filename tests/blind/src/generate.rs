@@ -84,7 +84,7 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
     Ok(Generated { train, test, start, truth: Truth { case: case.clone(), effects, base, noise, oracle } })
 }
 
-/// The base parameters with what the effects make of them that are nothing but another value of one.
+/// The nominal parameters with what the effects make of them that are nothing but another value of one.
 fn changed(mut base: Vec<Value>, effects: &[Present]) -> Vec<Value> {
     for parameter in effects.iter().flat_map(|effect| &effect.parameters) {
         let added = parameter.name.strip_suffix(".added");

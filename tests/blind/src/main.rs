@@ -50,7 +50,7 @@ enum Command {
         /// The page with figures and confusion matrix
         #[arg(long)]
         page: PathBuf,
-        /// What the program gets besides, after `--`
+        /// Further arguments of the program, after `--`
         #[arg(last = true)]
         arguments: Vec<String>,
     },

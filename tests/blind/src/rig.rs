@@ -1,4 +1,4 @@
-//! A rig with its sensors: base parameters, clutter and effects put together.
+//! A rig with its sensors: nominal parameters, clutter and effects put together.
 
 mod hidden;
 mod published;
@@ -67,7 +67,7 @@ pub struct Timed {
 }
 
 impl Rig {
-    /// With given base parameters and perfect sensors.
+    /// With given nominal parameters and perfect sensors.
     pub fn new(plant: Plant, base: &[Value]) -> Self {
         let of = |name: &str| base.iter().find(|v| v.name == name).map_or(0.0, |v| v.value);
         let mut car = Car {

@@ -14,7 +14,7 @@ use crate::{files, generate};
 pub struct Run {
     /// The program, called as `diagnose` is.
     pub program: PathBuf,
-    /// What it gets besides.
+    /// Its further arguments.
     pub arguments: Vec<String>,
     /// Where the cases' folders go. One that has a report already is not run again.
     pub out: PathBuf,

@@ -79,7 +79,7 @@ pub struct Score {
     pub sensor_or_plant: Option<bool>,
     /// How many 95 % intervals of rightly named effects cover the truth, of how many.
     pub covered: (usize, usize),
-    /// How many of the base parameters' cover it, where all that is there is named.
+    /// How many of the nominal parameters' cover it, where all that is there is named.
     pub base_covered: (usize, usize),
     /// What the extended model gains; none if there are no effects with a name, or no oracle.
     pub gained: Option<Gain>,
@@ -87,7 +87,7 @@ pub struct Score {
     pub seconds: f64,
 }
 
-/// By how much Φ rises on the held-out data over that of the starting model with fitted parameters, summed over signals.
+/// By how much Φ rises on the validation data over that of the starting model with fitted parameters, summed over signals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Gain {
     /// With the extended model.
@@ -183,7 +183,7 @@ fn without_cause(report: &Report) -> String {
     if report.verdict == "no_effect" { "-".into() } else { report.verdict.clone() }
 }
 
-/// Whether a place is the one that the effect's number needs besides: a sensor's faults need their signal, and a
+/// Whether a place is the one that belongs to the effect's number: a sensor's faults need their signal, and a
 /// constant force in the plant has the number of a sensor's offset. Other numbers are places themselves.
 fn fits(effect: &Present, place: &str) -> bool {
     match (effect.place, number(&effect.id)) {

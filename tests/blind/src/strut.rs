@@ -81,7 +81,7 @@ pub struct Strut {
     pub bush: Option<(f64, f64)>,
     /// Bristles: friction in N, stiffness in N/m, damping in N s/m.
     pub bristles: Option<(f64, f64, f64)>,
-    /// A slider behind a spring with play: its friction in N, the spring's stiffness in N/m, the play to each side in m.
+    /// A slider behind a spring with backlash: its friction in N, the spring's stiffness in N/m, the backlash to each side in m.
     pub loose_slider: Option<(f64, f64, f64)>,
     /// Yield force in N, velocity over which it changes its sign in m/s, and how much the change lags behind, in
     /// 1/m: `F tanh(v/v_y + β x)`, as magnetorheological dampers have it.
@@ -228,7 +228,7 @@ mod tests {
             }
             strut.force(0.0, x, way.signum(), &inner).0
         };
-        // 1 mm of play and 0.6 mm of spring to the one side; back over the spring, 2 mm of play, the spring on the other.
+        // 1 mm of backlash and 0.6 mm of spring to the one side; back over the spring, 2 mm of backlash, the spring on the other.
         for (way, force) in [(1.3e-3, 30.0), (9e-3, 60.0), (-0.3e-3, 30.0), (-1.3e-3, 0.0), (-1.3e-3, -30.0)]
         {
             let found = go(way);

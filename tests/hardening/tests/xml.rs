@@ -1,7 +1,7 @@
 //! A user's model with everything in its texts that XML, C and JSON have a meaning for, read back by readers
 //! that others have written.
 
-use strut_model::{About, Interface, Model, Nothing, Now, Real, Settings, Variables, bundles};
+use strut_model::{About, Instant, Interface, Model, NoVariables, Real, Settings, Variables, bundles};
 use strut_model_description::{Header, write};
 
 const SUMMARY: &str = "Größe \"in\" <b> & 'Ä' ]]> &amp; 100 % \\ €";
@@ -33,8 +33,8 @@ impl Model for Hostile {
         Ok(Self)
     }
 
-    fn equations<R: Real>(&self, _: Now<'_, Self, R>) -> (Nothing, Output<R>) {
-        (Nothing, Output { räder: R::from(0.0) })
+    fn equations<R: Real>(&self, _: Instant<'_, Self, R>) -> (NoVariables, Output<R>) {
+        (NoVariables, Output { räder: R::from(0.0) })
     }
 }
 

@@ -328,7 +328,7 @@ impl Stage<'_> {
     }
 }
 
-/// Event iteration, as the standard has it; a model that never comes to rest has failed.
+/// Event iteration by the standard; a model that never comes to rest has failed.
 fn discrete_states(library: &Library, instance: Instance) -> i32 {
     for _ in 0..100 {
         let (status, again, _) = library.new_discrete_states(instance);

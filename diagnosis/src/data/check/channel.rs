@@ -57,7 +57,7 @@ pub(super) fn check<'a>(
     let mut add = |text: String| problems.add(&channel.name, false, text);
     if present.iter().all(|&v| v == present[0]) {
         let text = format!(
-            "is {} {} all the time: nothing can be learnt from it; if it should move, check its sensor",
+            "is {} {} all the time: it carries no information; if it should move, check its sensor",
             number(present[0]),
             channel.unit
         );

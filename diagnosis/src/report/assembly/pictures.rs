@@ -15,7 +15,7 @@ use crate::report::findings::{Pictures, Trace};
 /// Seconds of a record that are shown.
 const SHOWN: f64 = 10.0;
 
-/// A signal of the first held-out record, and the errors of the fitted and of the extended model there.
+/// A signal of the first validation record, and the errors of the fitted and of the extended model there.
 struct Erring<'a> {
     record: &'a Dataset,
     measured: &'a Measured,

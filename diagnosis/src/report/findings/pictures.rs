@@ -8,7 +8,7 @@ pub(crate) const LARGEST: &str = "largest error";
 /// What the pictures of the report show.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Pictures {
-    /// Measured and simulated signals of a held-out record.
+    /// Measured and simulated signals of a validation record.
     pub traces: Vec<Trace>,
     /// Error power over frequency for each signal.
     pub spectra: Vec<Spectrum>,
@@ -106,7 +106,7 @@ pub struct Periodogram {
     pub limit: f64,
 }
 
-/// A balance of measured signals, on the held-out data: what is left of it is noise if the laws and the sensors in it are
+/// A balance of measured signals, on the validation data: what is left of it is noise if the laws and the sensors in it are
 /// right, whatever the rest of the model is like.
 #[derive(Clone, Debug, Serialize)]
 pub struct Parity {
@@ -132,7 +132,7 @@ pub struct Parity {
     pub rms_after: f64,
     /// What the sensors' noise alone makes of it.
     pub noise: f64,
-    /// In seconds, of the first held-out record.
+    /// In seconds, of the first validation record.
     pub time: Vec<f64>,
     /// What is left of the balance with fitted parameters.
     pub before: Vec<f64>,

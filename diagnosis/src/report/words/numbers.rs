@@ -28,7 +28,7 @@ pub fn digits(value: f64, significant: usize) -> String {
     text.replace('-', "−")
 }
 
-/// A number of at most so many significant digits, without zeros at its end: one that is typed into a tool.
+/// A number of at most `significant` digits, without zeros at its end: one that is typed into a tool.
 pub fn trimmed(value: f64, significant: usize) -> String {
     let text = digits(value, significant);
     match text.contains('.') && !text.contains('e') {

@@ -99,9 +99,9 @@ mod tests {
 
     #[test]
     fn a_place_is_named_once() {
-        let names = [("viscous guide", "guide"), ("constant force", "guide"), ("soft mount", "strut")];
+        let names = [("viscous guide", "guide"), ("force offset", "guide"), ("soft mount", "strut")];
         let located = names.map(|(name, element)| located(name, element));
-        assert_eq!(located, ["viscous guide", "constant force in the guide", "soft mount in the strut"]);
+        assert_eq!(located, ["viscous guide", "force offset in the guide", "soft mount in the strut"]);
     }
 
     #[test]

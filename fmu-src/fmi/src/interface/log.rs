@@ -2,7 +2,7 @@
 
 use std::ffi::CStr;
 
-use strut_model::Work;
+use strut_model::SolverStats;
 
 use super::types::Status;
 
@@ -78,9 +78,9 @@ impl Log {
     }
 
     /// Tells the host what the integration has cost, if it wants to know.
-    pub fn tell_cost(&self, function: &str, work: Work) {
+    pub fn tell_cost(&self, function: &str, work: SolverStats) {
         if self.debug.solver {
-            let Work { accepted, rejected, rates, jacobians, .. } = work;
+            let SolverStats { accepted, rejected, rates, jacobians, .. } = work;
             let message = format!(
                 "{function}: the integration took {accepted} steps and tried {rejected} that were too long, with {rates} \
                  evaluations of the rates and {jacobians} Jacobians"

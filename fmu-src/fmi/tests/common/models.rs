@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use strut_model::{About, Choice, Model, NoSettings, Nothing, Now, Real, Settings, Variables, noise, unit};
+use strut_model::{
+    About, Choice, Instant, Model, NoSettings, NoVariables, Real, Settings, Variables, noise, unit,
+};
 
 /// Numbers in.
 #[derive(Variables, Clone, Copy)]
@@ -50,7 +52,7 @@ impl Model for Decay {
         Ok(Self)
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (p, x) = (now.parameters, now.state.position);
         (State { position: now.input.force - p.rate * x }, Output { signal: p.gain * x * x })
     }
@@ -83,15 +85,15 @@ impl Model for Controller {
         Ok(Self)
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (Nothing, Output<R>) {
-        (Nothing, Output { signal: now.memory.sum })
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (NoVariables, Output<R>) {
+        (NoVariables, Output { signal: now.memory.sum })
     }
 
     fn period(parameters: &Sampling<f64>) -> Option<f64> {
         Some(parameters.period)
     }
 
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Memory<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Memory<R> {
         Memory { sum: now.memory.sum + now.input.force + R::from(noise(7, 0, now.tick)) }
     }
 }
@@ -107,7 +109,7 @@ impl Model for Hybrid {
         Ok(Self)
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let x = now.state.position;
         (State { position: now.input.force - now.memory.sum - x }, Output { signal: now.memory.sum + x })
     }
@@ -116,7 +118,7 @@ impl Model for Hybrid {
         Some(parameters.period)
     }
 
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Memory<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Memory<R> {
         Memory { sum: R::from(0.5) * now.memory.sum + now.state.position + R::from(noise(3, 1, now.tick)) }
     }
 }
@@ -132,7 +134,7 @@ impl Model for Fragile {
         Ok(Self)
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (x, u) = (now.state.position, now.input.force);
         assert!(!(u - R::from(13.0)).vanishes(), "100 % unlucky %s");
         (State { position: x * x + u }, Output { signal: u })
@@ -183,8 +185,8 @@ impl Model for Configured {
         Ok(Self(f64::from(sheet.count) + f64::from(u8::from(sheet.switch)) * 100.0 + shape))
     }
 
-    fn equations<R: Real>(&self, _: Now<'_, Self, R>) -> (Nothing, Output<R>) {
-        (Nothing, Output { signal: R::from(self.0) })
+    fn equations<R: Real>(&self, _: Instant<'_, Self, R>) -> (NoVariables, Output<R>) {
+        (NoVariables, Output { signal: R::from(self.0) })
     }
 }
 
@@ -207,7 +209,7 @@ impl Model for Stopped {
         Ok(Self)
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let pushed = now.input.force.clamp(R::from(-2.0), R::from(2.0));
         let stiffness = now.parameters.stiffness;
         let stop = if stiffness.vanishes() {
@@ -241,7 +243,7 @@ impl Model for Tabled {
         Ok(Self)
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let ([a, b, c], u, x) = (now.parameters.weight, now.input.force, now.state.position);
         (State { position: u - a * x }, Output { signal: b * x + c * u * now.time + now.parameters.offset })
     }

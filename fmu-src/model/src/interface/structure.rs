@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::{
-    Bundle, Dependencies, Error, Model, Now, SettingDeclaration, SettingKind, Settings, Value,
+    Bundle, Dependencies, Error, Instant, Model, SettingDeclaration, SettingKind, Settings, Value,
     layout::{Layout, Section},
     simulation::indicators::count,
 };
@@ -97,7 +97,7 @@ impl Dependency {
         let derived = model.derive(&parameters);
         let (input, state) = (Bundle::from_fn(set), Bundle::from_fn(|i| set(knowns.state(i))));
         let held = Bundle::from_fn(|_| Dependencies::default());
-        let now = Now::<M, Dependencies> {
+        let now = Instant::<M, Dependencies> {
             time: set(knowns.time()),
             state: &state,
             input: &input,
@@ -111,7 +111,7 @@ impl Dependency {
         outputs.for_each(|i, found| self.outputs[i] = self.outputs[i] | found);
         derived.for_each(|i, found| self.derived[i] = self.derived[i] | found);
         let memory = model.tick(now);
-        let (_, initial) = model.equations(Now { memory: &memory, ..now });
+        let (_, initial) = model.equations(Instant { memory: &memory, ..now });
         initial.for_each(|i, found| self.initial_outputs[i] = self.initial_outputs[i] | found);
     }
 

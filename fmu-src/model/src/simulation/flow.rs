@@ -4,7 +4,7 @@ use num_dual::Dual64;
 use strut_integrators::{Array, Square, System};
 
 use crate::{
-    Bundle, Model, Now,
+    Bundle, Instant, Model,
     bundle::{from_slice, to_array},
     layout::{InputArray, Layout, OutputArray, StateArray},
 };
@@ -27,7 +27,7 @@ impl<M: Model> System<StateArray<M>> for Flow<'_, M> {
     #[inline(always)]
     fn rates(&mut self, t: f64, x: &StateArray<M>) -> StateArray<M> {
         let (state, input) = (from_slice(x.as_slice()), from_slice(self.input.at(t).as_slice()));
-        let (rates, output) = self.model.equations(Now {
+        let (rates, output) = self.model.equations(Instant {
             time: t,
             state: &state,
             input: &input,
@@ -53,7 +53,7 @@ impl<M: Model> System<StateArray<M>> for Flow<'_, M> {
             let timely = f64::from(seed == Layout::<M>::STATES);
             let state = Bundle::from_fn(|i| Dual64::new(x.as_slice()[i], f64::from(i == seed)));
             let input = Bundle::from_fn(|i| Dual64::new(value[i], timely * slope[i]));
-            let (rates, _) = self.model.equations(Now::<M, Dual64> {
+            let (rates, _) = self.model.equations(Instant::<M, Dual64> {
                 time: Dual64::new(t, timely),
                 state: &state,
                 input: &input,

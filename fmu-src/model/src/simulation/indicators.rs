@@ -3,7 +3,7 @@
 use strut_integrators::Array;
 
 use crate::{
-    Bundle, Error, Model, Now,
+    Bundle, Error, Instant, Model,
     bundle::to_array,
     switching::{Switching, conditions, observe},
 };
@@ -24,7 +24,7 @@ impl<M: Model> Simulation<M> {
         let memory = to_array(&if self.before_first_tick() { self.ticked() } else { self.memory });
         let (parameters, derived) = (to_array(&self.parameters), to_array(&self.derived));
         let input = self.input.at(self.time);
-        let now = Now::<M, Switching> {
+        let now = Instant::<M, Switching> {
             time: Switching::moving(self.time),
             state: &Bundle::from_fn(|i| Switching::moving(self.state.as_slice()[i])),
             input: &Bundle::from_fn(|i| Switching::moving(input.as_slice()[i])),
@@ -56,7 +56,7 @@ pub(crate) fn count<M: Model>(model: &M) -> usize {
     let [input, state, parameters] = [Section::Input, Section::State, Section::Parameter].map(starts);
     let derived = to_array(&model.derive(&Bundle::from_fn(|i| parameters[i])));
     let memory = crate::Declarations::of::<M::Memory<f64>>();
-    let now = Now::<M, Switching> {
+    let now = Instant::<M, Switching> {
         time: Switching::moving(0.0),
         state: &Bundle::from_fn(|i| Switching::moving(state[i])),
         input: &Bundle::from_fn(|i| Switching::moving(input[i])),

@@ -12,10 +12,10 @@ pub use variables::Access;
 
 use std::path::{Path, PathBuf};
 
-use strut_integrators::{Array, Integrator, InvalidSettings, System, Work};
+use strut_integrators::{Array, Integrator, InvalidSettings, SolverStats, System};
 
 use crate::{
-    Bundle, Error, Model, Now, ParameterSet, Settings,
+    Bundle, Error, Instant, Model, ParameterSet, Settings,
     bundle::from_slice,
     interface::declared_settings,
     layout::{InputArray, Layout, OutputArray, Section, Solver, SolverSettings, StateArray},
@@ -157,7 +157,7 @@ impl<M: Model> Simulation<M> {
     }
 
     /// What the integration has cost so far.
-    pub fn work(&self) -> Work {
+    pub fn work(&self) -> SolverStats {
         self.integrator.work()
     }
 
@@ -292,7 +292,7 @@ impl<M: Model> Simulation<M> {
     fn ticked(&self) -> M::Memory<f64> {
         let (state, input) =
             (from_slice(self.state.as_slice()), from_slice(self.input.at(self.time).as_slice()));
-        self.model.tick(Now {
+        self.model.tick(Instant {
             time: self.time,
             state: &state,
             input: &input,

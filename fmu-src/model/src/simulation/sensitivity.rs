@@ -4,7 +4,7 @@ use num_dual::Dual64;
 use strut_integrators::Array;
 
 use crate::{
-    Bundle, Error, Model, Now,
+    Bundle, Error, Instant, Model,
     layout::{Layout, Section},
 };
 
@@ -112,7 +112,7 @@ impl<M: Model> Simulation<M> {
         let parameters = Bundle::from_fn(|i| varied(parameter.as_slice(), seeds.parameter.as_slice(), i));
         let derived = self.model.derive(&parameters);
         let mut memory = lift(&self.memory);
-        let now = Now::<M, Dual64> {
+        let now = Instant::<M, Dual64> {
             time: Dual64::new(self.time, time),
             state: &state,
             input: &input,
@@ -124,7 +124,7 @@ impl<M: Model> Simulation<M> {
         if self.before_first_tick() {
             memory = self.model.tick(now);
         }
-        let (rates, output) = self.model.equations(Now { memory: &memory, ..now });
+        let (rates, output) = self.model.equations(Instant { memory: &memory, ..now });
         (parts(&rates), parts(&output), parts(&derived))
     }
 }

@@ -3,8 +3,8 @@
 #![allow(dead_code, reason = "each test program uses a part")]
 
 use strut_model::{
-    About, Access, Choice, Error, Experiment, Interface, Model, NoSettings, Now, Real, Settings, Simulation,
-    Variables, noise,
+    About, Access, Choice, Error, Experiment, Instant, Interface, Model, NoSettings, Real, Settings,
+    Simulation, Variables, noise,
 };
 
 /// A mass on a spring and a damper, driven by a force: x'' = (F − d x' − k x) / m.
@@ -85,8 +85,8 @@ impl Model for Oscillator {
         Derived { angular_frequency: (p.spring.stiffness / p.mass).sqrt() }
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
-        let Now { state: x, input: u, parameters: p, .. } = now;
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
+        let Instant { state: x, input: u, parameters: p, .. } = now;
         let acceleration =
             (u.force - p.spring.damping * x.velocity - p.spring.stiffness * x.position) / p.mass;
         let energy = (p.mass * x.velocity.squared() + p.spring.stiffness * x.position.squared()) * 0.5;
@@ -153,15 +153,15 @@ impl Model for Counter {
         }
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (strut_model::Nothing, Told<R>) {
-        (strut_model::Nothing, Told { sum: now.memory.sum })
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (strut_model::NoVariables, Told<R>) {
+        (strut_model::NoVariables, Told { sum: now.memory.sum })
     }
 
     fn period(p: &Period<f64>) -> Option<f64> {
         Some(p.period)
     }
 
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Memory<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Memory<R> {
         let random = if self.seed == 0 { 0.0 } else { noise(self.seed, 0, now.tick) };
         Memory { sum: now.memory.sum + now.input.force + random }
     }

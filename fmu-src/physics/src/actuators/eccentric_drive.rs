@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
 use crate::effects::{Pwm, PwmOptions, RotaryCoulomb};
@@ -235,7 +235,7 @@ impl Model for EccentricDrive {
     }
 
     #[inline]
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (x, u, p) = (now.state, now.input, now.parameters);
         let constant = p.motor.torque_constant * p.gear.ratio;
         let voltage = p.motor.supply_voltage * self.pwm.made(u.duty, -1.0);
@@ -262,7 +262,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
     use std::f64::consts::{PI, TAU};
-    use strut_model::{Bundle, Declarations, Nothing};
+    use strut_model::{Bundle, Declarations, NoVariables};
 
     fn parameters() -> Parameters<f64> {
         let declared = Declarations::of::<Parameters<f64>>();
@@ -275,13 +275,13 @@ mod tests {
 
     fn evaluate(x: [f64; 2], duty: f64, force: f64) -> (State<f64>, Output<f64>) {
         let p = parameters();
-        DRIVE.equations(Now {
+        DRIVE.equations(Instant {
             time: 0.0,
             state: &Bundle::from_fn(|i| x[i]),
             input: &Input { duty, tire: Load { force } },
             parameters: &p,
             derived: &DRIVE.derive(&p),
-            memory: &Nothing,
+            memory: &NoVariables,
             tick: 0,
         })
     }

@@ -6,7 +6,7 @@ mod profile;
 use std::path::Path;
 
 use strut_model::{
-    About, Choice, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
+    About, Choice, Equation, Experiment, Instant, Kind, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
 use crate::effects::Coulomb;
@@ -346,7 +346,7 @@ impl Model for ExcitationMotor {
     }
 
     #[inline]
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (x, u, p) = (now.state, now.input, now.parameters);
         let resting = State::resting();
         let limit = p.overload().current_limit(now.derived.overload_capacity, x.overload);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Model, NoSettings, Now, Real, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Model, NoSettings, Real, Stimulus, Variables, bundles,
 };
 
 use crate::signals::Travel;
@@ -199,7 +199,7 @@ impl Model for LinearMotor {
     }
 
     #[inline]
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (x, u, p) = (now.state, now.input, now.parameters);
         let current = p.current_gain * x.delayed;
 
@@ -220,7 +220,7 @@ impl Model for LinearMotor {
 
 /// The voltage that reaches the current loop.
 #[inline]
-fn command<R: Real>(now: Now<'_, LinearMotor, R>) -> R {
+fn command<R: Real>(now: Instant<'_, LinearMotor, R>) -> R {
     let (p, derived) = (now.parameters, now.derived);
     let current_limit = p.overload().current_limit(derived.overload_capacity, now.state.overload);
     let bound = p.voltage_limit.min(current_limit / derived.static_gain);
@@ -240,13 +240,13 @@ mod tests {
 
     fn evaluate(x: [f64; 3], u: [f64; 4]) -> (State<f64>, Output<f64>) {
         let p = parameters();
-        LinearMotor.equations(Now {
+        LinearMotor.equations(Instant {
             time: 0.0,
             state: &Bundle::from_fn(|i| x[i]),
             input: &Bundle::from_fn(|i| u[i]),
             parameters: &p,
             derived: &LinearMotor.derive(&p),
-            memory: &strut_model::Nothing,
+            memory: &strut_model::NoVariables,
             tick: 0,
         })
     }

@@ -4,7 +4,7 @@ use std::f64::consts::LN_10;
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
 use crate::effects::{Pwm, PwmOptions};
@@ -137,7 +137,7 @@ impl Model for MrRotaryBrake {
     }
 
     #[inline]
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let duties = std::array::from_fn(|i| R::from(i as f64 / (POINTS - 1) as f64));
         let damping = Table { x: &duties, y: &now.parameters.profile }.held(now.state.field);
         let missing = self.pwm.made(now.input.duty, 0.0) - now.state.field;
@@ -150,19 +150,19 @@ impl Model for MrRotaryBrake {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use strut_model::{Access, Bundle, Declarations, Interface, Nothing, Simulation};
+    use strut_model::{Access, Bundle, Declarations, Interface, NoVariables, Simulation};
 
     fn evaluate(field: f64, duty: f64, speed: f64, bits: i32) -> (State<f64>, Output<f64>) {
         let declared = Declarations::of::<Parameters<f64>>();
         let p: Parameters<f64> = Bundle::from_fn(|i| declared[i].start);
         let brake = MrRotaryBrake::prepare(&Options { pwm: PwmOptions { bits } }, None).unwrap();
-        brake.equations(Now {
+        brake.equations(Instant {
             time: 0.0,
             state: &State { field },
             input: &Input { duty, relative: RelativeSpeed { speed } },
             parameters: &p,
             derived: &brake.derive(&p),
-            memory: &Nothing,
+            memory: &NoVariables,
             tick: 0,
         })
     }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
 use crate::elements::{Gas, PistonWithPreload, PumpWithLosses, Valve, Valves};
@@ -130,7 +130,7 @@ impl Model for PumpHydraulicActuator {
             },
             Equation {
                 text: "q_l = C_l (p_k - p_r), p_k and p_r with q_l = 0",
-                source: "catalogue of diagnosis: 30; law: Konieczny eq. 2.11",
+                source: "docs/effects.md: 30; law: Konieczny eq. 2.11",
             },
             Equation {
                 text: "p_ks' = kappa q_k p_ks/V_ks, p_rs' = kappa q_r p_rs/V_rs, V = V_0 (p_0/p)^(1/kappa)",
@@ -142,7 +142,7 @@ impl Model for PumpHydraulicActuator {
             },
             Equation {
                 text: "J_m omega' = T_m - V_c/2pi (p_k - p_r) - T_f tanh(omega/omega_f) - T_0",
-                source: "Ajala eq. 4; friction, catalogue of diagnosis 32c: TUM eq. 12; T_0: port of diagnosis",
+                source: "Ajala eq. 4; friction, docs/effects.md 32c: TUM eq. 12; T_0: port of diagnosis",
             },
             Equation {
                 text: "F_a = p_k A_k - p_r A_r - F_0, force = F_a - (A_k - A_r) p_0",
@@ -209,7 +209,7 @@ impl Model for PumpHydraulicActuator {
     }
 
     #[inline]
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (x, u, p) = (now.state, now.input, now.parameters);
         let (area, gas, speed) = (p.piston.ideal, p.gas, x.motor.speed);
         let closing = -u.suspension.velocity;

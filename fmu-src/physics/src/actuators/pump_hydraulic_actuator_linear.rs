@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use strut_model::{About, Equation, Experiment, Kind, Model, Now, Real, Variables, bundles};
+use strut_model::{About, Equation, Experiment, Instant, Kind, Model, Real, Variables, bundles};
 
 use crate::elements::{Gas, Pump};
 
@@ -179,7 +179,7 @@ impl Model for PumpHydraulicActuatorLinear {
     }
 
     #[inline]
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (x, u, p) = (now.state, now.input, now.parameters);
         let flow = p.pump.per_radian() * x.motor.speed - p.piston.area * u.suspension.velocity;
         let pressure = x.pressure.difference + p.valve.resistance() * flow;

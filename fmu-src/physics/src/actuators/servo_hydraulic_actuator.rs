@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Method, Model, Now, Real, Settings, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Method, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
 use crate::elements::{Cylinder, Fluid, Hydraulics, ServoCylinder, ServoValve, Spool, Supply, ValveLaw};
@@ -126,7 +126,7 @@ pub(crate) const EQUATIONS: &[Equation] = &[
     Equation {
         text: "spool.overlap d, spool.hysteresis h: in Q u_1 becomes dz(u_1 - clamp(u_1 - y, -h, h), d), T y' = dz(u_1 - y, h), T \
             = 0.5 ms, dz a dead zone",
-        source: "catalogue of diagnosis: 28",
+        source: "docs/effects.md: 28",
     },
     Equation {
         text: "supply: Q_z = sign(u_1) Q, of the regression |u_1| 4.666e13/alpha; power P_z Q_z",
@@ -246,7 +246,7 @@ impl Model for ServoHydraulicActuator {
         (p.load.mass > 0.0).then_some(p.load.interval)
     }
 
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Memory<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Memory<R> {
         let (load, velocity) = (&now.parameters.load, now.input.suspension.velocity);
         // Before the first one nothing is known but the velocity at the start.
         let known = if now.tick == 0 {
@@ -262,7 +262,7 @@ impl Model for ServoHydraulicActuator {
     }
 
     #[inline(always)]
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (State { pressure, spool }, u, p) = (*now.state, now.input, now.parameters.cylinder());
         let (load, memory) = (&now.parameters.load, &now.memory.load);
         let (opening, follower) = p.followed(spool.position, spool.follower);

@@ -4,7 +4,8 @@ use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Model, NoSettings, Nothing, Now, Real, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Model, NoSettings, NoVariables, Real, Stimulus, Variables,
+    bundles,
 };
 
 use super::filters::{PidMemory, Section, waiting};
@@ -156,7 +157,7 @@ impl Model for ExcitationSpeedController {
         Some(parameters.period)
     }
 
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Memory<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Memory<R> {
         let (u, p, before) = (now.input, now.parameters, now.memory);
         let frequency = u.frequency_reference;
 
@@ -178,8 +179,8 @@ impl Model for ExcitationSpeedController {
         Memory { angle: u.eccentric.angle + ahead, frequency, velocity, duty }
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (Nothing, Output<R>) {
-        (Nothing, Output { duty: now.memory.duty })
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (NoVariables, Output<R>) {
+        (NoVariables, Output { duty: now.memory.duty })
     }
 }
 

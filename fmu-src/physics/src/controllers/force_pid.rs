@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Model, NoSettings, Nothing, Now, Real, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Model, NoSettings, NoVariables, Real, Stimulus, Variables,
+    bundles,
 };
 
 use crate::elements::Pump;
@@ -134,7 +135,7 @@ impl Model for ForcePid {
         Some(parameters.period)
     }
 
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Memory<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Memory<R> {
         let (u, p, gain) = (now.input, now.parameters, now.parameters.gain);
         let pid = Pid {
             proportional: gain.proportional,
@@ -148,8 +149,8 @@ impl Model for ForcePid {
         Memory { motor: Torque { torque: torque_of_force * action.output }, force: action.memory }
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (Nothing, Output<R>) {
-        (Nothing, Output { motor: now.memory.motor })
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (NoVariables, Output<R>) {
+        (NoVariables, Output { motor: now.memory.motor })
     }
 }
 
@@ -165,12 +166,12 @@ mod tests {
     }
 
     fn tick(p: &Parameters<f64>, memory: &Memory<f64>, reference: f64, force: f64) -> Memory<f64> {
-        ForcePid.tick(Now {
+        ForcePid.tick(Instant {
             time: 0.0,
-            state: &Nothing,
+            state: &NoVariables,
             input: &Input { force_reference: reference, actuator: Pushing { force } },
             parameters: p,
-            derived: &Nothing,
+            derived: &NoVariables,
             memory,
             tick: 0,
         })

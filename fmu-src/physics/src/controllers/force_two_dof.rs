@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Model, Nothing, Now, Real, Settings, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Model, NoVariables, Real, Settings, Stimulus, Variables,
+    bundles,
 };
 
 use crate::elements::Pump;
@@ -186,7 +187,7 @@ impl Model for ForceTwoDof {
         Some(parameters.period)
     }
 
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Memory<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Memory<R> {
         let (u, p, before) = (now.input, now.parameters, now.memory);
         let (one, zero) = (R::from(1.0), R::from(0.0));
 
@@ -224,8 +225,8 @@ impl Model for ForceTwoDof {
         }
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (Nothing, Output<R>) {
-        (Nothing, Output { motor: now.memory.motor })
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (NoVariables, Output<R>) {
+        (NoVariables, Output { motor: now.memory.motor })
     }
 }
 

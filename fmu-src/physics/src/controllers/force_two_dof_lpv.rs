@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use strut_model::{About, Equation, Kind, Model, Nothing, Now, Real, Variables, bundles};
+use strut_model::{About, Equation, Instant, Kind, Model, NoVariables, Real, Variables, bundles};
 
 use crate::elements::{Gas, Piston, Pump, Valves};
 use crate::signals::{Pressures, Pushing, Speed, Torque, Travel};
@@ -169,7 +169,7 @@ impl Model for ForceTwoDofLpv {
         Ok(Self { order: filters::order(options.order)? })
     }
 
-    fn check(&self, p: &Parameters<f64>, _: &Nothing) -> Result<(), String> {
+    fn check(&self, p: &Parameters<f64>, _: &NoVariables) -> Result<(), String> {
         p.valve.check("valve")
     }
 
@@ -177,7 +177,7 @@ impl Model for ForceTwoDofLpv {
         Some(parameters.period)
     }
 
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Memory<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Memory<R> {
         let (u, p, before) = (now.input, now.parameters, now.memory);
         let scheduled = scheduled(u, p);
         // More than the motor can hold would lead the inverse model away from the actuator.
@@ -210,8 +210,8 @@ impl Model for ForceTwoDofLpv {
         }
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (Nothing, Output<R>) {
-        (Nothing, Output { motor: now.memory.motor })
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (NoVariables, Output<R>) {
+        (NoVariables, Output { motor: now.memory.motor })
     }
 }
 

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Model, Nothing, Now, Real, Settings, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Model, NoVariables, Real, Settings, Stimulus, Variables,
+    bundles,
 };
 
 use crate::signals::{Command, Deflection, Velocity};
@@ -226,7 +227,7 @@ impl Model for LqrController {
         Some(parameters.period)
     }
 
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Command<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Command<R> {
         let zero = R::from(0.0);
         if !self.enabled {
             return Command { force: zero };
@@ -241,8 +242,8 @@ impl Model for LqrController {
         Command { force: missing.select(zero, force) }
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (Nothing, Command<R>) {
-        (Nothing, *now.memory)
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (NoVariables, Command<R>) {
+        (NoVariables, *now.memory)
     }
 }
 

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Model, NoSettings, Nothing, Now, Real, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Model, NoSettings, NoVariables, Real, Stimulus, Variables,
+    bundles,
 };
 
 use crate::car::{Corners, Geometry, Modal};
@@ -108,7 +109,7 @@ impl Model for ModalSkyhook {
         Some(parameters.period)
     }
 
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Commands<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Commands<R> {
         let (Parameters { damping, geometry, .. }, input) = (now.parameters, now.input);
         let demand = Modal {
             heave: -(damping.heave * input.heave.velocity),
@@ -118,8 +119,8 @@ impl Model for ModalSkyhook {
         geometry.distribution(demand).map(|force| Command { force }).into()
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (Nothing, Commands<R>) {
-        (Nothing, *now.memory)
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (NoVariables, Commands<R>) {
+        (NoVariables, *now.memory)
     }
 }
 
@@ -132,16 +133,16 @@ mod tests {
 
     fn forces(geometry: Geometry<f64>, damping: Damping<f64>, velocities: [f64; 3]) -> [f64; 4] {
         let [heave, roll, pitch] = velocities;
-        let now = Now {
+        let now = Instant {
             time: 0.0,
-            state: &Nothing,
+            state: &NoVariables,
             input: &Input {
                 heave: Velocity { velocity: heave },
                 roll: AngularSpeed { speed: roll },
                 pitch: AngularSpeed { speed: pitch },
             },
             parameters: &Parameters { damping, geometry, period: 1e-3 },
-            derived: &Nothing,
+            derived: &NoVariables,
             memory: &[Command { force: 0.0 }; 4].into(),
             tick: 0,
         };

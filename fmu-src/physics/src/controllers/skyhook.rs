@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Model, NoSettings, Nothing, Now, Real, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Model, NoSettings, NoVariables, Real, Stimulus, Variables,
+    bundles,
 };
 
 use crate::signals::{Command, Velocity};
@@ -59,12 +60,12 @@ impl Model for Skyhook {
         Some(parameters.period)
     }
 
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Command<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Command<R> {
         Command { force: -(now.parameters.damping * now.input.body.velocity) }
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (Nothing, Command<R>) {
-        (Nothing, *now.memory)
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (NoVariables, Command<R>) {
+        (NoVariables, *now.memory)
     }
 }
 
@@ -74,12 +75,12 @@ mod tests {
     use proptest::prelude::*;
 
     fn force(damping: f64, velocity: f64) -> f64 {
-        let now = Now {
+        let now = Instant {
             time: 0.0,
-            state: &Nothing,
+            state: &NoVariables,
             input: &Input { body: Velocity { velocity } },
             parameters: &Parameters { damping, period: 1e-3 },
-            derived: &Nothing,
+            derived: &NoVariables,
             memory: &Command { force: 0.0 },
             tick: 0,
         };

@@ -6,7 +6,7 @@ use strut_model::Real;
 const CATCHES_UP: f64 = 5e-4;
 
 /// What becomes of a quantity x behind a backlash of `half_width` h, and the rate of the `follower` y; the quantity itself and
-/// zero where there is none (catalogue of diagnosis, 28 and 41).
+/// zero where there is none (docs/effects.md, 28 and 41).
 ///
 /// The play operator (Krasnosel'skii and Pokrovskii 1989): it stays where it is until x is h away from it, and is then
 /// dragged along. A turn of x by less than 2 h does not pass. With `T y' = dz(x − y, h)` the follower is dragged a little

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use strut_model::{Real, Variables};
 
-/// Cogging of a linear motor, or the error of a spindle's pitch (catalogue of diagnosis, 27): `F = A sin(2π x/p + φ)`.
+/// Cogging of a linear motor, or the error of a spindle's pitch (docs/effects.md, 27): `F = A sin(2π x/p + φ)`.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Cogging<R> {
     /// Amplitude (A); zero switches it off

@@ -15,7 +15,7 @@ fn held<R: Real>(over: &[R; POINTS], range: R, x: R) -> R {
 }
 
 /// An unnamed force between body and wheel: one curve over the deflection, one over the velocity, and a damping rate over
-/// the deflection (catalogue of diagnosis, G1–G5).
+/// the deflection (docs/effects.md, G1–G5).
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct ForceCurve<R> {
     /// Factor of both curves; zero switches them off
@@ -52,7 +52,7 @@ impl<R: Real> ForceCurve<R> {
     }
 }
 
-/// An unnamed force that resists a velocity (catalogue of diagnosis, G1–G5).
+/// An unnamed force that resists a velocity (docs/effects.md, G1–G5).
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct VelocityCurve<R> {
     /// Factor of the curve; zero switches it off
@@ -77,7 +77,7 @@ impl<R: Real> VelocityCurve<R> {
     }
 }
 
-/// An unnamed force of a tyre over its compression, z_r − z_u (catalogue of diagnosis, G1–G5).
+/// An unnamed force of a tyre over its compression, z_r − z_u (docs/effects.md, G1–G5).
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct CompressionCurve<R> {
     /// Factor of the curve; zero switches it off
@@ -109,7 +109,7 @@ impl<R: Real> CompressionCurve<R> {
     }
 }
 
-/// An unnamed force of an actuator over what it is asked for (catalogue of diagnosis, G1–G5).
+/// An unnamed force of an actuator over what it is asked for (docs/effects.md, G1–G5).
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct CommandCurve<R> {
     /// Factor of the curve; zero switches it off

@@ -6,7 +6,7 @@ use crate::signals::RoadMotion;
 
 use super::transport::behind_lag;
 
-/// The road as a tyre with a contact patch sees it: behind a low-pass, `T z' = z_r − z` (catalogue of diagnosis, 22).
+/// The road as a tyre with a contact patch sees it: behind a low-pass, `T z' = z_r − z` (docs/effects.md, 22).
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Enveloping<R> {
     /// Time constant: half the contact's length over the speed (T); zero switches it off

@@ -2,7 +2,7 @@
 
 use strut_model::{Real, Variables};
 
-/// A damping rate that falls over time, `d (1 − α (1 − exp(−t/τ)))` (catalogue of diagnosis, 10).
+/// A damping rate that falls over time, `d (1 − α (1 − exp(−t/τ)))` (docs/effects.md, 10).
 ///
 /// Time counts from zero; before it the damper is cold.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]

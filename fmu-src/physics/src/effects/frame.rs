@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use strut_model::{Real, Variables};
 
 /// A part of a body or of the frame that carries its guides, which swings beside it: a mass m_f on a spring and a damper
-/// (catalogue of diagnosis, 18). Below its natural frequency f it is but more mass.
+/// (docs/effects.md, 18). Below its natural frequency f it is but more mass.
 ///
 /// With its deflection y against the body, `y'' + 2 ζ ω y' + ω² y = −a_s`, ω = 2π f; on the body acts
 /// `m_f (ω² y + 2 ζ ω y')`.

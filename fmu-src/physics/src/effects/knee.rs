@@ -2,7 +2,7 @@
 
 use strut_model::{Real, Variables};
 
-/// A damper with the rate d₁ up to a velocity v_k and d₂ beyond it (catalogue of diagnosis, 05).
+/// A damper with the rate d₁ up to a velocity v_k and d₂ beyond it (docs/effects.md, 05).
 ///
 /// The force is `d₁ (v + ρ dz(v))` with `ratio` ρ = d₂/d₁ − 1 and the dead zone dz, which is zero up to ±v_k and
 /// has slope one beyond. The corner is sharp; the derivative there is a slope of one of its sides.

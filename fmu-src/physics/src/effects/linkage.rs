@@ -2,14 +2,14 @@
 
 use strut_model::{Real, Variables};
 
-/// A kinematic ratio that changes over the travel, `i(x) = 1 + i₁ x` (catalogue of diagnosis, 14).
+/// A motion ratio that changes over the travel, `i(x) = 1 + i₁ x` (docs/effects.md, 14).
 ///
 /// It is the strut's travel over the wheel's: `x_s = ∫ i dx = x + i₁ x²/2` and `v_s = i v`. What the strut does
 /// with the force F it does at the wheel with `i F`, so that the powers are the same, `F v_s = (i F) v`. All that
 /// belongs to the strut is in front of the linkage, the actuator is not.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Linkage<R> {
-    /// Change of the kinematic ratio with deflection (i_1); zero switches it off
+    /// Change of the motion ratio with deflection (i_1); zero switches it off
     #[var(unit = PER_M, start = 0.0)]
     pub slope: R,
 }

@@ -2,7 +2,7 @@
 
 use strut_model::{Real, Variables};
 
-/// A Coulomb force that changes over the deflection, `F_c max(1 + β x, 0)` (catalogue of diagnosis, 11).
+/// A Coulomb force that changes over the deflection, `F_c max(1 + β x, 0)` (docs/effects.md, 11).
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct LoadDependence<R> {
     /// Relative change of the Coulomb force with deflection (β); zero switches it off

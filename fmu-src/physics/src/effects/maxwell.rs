@@ -2,7 +2,7 @@
 
 use strut_model::{Real, Variables};
 
-/// A Maxwell branch beside the strut, `F = k₁ ξ`, `ξ' = v − ξ/τ` (catalogue of diagnosis, 07).
+/// A Maxwell branch beside the strut, `F = k₁ ξ`, `ξ' = v − ξ/τ` (docs/effects.md, 07).
 ///
 /// ξ is the deflection of its spring; its damper has the rate k₁ τ.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]

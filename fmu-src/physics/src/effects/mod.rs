@@ -4,7 +4,7 @@
 //! and is neutral at its start values, so that a model without it and a model with it switched off are
 //! the same.
 //!
-//! The catalogue of diagnosis numbers the effects that a difference between measurement and model is looked for in.
+//! `docs/effects.md` numbers the effects that a difference between measurement and model is looked for in.
 
 mod asymmetry;
 mod backlash;

@@ -1,21 +1,21 @@
-//! A damper that is held by a soft bush, or by one with play.
+//! A damper that is held by a soft bush, or by one with backlash.
 
 use strut_model::{Real, Variables};
 
 use super::knee::dead_zone;
 
-/// A bush in series with a damper (catalogue of diagnosis, 12 and 13).
+/// A bush in series with a damper (docs/effects.md, 12 and 13).
 ///
 /// Of the strut's deflection x the bush takes e and the damper x − e. The bush's force is `F = dz(e, g)/c` with half
-/// the play `gap` = g and `compliance` = c; the damper has the same force and gives way with the velocity u(F), hence
+/// the backlash `gap` = g and `compliance` = c; the damper has the same force and gives way with the velocity u(F), hence
 /// `e' = v − u(F)`. Play without compliance would have no force law: it stands on 1e-6 m/N then. A compliance much
 /// smaller than that makes the equations stiff (time constant c d).
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Mount<R> {
-    /// Half the play of the bush (g); without gap and compliance the damper is held firmly
+    /// Half the backlash of the bush (g); without gap and compliance the damper is held firmly
     #[var(unit = M, start = 0.0, min = 0.0)]
     pub gap: R,
-    /// Compliance of the bush (c); zero is taken as 1e-6 m/N if there is play
+    /// Compliance of the bush (c); zero is taken as 1e-6 m/N if there is backlash
     #[var(unit = M_PER_N, start = 0.0, min = 0.0)]
     pub compliance: R,
 }
@@ -28,7 +28,7 @@ pub struct MountState<R> {
     pub deflection: R,
 }
 
-/// Compliance in m/N of a bush that has play and no compliance of its own.
+/// Compliance in m/N of a bush that has backlash and no compliance of its own.
 const FIRM: f64 = 1e-6;
 
 impl<R: Real> Mount<R> {
@@ -100,7 +100,7 @@ mod tests {
             compliance in 1e-7..1e-5_f64,
         ) {
             let (force, rate) = at(&Mount { gap, compliance }, deflection, v);
-            // The bush's energy is F² c/2, outside the play with F' = e'/c.
+            // The bush's energy is F² c/2, outside the backlash with F' = e'/c.
             prop_assert!(force * v - force * rate >= -1e-9 * force.abs());
         }
 

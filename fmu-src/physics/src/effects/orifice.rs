@@ -2,7 +2,7 @@
 
 use strut_model::{Real, Variables};
 
-/// A force that grows with the square of the velocity, `F = c v |v|` (catalogue of diagnosis, 06).
+/// A force that grows with the square of the velocity, `F = c v |v|` (docs/effects.md, 06).
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Orifice<R> {
     /// Force over velocity squared (c); zero switches it off

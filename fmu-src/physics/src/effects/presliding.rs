@@ -4,7 +4,7 @@ use strut_model::{Real, Variables};
 
 use super::backlash::within;
 
-/// Dahl's friction: a force that follows its limit as a spring would at first (Dahl 1968; catalogue of diagnosis, 03).
+/// Dahl's friction: a force that follows its limit as a spring would at first (Dahl 1968; docs/effects.md, 03).
 ///
 /// `f' = σ v g(1 − sgn(v) f/F)` with `stiffness` σ, the limit `force` F and `g(u) = |u|ⁿ sgn(u)`. With the exponent
 /// n = 1 it nears the limit over the way F/σ, with n < 1 sooner, with n > 1 later. What a step of an integration
@@ -14,8 +14,8 @@ use super::backlash::within;
 /// that its slope is finite for n < 1. It grows and goes through g(0) = 0 and g(1) = 1, which makes the friction passive
 /// for every n: `f v − (f²/2σ)' = f v (1 − g(1 − sgn(v) f/F)) ≥ 0`.
 ///
-/// Behind a play of b to each side (03b) the spring transmits nothing until its play is gone: the state y is what the
-/// spring would have without play, `y' = σ v g(1 − sgn(v) f/F)`, and the friction is `f = dz(y, σ b)`. After a reversal it
+/// Behind a backlash of b to each side (03b) the spring transmits nothing until its backlash is gone: the state y is what the
+/// spring would have without backlash, `y' = σ v g(1 − sgn(v) f/F)`, and the friction is `f = dz(y, σ b)`. After a reversal it
 /// falls to zero, rests there over the way 2 b, and builds up on the other side.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Presliding<R> {
@@ -28,7 +28,7 @@ pub struct Presliding<R> {
     /// Exponent of the approach to the limit (n)
     #[var(unit = ONE, start = 1.0, min = 0.1, max = 5.0)]
     pub exponent: R,
-    /// Half the play behind which it acts (b)
+    /// Half the backlash behind which it acts (b)
     #[var(unit = M, start = 0.0, min = 0.0)]
     pub gap: R,
 }
@@ -36,7 +36,7 @@ pub struct Presliding<R> {
 /// What presliding friction remembers.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct PreslidingState<R> {
-    /// Friction force, as it would be without play (y)
+    /// Friction force, as it would be without backlash (y)
     #[var(unit = N, nominal = 10.0)]
     pub friction: R,
 }
@@ -112,7 +112,7 @@ mod tests {
         assert!((reached[0] / 80.0 - 0.9375).abs() < 1e-3, "{reached:?}");
     }
 
-    /// From one limit to nothing, over the play without force, and on the other side as from rest.
+    /// From one limit to nothing, over the backlash without force, and on the other side as from rest.
     #[test]
     fn behind_play_it_rests_at_zero_between_its_sides() {
         let loose = Presliding { gap: 0.5e-3, ..dahl(1.0) };
@@ -128,7 +128,7 @@ mod tests {
         assert!((beyond + 80.0 * (1.0 - (-1.0_f64).exp())).abs() < 0.05, "{beyond}");
     }
 
-    /// So that a search that begins without play sees it.
+    /// So that a search that begins without backlash sees it.
     #[test]
     fn a_play_that_is_varied_from_zero_takes_from_the_force() {
         let law = Presliding {
@@ -190,7 +190,7 @@ mod tests {
         ) {
             let law = Presliding { gap, ..dahl(n) };
             let (force, rate) = law.force(PreslidingState { friction }, v);
-            // Within the play nothing is stored.
+            // Within the backlash nothing is stored.
             let stored = force * rate.friction / law.stiffness;
             prop_assert!(force * v - stored >= -1e-9, "{force} {v} {stored}");
         }

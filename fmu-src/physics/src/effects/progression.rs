@@ -2,7 +2,7 @@
 
 use strut_model::{Real, Variables};
 
-/// What a curved spring adds to a straight one, `F = k₂ x² + k₃ x³` (catalogue of diagnosis, 08).
+/// What a curved spring adds to a straight one, `F = k₂ x² + k₃ x³` (docs/effects.md, 08).
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Progression<R> {
     /// Quadratic rate (k_2); zero switches it off

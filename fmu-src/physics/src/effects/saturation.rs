@@ -4,8 +4,8 @@ use strut_model::{Real, Variables};
 
 use super::dead_zone;
 
-/// A limit of a force: `F − ρ dz(F)` with the dead zone dz, which is zero up to ±F_m and has slope one beyond (catalogue
-/// of diagnosis, 26). With `ratio` ρ = 1 nothing passes beyond ±F_m.
+/// A limit of a force: `F − ρ dz(F)` with the dead zone dz, which is zero up to ±F_m and has slope one beyond (docs/effects.md,
+/// 26). With `ratio` ρ = 1 nothing passes beyond ±F_m.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Saturation<R> {
     /// Share of what is asked for beyond the limit that does not come (ρ): one is a sharp limit; zero switches it off

@@ -2,7 +2,7 @@
 
 use strut_model::{Real, Variables};
 
-/// A limit of a force's rate of change, `|F'| <= R` (catalogue of diagnosis, 26): what a voltage leaves of the rate of a current
+/// A limit of a force's rate of change, `|F'| <= R` (docs/effects.md, 26): what a voltage leaves of the rate of a current
 /// in a coil, or a valve's full flow of that of a pressure.
 ///
 /// Its parameter is 1/R, so that there is no limit where it is zero. With `T y' = clamp(u − y, −R T, R T)` what acts is

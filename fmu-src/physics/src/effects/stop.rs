@@ -2,7 +2,7 @@
 
 use strut_model::{Real, Variables};
 
-/// One-sided linear springs beyond a clearance in either direction (catalogue of diagnosis, 09).
+/// One-sided linear springs beyond a clearance in either direction (docs/effects.md, 09).
 ///
 /// `F = k_b (⟨x − x_r⟩ − ⟨−x − x_c⟩)` with ⟨·⟩ = max(·, 0): the rebound stop pulls body and wheel together, the
 /// compression stop pushes them apart.

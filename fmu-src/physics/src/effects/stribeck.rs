@@ -2,7 +2,7 @@
 
 use strut_model::{Real, Variables};
 
-/// Stribeck's addition to Coulomb friction (catalogue of diagnosis, 02).
+/// Stribeck's addition to Coulomb friction (docs/effects.md, 02).
 ///
 /// Dry friction with a breakaway force is `[F_c + (F_s − F_c) exp(−(v/v_s)²)] tanh(v/v_0)`. `force` is F_s − F_c,
 /// so that it is neutral at zero whatever F_c is; v_0 is that of [`Coulomb`](super::Coulomb).

@@ -5,8 +5,8 @@ use strut_model::{Real, Variables};
 /// Below, a delay or a lag is one of this size where it is not off: nothing has to be integrated faster.
 const LEAST: f64 = 1e-5;
 
-/// A delay, as the rational function of second order that agrees with it best at low frequencies (Padé; catalogue of
-/// diagnosis, 23): of a sine with `ω τ` = 1 the phase is wrong by 1.4 mrad, with `ω τ` = 2 by 35 mrad, the amplitude never.
+/// A delay, as the rational function of second order that agrees with it best at low frequencies (Padé;
+/// docs/effects.md, 23): of a sine with `ω τ` = 1 the phase is wrong by 1.4 mrad, with `ω τ` = 2 by 35 mrad, the amplitude never.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct DelayState<R> {
     /// What has arrived slowly
@@ -31,7 +31,7 @@ pub fn delayed<R: Real>(time: R, state: DelayState<R>, force: R) -> (R, DelaySta
     (time.select(force - state.fast, force), DelayState { slow: state.fast * per, fast })
 }
 
-/// A lag of first order (catalogue of diagnosis, 24).
+/// A lag of first order (docs/effects.md, 24).
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct LagState<R> {
     /// What has arrived

@@ -5,7 +5,7 @@ use strut_model::{Real, Variables};
 /// A dry yield force whose zero crossing hangs behind, `F = F_y tanh(v/v_y + β x)`.
 ///
 /// The hysteresis term of Kwok et al. (2006) with its `β v + δ sign(x)` made smooth in x: a damper that comes back
-/// from rebound still pulls when its motion has turned already (catalogue of diagnosis, 32 and section 6). It has
+/// from rebound still pulls when its motion has turned already (docs/effects.md, 32 and section 6). It has
 /// no state. With β = 0 it is dry friction; otherwise it is not passive at every moment.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct YieldForce<R> {

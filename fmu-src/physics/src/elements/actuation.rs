@@ -7,7 +7,7 @@ use crate::effects::{
 };
 
 /// An actuator that does not quite do what it is told: `F = R(sat(k T(D(u))) + s f(k T(D(u))))` with the delay D, the lag T,
-/// an unnamed curve and the slew limit R (catalogue of diagnosis, 23–26, G). A force without a command is a strut's preload.
+/// an unnamed curve and the slew limit R (docs/effects.md, 23–26, G). A force without a command is a strut's preload.
 ///
 /// The slew limit comes last. It is the force that cannot jump, whatever is asked for; and a force at its limit comes back at
 /// once, while one that was limited in its rate first would have to unwind what was asked for beyond.
@@ -57,7 +57,7 @@ impl<R: Real> Actuation<R> {
     }
 
     /// How many effects are on.
-    pub fn further_effects(&self) -> R {
+    pub fn active_effects(&self) -> R {
         let Self { gain, delay, lag, saturation, slew, curve } = *self;
         switched_on([gain - 1.0, delay, lag, saturation.ratio, slew.slowness, curve.scale])
     }
@@ -90,9 +90,9 @@ mod tests {
     #[test]
     fn the_limit_is_that_of_the_force_not_of_the_command() {
         let weak = Actuation { gain: 0.5, saturation: Saturation { ratio: 1.0, force: 100.0 }, ..neutral() };
-        let of = |command| weak.force(Actuation::rest(), command, weak.further_effects()).0;
+        let of = |command| weak.force(Actuation::rest(), command, weak.active_effects()).0;
         assert_eq!((of(100.0), of(180.0), of(300.0), of(-300.0)), (50.0, 90.0, 100.0, -100.0));
-        assert_eq!(weak.further_effects(), 2.0);
+        assert_eq!(weak.active_effects(), 2.0);
     }
 
     #[test]
@@ -101,15 +101,15 @@ mod tests {
         let saturation = Saturation { ratio: 1.0, force: 100.0 };
         let slow = Actuation { saturation, slew: Slew { slowness: 1e-4 }, ..neutral() };
         let held = ActuationState { slew: SlewState { force: 100.0 }, ..Actuation::rest() };
-        assert_eq!(slow.force(held, 300.0, slow.further_effects()), (100.0, Actuation::rest()));
-        let (force, rates) = slow.force(held, -300.0, slow.further_effects());
+        assert_eq!(slow.force(held, 300.0, slow.active_effects()), (100.0, Actuation::rest()));
+        let (force, rates) = slow.force(held, -300.0, slow.active_effects());
         assert!((force - 95.0).abs() < 1e-9 && (rates.slew.force + 1e4).abs() < 1e-6, "{force} {rates:?}");
     }
 
     proptest! {
         #[test]
         fn a_neutral_one_does_what_it_is_told(command in -1e4..1e4_f64) {
-            prop_assert_eq!(neutral().further_effects(), 0.0);
+            prop_assert_eq!(neutral().active_effects(), 0.0);
             for further in [0.0, 1.0] {
                 let (force, rates) = neutral().force(Actuation::rest(), command, further);
                 prop_assert_eq!((force, rates), (command, Actuation::rest()));

@@ -5,7 +5,7 @@ use strut_model::{Real, Variables};
 use crate::effects::{Coulomb, VelocityCurve, switched_on};
 
 /// The vertical guide of a body: a force that resists its absolute velocity, TUM 4.3.3 and eq. 12; damping and
-/// unnamed force after the catalogue of diagnosis, 15, 16 and G; a constant force as a port of diagnosis.
+/// unnamed force after docs/effects.md, 15, 16 and G; a constant force as a port of diagnosis.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Guide<R> {
     /// Friction
@@ -32,12 +32,12 @@ impl<R: Real> Guide<R> {
     }
 
     /// How many effects are on beside Coulomb friction.
-    pub fn further_effects(&self) -> R {
+    pub fn active_effects(&self) -> R {
         switched_on([self.damping, self.curve.scale, self.preload])
     }
 }
 
-/// The vertical guide of a wheel (catalogue of diagnosis, 15 and 17), with a constant force as a port of diagnosis.
+/// The vertical guide of a wheel (docs/effects.md, 15 and 17), with a constant force as a port of diagnosis.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct WheelGuide<R> {
     /// Damping rate
@@ -58,7 +58,7 @@ impl<R: Real> WheelGuide<R> {
     }
 
     /// How many effects are on.
-    pub fn further_effects(&self) -> R {
+    pub fn active_effects(&self) -> R {
         switched_on([self.damping, self.preload, self.coulomb.force])
     }
 }
@@ -86,7 +86,7 @@ mod tests {
     fn a_preload_is_added_whatever_the_velocity() {
         let (body, wheel) = (Guide { preload: 7.0, ..guide(0.0, 0.0) }, wheel_guide(0.0, 0.0));
         let wheel = WheelGuide { preload: -3.0, ..wheel };
-        assert_eq!((body.further_effects(), wheel.further_effects()), (1.0, 1.0));
+        assert_eq!((body.active_effects(), wheel.active_effects()), (1.0, 1.0));
         assert_eq!(body.added_to(|| 5.0, 0.0, 1.0), 12.0);
         assert_eq!([-1.0, 0.0, 1.0].map(|v| wheel.resistance(v)), [-3.0; 3]);
     }
@@ -95,7 +95,7 @@ mod tests {
         #[test]
         fn it_adds_damping_friction_and_curve_to_another_force(v in -0.5..0.5_f64, other in -1e3..1e3_f64) {
             let guide = guide(60.0, 0.5);
-            let found = guide.added_to(|| other, v, guide.further_effects());
+            let found = guide.added_to(|| other, v, guide.active_effects());
             // The curve is a straight line of 80 N.s/m.
             let expected = other + 20.0 * (v / 0.008).tanh() + (60.0 + 0.5 * 80.0) * v;
             prop_assert!((found - expected).abs() < 1e-9, "{found} {expected}");
@@ -104,7 +104,7 @@ mod tests {
         #[test]
         fn with_neutral_effects_it_is_friction_alone(v in -0.5..0.5_f64, other in -1e3..1e3_f64) {
             let guide = guide(0.0, 0.0);
-            prop_assert_eq!(guide.further_effects(), 0.0);
+            prop_assert_eq!(guide.active_effects(), 0.0);
             let alone = guide.coulomb.added_to(|| other, v);
             prop_assert_eq!(guide.added_to(|| other, v, 0.0), alone);
             prop_assert_eq!(guide.added_to(|| other, v, 1.0), alone);
@@ -120,7 +120,7 @@ mod tests {
         #[test]
         fn the_wheel_s_guide_is_absent_without_damping_and_friction(v in -5.0..5.0_f64) {
             let guide = wheel_guide(0.0, 0.0);
-            prop_assert_eq!((guide.resistance(v), guide.further_effects()), (0.0, 0.0));
+            prop_assert_eq!((guide.resistance(v), guide.active_effects()), (0.0, 0.0));
         }
     }
 }

@@ -22,7 +22,7 @@ impl<R: Real> Pump<R> {
     }
 }
 
-/// Pump that leaks and rubs (catalogue of diagnosis, 30 and 32c), with a constant torque and a constant flow as ports of
+/// Pump that leaks and rubs (docs/effects.md, 30 and 32c), with a constant torque and a constant flow as ports of
 /// diagnosis. Each of the four costs one question if it is off.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct PumpWithLosses<R> {

@@ -28,7 +28,7 @@ pub struct HysteresisState<R> {
 
 impl<R: Real> Hysteresis<R> {
     /// How many of these effects are on.
-    pub fn further_effects(&self) -> R {
+    pub fn active_effects(&self) -> R {
         let Self { presliding, maxwell, mount } = self;
         switched_on([presliding.force, maxwell.stiffness, mount.gap, mount.compliance])
     }

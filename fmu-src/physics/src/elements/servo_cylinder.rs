@@ -112,11 +112,10 @@ pub struct Spool<R> {
     /// Largest displacement to either side (u_1max)
     #[var(unit = M, start = 0.5e-3, min = 1e-6)]
     pub stroke: R,
-    /// Displacement to either side within which the valve stays closed (catalogue of diagnosis, 28)
+    /// Displacement to either side within which the valve stays closed
     #[var(unit = M, start = 0.0, min = 0.0)]
     pub overlap: R,
-    /// Half the backlash with which the opening follows the spool, half the width of the valve's hysteresis (catalogue of
-    /// diagnosis, 28)
+    /// Half the backlash with which the opening follows the spool, half the width of the valve's hysteresis
     #[var(unit = M, start = 0.0, min = 0.0)]
     pub hysteresis: R,
 }

@@ -61,7 +61,7 @@ impl<R: Real> Strut<R> {
 
     /// The force that pulls body and wheel together and the rates of what the strut remembers.
     #[inline(always)]
-    pub fn remembering(
+    pub fn force_with_states(
         &self,
         hysteresis: &Hysteresis<R>,
         state: &HysteresisState<R>,
@@ -85,7 +85,7 @@ impl<R: Real> Strut<R> {
     }
 
     /// How many effects are on beside asymmetry and Coulomb friction.
-    pub fn further_effects(&self) -> R {
+    pub fn active_effects(&self) -> R {
         switched_on([
             self.stribeck.force,
             self.load_dependence.slope,

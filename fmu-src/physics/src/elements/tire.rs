@@ -56,7 +56,7 @@ impl<R: Real> Tire<R> {
     }
 
     /// How many effects are on beside the quadratic rate and Coulomb friction.
-    pub fn further_effects(&self) -> R {
+    pub fn active_effects(&self) -> R {
         switched_on([self.curve.scale, self.preload])
     }
 
@@ -135,8 +135,8 @@ mod tests {
     #[test]
     fn a_preload_presses_on_the_road() {
         let loaded = Tire { preload: 10.0, ..tire(0.0, 0.0) };
-        assert_eq!(loaded.further_effects(), 1.0);
-        assert_eq!(loaded.force(0.0, 0.0, loaded.further_effects()), 10.0);
+        assert_eq!(loaded.active_effects(), 1.0);
+        assert_eq!(loaded.force(0.0, 0.0, loaded.active_effects()), 10.0);
     }
 
     proptest! {
@@ -151,7 +151,7 @@ mod tests {
             let mut unnamed = named;
             unnamed.curve.scale = 2.0;
             unnamed.curve.over_deflection = [force; crate::effects::POINTS];
-            prop_assert_eq!((named.further_effects(), unnamed.further_effects()), (0.0, 1.0));
+            prop_assert_eq!((named.active_effects(), unnamed.active_effects()), (0.0, 1.0));
             prop_assert!((unnamed.force(c, v, 1.0) - named.force(c, v, 0.0) - 2.0 * force).abs() < 1e-9);
             prop_assert_eq!(named.force(c, v, 1.0), named.force(c, v, 0.0));
         }

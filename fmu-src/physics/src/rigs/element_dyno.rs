@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Choice, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
+    About, Choice, Equation, Experiment, Instant, Kind, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
 use crate::elements::{Hysteresis, HysteresisState, Load, Strut, Tire};
@@ -64,7 +64,7 @@ pub struct Derived<R> {
     pub tire: Load<R>,
     /// Number of effects that are on beside asymmetry, Coulomb friction and quadratic rate
     #[var(unit = ONE)]
-    pub further_effects: R,
+    pub active_effects: R,
 }
 
 /// What comes from outside.
@@ -101,11 +101,11 @@ impl Model for ElementDyno {
             },
             Equation {
                 text: "further effects of the strut and its memory: as in QuarterCar",
-                source: "catalogue of diagnosis: 02-14, 32, G",
+                source: "docs/effects.md: 02-14, 32, G",
             },
             Equation {
                 text: "tyre: F = k_t c + q c^2 + d_t c' + F_t tanh(c'/v_0) + s f(c) + F_0t, c = -x, F >= -F_0",
-                source: "TUM eq. 5, 4.3.2, Table 7; curve: catalogue of diagnosis: G; F_0t: port of diagnosis",
+                source: "TUM eq. 5, 4.3.2, Table 7; curve: docs/effects.md: G; F_0t: port of diagnosis",
             },
         ],
         notes: &[
@@ -118,7 +118,7 @@ impl Model for ElementDyno {
             "TUM's characteristics are lost figures. The strut's two rates are those of Table 9, the tyre's those of \
              Table 7; counted from static equilibrium the tyre's rate is 149693 N/m there and 152186 N/m, as the text \
              has it, 0.316 mm further in.",
-            "Effects beyond TUM's are off at their start values; further_effects counts the ones that are on. A tyre has \
+            "Effects beyond TUM's are off at their start values; active_effects counts the ones that are on. A tyre has \
              none of the strut's memory. A positive strut.preload pulls the ends together and shows as a negative force. \
              A positive tire.preload presses on the plate and shows as a positive force.",
             "A tyre that has left the plate comes back at the deflection at which its spring carries nothing.",
@@ -145,9 +145,9 @@ impl Model for ElementDyno {
     fn derive<R: Real>(&self, p: &Parameters<R>) -> Derived<R> {
         Derived {
             tire: p.tire.load(p.carried_mass),
-            further_effects: p.strut.further_effects()
-                + p.tire.further_effects()
-                + p.hysteresis.further_effects(),
+            active_effects: p.strut.active_effects()
+                + p.tire.active_effects()
+                + p.hysteresis.active_effects(),
         }
     }
 
@@ -159,14 +159,14 @@ impl Model for ElementDyno {
         }
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (RoadMotion { position, velocity }, p) = (now.input.motion, now.parameters);
-        let (deflection, further) = (-position, now.derived.further_effects);
+        let (deflection, further) = (-position, now.derived.active_effects);
         let (force, hysteresis) = match self.element {
             Element::Strut => {
                 let motion = [now.time, deflection, -velocity];
                 let (force, rates) =
-                    p.strut.remembering(&p.hysteresis, &now.state.hysteresis, motion, further);
+                    p.strut.force_with_states(&p.hysteresis, &now.state.hysteresis, motion, further);
                 (-force, rates)
             }
             Element::Tire => {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
 use crate::car::{Axles, Corners, Geometry, Modal};
@@ -137,7 +137,7 @@ pub struct Derived<R> {
     pub tire: Corners<Load<R>>,
     /// Number of effects that are on beside asymmetry, Coulomb friction and quadratic rates
     #[var(unit = ONE)]
-    pub further_effects: R,
+    pub active_effects: R,
 }
 
 impl Model for FullCar {
@@ -261,10 +261,10 @@ impl Model for FullCar {
             },
             dynamic_index: p.pitch_inertia / (p.sprung_mass * front * rear),
             tire: std::array::from_fn(|i| tires[i].load(shares[i] + wheels[i])).into(),
-            further_effects: front_strut.further_effects()
-                + rear_strut.further_effects()
-                + front_tire.further_effects()
-                + rear_tire.further_effects(),
+            active_effects: front_strut.active_effects()
+                + rear_strut.active_effects()
+                + front_tire.active_effects()
+                + rear_tire.active_effects(),
         }
     }
 
@@ -281,7 +281,7 @@ impl Model for FullCar {
     }
 
     #[inline(always)]
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (x, p) = (*now.state, now.parameters);
         let (heights, wheels) = (
             p.geometry.at_corners(Modal {
@@ -307,7 +307,7 @@ impl Model for FullCar {
         let (roads, loads) = (now.input.road.to_array(), now.derived.tire.to_array());
         let (struts, masses, tires) =
             (p.strut.at_corners(), p.unsprung_mass.at_corners(), p.tire.at_corners());
-        let further = now.derived.further_effects;
+        let further = now.derived.active_effects;
         let corners: [Moving<R>; 4] = std::array::from_fn(|i| {
             let corner = Corner {
                 unsprung_mass: masses[i],

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Choice, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
+    About, Choice, Equation, Experiment, Instant, Kind, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
 use crate::effects::{Cogging, Coulomb, Stribeck, VelocityCurve};
@@ -123,7 +123,7 @@ pub struct ImposedMotion<R> {
     pub acceleration: R,
 }
 
-/// What acts on the carriage besides the motor.
+/// What acts on the carriage apart from the motor.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Load<R> {
     /// Force, positive towards positive positions
@@ -193,7 +193,7 @@ impl Model for LinearDrive {
             },
             Equation {
                 text: "g = d x' + [F_c + F_b exp(-(x'/v_s)^2)] tanh(x'/v_0) + A sin(2 pi x/p + phi) + s f(x')",
-                source: "TUM eq. 12; catalogue of diagnosis: 02, 15, 16, 27, G",
+                source: "TUM eq. 12; docs/effects.md: 02, 15, 16, 27, G",
             },
         ],
         notes: &[
@@ -223,7 +223,7 @@ impl Model for LinearDrive {
         Ok(Self { drive: options.drive })
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (p, state, input) = (now.parameters, now.state, now.input);
         let CarriageMotion { position, velocity } = match self.drive {
             Drive::Force | Drive::Command => state.carriage,

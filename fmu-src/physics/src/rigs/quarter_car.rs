@@ -7,7 +7,7 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
 use crate::effects::{Enveloping, EnvelopingState, FrameMode, FrameState, behind_backlash, switched_on};
@@ -62,7 +62,7 @@ pub struct Parameters<R> {
 }
 
 /// What a force cell in a wheel does not show: what is outside of it has to be accelerated, too, and friction in it holds its
-/// reading where it was (catalogue of diagnosis, 41).
+/// reading where it was (docs/effects.md, 41).
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct ForceCell<R> {
     /// Part of the unsprung mass between tyre and cell; zero: the cell measures the tyre's force
@@ -133,7 +133,7 @@ pub struct Derived<R> {
     pub tire: Load<R>,
     /// Number of effects that are on beside asymmetry, quadratic rate, and Coulomb friction of strut, guide and tyre
     #[var(unit = ONE)]
-    pub further_effects: R,
+    pub active_effects: R,
 }
 
 impl Model for QuarterCar {
@@ -155,51 +155,48 @@ impl Model for QuarterCar {
                     exp(-(v/v_b)^2) tanh(v/v_0) + F_y tanh(v/v_y + b x) + F_p + s (f_1(x) + f_2(v) + f_3(x) v); F_c becomes F_c \
                     <1 + beta x>, d becomes d (1 - a (1 - exp(-t/T))), v in the damper becomes v + rho dz(v, v_k); < > \
                     = max( , 0), dz a dead zone",
-                source: "catalogue of diagnosis: 08, 09, 06, 02, 32, offset, G; 11, 10, 05",
+                source: "docs/effects.md: 08, 09, 06, 02, 32, offset, G; 11, 10, 05",
             },
             Equation {
                 text: "linkage: F_strut = i F(x + i_1 x^2/2, i v), i = 1 + i_1 x",
-                source: "catalogue of diagnosis: 14; power is kept",
+                source: "docs/effects.md: 14; power is kept",
             },
             Equation {
                 text: "presliding friction: + f, f = dz(y, sigma b), y' = sigma v g(1 - sgn(v) f/F), g(u) = |u|^n sgn(u)",
-                source: "Dahl 1968; catalogue of diagnosis: 03",
+                source: "Dahl 1968; docs/effects.md: 03",
             },
-            Equation {
-                text: "Maxwell branch: + k_1 xi, xi' = v - xi/tau",
-                source: "catalogue of diagnosis: 07",
-            },
+            Equation { text: "Maxwell branch: + k_1 xi, xi' = v - xi/tau", source: "docs/effects.md: 07" },
             Equation {
                 text: "mount: the damper's force is dz(e, g)/c, e' = v - u, u the velocity of the damper with that \
                     force",
-                source: "catalogue of diagnosis: 12, 13",
+                source: "docs/effects.md: 12, 13",
             },
             Equation {
                 text: "F_guide = F_g tanh(z_s'/v_0) + d_g z_s' + s f(z_s') + F_0g, F_wheel_guide = F_w tanh(z_u'/v_0) + d_w \
                     z_u' + F_0w",
-                source: "TUM eq. 12; damping, curve and wheel: catalogue of diagnosis: 15-17, G; F_0g, F_0w: ports of diagnosis",
+                source: "TUM eq. 12; damping, curve and wheel: docs/effects.md: 15-17, G; F_0g, F_0w: ports of diagnosis",
             },
             Equation {
                 text: "F_tire = k_t c + q c^2 + d_t c' + F_t tanh(c'/v_0) + s f(c) + F_0t, c = z_r - z_u",
-                source: "TUM eq. 5, 4.3.2, Table 7; curve: catalogue of diagnosis: G; F_0t: port of diagnosis",
+                source: "TUM eq. 5, 4.3.2, Table 7; curve: docs/effects.md: G; F_0t: port of diagnosis",
             },
             Equation {
                 text: "F_act = R(S(k T(D(u))) + s f(k T(D(u)))): delay D (1 - t s/2 + t^2 s^2/12)/(1 + t s/2 + t^2 \
                     s^2/12), lag T' y' + y = u, limit S(F) = F - r dz(F, F_m), slew limit R(F) = y + T y', T y' = clamp(F - y, \
                     -T/c, T/c), T = 0.5 ms, slowness c",
-                source: "catalogue of diagnosis: 23-26, G",
+                source: "docs/effects.md: 23-26, G",
             },
             Equation {
                 text: "frame: + m_f (w^2 y + 2 z w y') on the body, y'' + 2 z w y' + w^2 y = -a_s, w = 2 pi f",
-                source: "catalogue of diagnosis: 18",
+                source: "docs/effects.md: 18",
             },
             Equation {
                 text: "enveloping: the tyre sees T_e z' = z_r - z instead of z_r",
-                source: "catalogue of diagnosis: 22",
+                source: "docs/effects.md: 22",
             },
             Equation {
                 text: "force cell: wheel.force = F - clamp(F - y, -h, h), T y' = dz(F - y, h), T = 0.5 ms, F = F_tire - m_c a_u",
-                source: "catalogue of diagnosis: 41",
+                source: "docs/effects.md: 41",
             },
             Equation {
                 text: "with lift-off: F_tire >= -F_0, and F_tire = -F_0 for c <= c_l, F_0 = (m_s + m_u) g",
@@ -226,7 +223,7 @@ impl Model for QuarterCar {
              ratio 0.212 does not fit its chassis ratio 0.47 (0.222). Table 10 prints c_c = i^-2 times the \
              spring rate where eq. 13 has i^2.",
             "Effects are off at their start values. Those beyond TUM's are what a difference between measurement and \
-             model is looked for in; further_effects counts the ones that are on.",
+             model is looked for in; active_effects counts the ones that are on.",
             "The unnamed forces f are straight lines between eleven equally spaced points and held beyond them; that of \
              the tyre is over the compression, road above wheel.",
             "Asymmetry, knee and fade are the damper's and go through its mount; orifice, frictions and all else act \
@@ -276,12 +273,12 @@ impl Model for QuarterCar {
             body: Mode::of(p.sprung_mass, strut.stiffness, strut.stiffness, strut.damping),
             wheel: Mode::of(p.unsprung_mass, tire.stiffness, both, strut.damping),
             tire: tire.load(p.sprung_mass + p.unsprung_mass),
-            further_effects: strut.further_effects()
-                + p.guide.further_effects()
-                + tire.further_effects()
-                + p.wheel_guide.further_effects()
-                + p.hysteresis.further_effects()
-                + p.actuator.further_effects()
+            active_effects: strut.active_effects()
+                + p.guide.active_effects()
+                + tire.active_effects()
+                + p.wheel_guide.active_effects()
+                + p.hysteresis.active_effects()
+                + p.actuator.active_effects()
                 + switched_on([p.frame.mass, p.enveloping.time, p.force_cell.mass, p.force_cell.hysteresis]),
         }
     }
@@ -292,9 +289,9 @@ impl Model for QuarterCar {
     }
 
     #[inline(always)]
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (State { body, wheel, hysteresis, .. }, p) = (*now.state, now.parameters);
-        let further = now.derived.further_effects;
+        let further = now.derived.active_effects;
         let (actuator, on_its_way) = p.actuator.force(now.state.actuator, now.input.actuator.force, further);
         let (road, enveloping) = p.enveloping.seen(now.state.enveloping, now.input.road);
         let corner = Corner {
@@ -306,7 +303,7 @@ impl Model for QuarterCar {
         let mut memory = HysteresisState::rest();
         let mut moving = corner.between(body, wheel, road, actuator, |deflection, velocity| {
             let motion = [now.time, deflection, velocity];
-            let (force, rates) = p.strut.remembering(&p.hysteresis, &hysteresis, motion, further);
+            let (force, rates) = p.strut.force_with_states(&p.hysteresis, &hysteresis, motion, further);
             memory = rates;
             force
         });

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
 use crate::effects::{RotaryCoulomb, with_constant};
@@ -350,7 +350,7 @@ impl Model for SasRig {
     }
 
     #[inline]
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (State { wheel_arm: wheel, body_arm: body }, u, p) = (*now.state, now.input, now.parameters);
         let wheel_speed = if self.locked { R::from(0.0) } else { wheel.speed };
         let (angle, speed) = (body.angle - wheel.angle, body.speed - wheel_speed);

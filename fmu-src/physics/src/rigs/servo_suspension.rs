@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Method, Model, Now, Real, Settings, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Method, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
 use crate::actuators::servo_hydraulic_actuator::{self as servo, SpoolState, SupplyOutput};
@@ -130,7 +130,7 @@ pub struct Derived<R> {
     pub hydraulic_mode: Mode<R>,
     /// Number of effects that are on beside asymmetry, Coulomb friction and quadratic rates
     #[var(unit = ONE)]
-    pub further_effects: R,
+    pub active_effects: R,
 }
 
 impl Model for ServoSuspension {
@@ -228,9 +228,9 @@ impl Model for ServoSuspension {
                 natural_frequency: natural / std::f64::consts::TAU,
                 damping_ratio: decay / (natural * 2.0),
             },
-            further_effects: p.strut.further_effects()
-                + p.guide.further_effects()
-                + p.tire.further_effects()
+            active_effects: p.strut.active_effects()
+                + p.guide.active_effects()
+                + p.tire.active_effects()
                 + switched_on([p.wheel_guide.preload]),
         }
     }
@@ -240,7 +240,7 @@ impl Model for ServoSuspension {
     }
 
     #[inline(always)]
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (State { body, wheel, pressure, spool }, p) = (*now.state, now.parameters);
         let (road, hydraulics) = (now.input.road, &now.derived.actuator);
         let (per_sprung, per_unsprung) = (R::from(1.0) / p.sprung_mass, R::from(1.0) / p.unsprung_mass);
@@ -249,7 +249,7 @@ impl Model for ServoSuspension {
         let wheel_velocity = wheel.undamped_velocity + p.tire.damping * per_unsprung * compression;
         let deflection = body.position - wheel.position;
         let velocity = body.velocity - wheel_velocity;
-        let further = now.derived.further_effects;
+        let further = now.derived.active_effects;
         let strut = p.strut.force(now.time, deflection, velocity, further);
         let on_body = p.guide.added_to(|| strut, body.velocity, further);
         let approach = road.velocity - wheel_velocity;

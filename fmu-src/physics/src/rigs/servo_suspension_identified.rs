@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Method, Model, NoSettings, Now, Real, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Method, Model, NoSettings, Real, Stimulus, Variables, bundles,
 };
 
 use crate::signals::{Acceleration, Motion};
@@ -148,7 +148,7 @@ impl Model for ServoSuspensionIdentified {
     }
 
     #[inline(always)]
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (State { body, wheel, pressure, supply }, p) = (*now.state, now.parameters);
         let one = R::from(1.0);
         let (per_length, per_pressure, per_power) =

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use strut_model::{About, Experiment, Kind, Model, Now, Real, Settings, Variables, bundles};
+use strut_model::{About, Experiment, Instant, Kind, Model, Real, Settings, Variables, bundles};
 
 use crate::car::Corners;
 use crate::signals::RoadMotion;
@@ -65,7 +65,7 @@ impl Model for FourWheelRoad {
         Ok(Self { left: track(0)?, right: track(usize::from(!options.same_track))? })
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (strut_model::Nothing, Roads<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (strut_model::NoVariables, Roads<R>) {
         let Parameters { profile: shape, wheelbase } = now.parameters;
         let front = now.time - shape.start_time;
         let rear = front - *wheelbase / shape.speed;
@@ -75,7 +75,7 @@ impl Model for FourWheelRoad {
         };
         let ([front_left, front_right], [rear_left, rear_right]) = (under(front), under(rear));
         let output = Roads { front_left, front_right, rear_left, rear_right };
-        (strut_model::Nothing, output)
+        (strut_model::NoVariables, output)
     }
 }
 
@@ -84,18 +84,18 @@ mod tests {
     use super::super::RoadKind;
     use super::*;
     use proptest::prelude::*;
-    use strut_model::{Bundle, Declarations, Nothing};
+    use strut_model::{Bundle, Declarations, NoVariables};
 
     fn output(car: &FourWheelRoad, time: f64) -> Roads<f64> {
         let declared = Declarations::of::<Parameters<f64>>();
         let parameters = Bundle::from_fn(|i| declared[i].start);
-        car.equations(Now {
+        car.equations(Instant {
             time,
-            state: &Nothing,
-            input: &Nothing,
+            state: &NoVariables,
+            input: &NoVariables,
             parameters: &parameters,
-            derived: &Nothing,
-            memory: &Nothing,
+            derived: &NoVariables,
+            memory: &NoVariables,
             tick: 0,
         })
         .1

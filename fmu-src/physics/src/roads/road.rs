@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use strut_model::{About, Equation, Experiment, Kind, Model, Now, Real, bundles};
+use strut_model::{About, Equation, Experiment, Instant, Kind, Model, Real, bundles};
 
 use crate::signals::RoadMotion;
 
@@ -64,9 +64,9 @@ impl Model for Road {
         Ok(Self { profile: course.profile(0, resources)? })
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (strut_model::Nothing, RoadMotion<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (strut_model::NoVariables, RoadMotion<R>) {
         let shape = now.parameters;
         let [position, velocity] = self.profile.at(now.time - shape.start_time, shape);
-        (strut_model::Nothing, RoadMotion { position, velocity })
+        (strut_model::NoVariables, RoadMotion { position, velocity })
     }
 }

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Model, Nothing, Now, Real, Settings, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Model, NoVariables, Real, Settings, Stimulus, Variables,
+    bundles,
 };
 
 use super::encoder::{AngleEncoder, Rounding};
@@ -147,7 +148,7 @@ impl Model for AngleSensorChain {
         Some(parameters.period)
     }
 
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Memory<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Memory<R> {
         let (u, p, before) = (now.input, now.parameters, now.memory);
         let turning = |encoder: &AngleEncoder<R>, angle: R, before: &Turning<R>| {
             let angle = encoder.encoder().read(self.rounding, angle);
@@ -165,11 +166,11 @@ impl Model for AngleSensorChain {
         }
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (Nothing, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (NoVariables, Output<R>) {
         let Memory { eccentric, wheel_arm, relative } = *now.memory;
         let body_arm =
             Turning { angle: wheel_arm.angle + relative.angle, speed: wheel_arm.speed + relative.speed };
-        (Nothing, Output { measured: Measured { eccentric, wheel_arm, relative, body_arm } })
+        (NoVariables, Output { measured: Measured { eccentric, wheel_arm, relative, body_arm } })
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path as FilePath;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Model, Now, Real, Settings, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
 use crate::signals::{Acceleration, Deflection, WheelMotion};
@@ -238,7 +238,7 @@ impl Model for SensorChain {
         Some(parameters.period)
     }
 
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Signals<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Signals<R> {
         let (x, u, p, options) = (now.state, now.input, now.parameters, self.options);
         // Each channel draws from a stream of its own.
         let read = |stream, channel: Channel<R>, dynamics, quantity, state| {
@@ -281,7 +281,7 @@ impl Model for SensorChain {
         }
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (State<R>, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (x, u, p, derived, options) = (now.state, now.input, now.parameters, now.derived, self.options);
         let rates = |channel: Channel<R>, dynamics, natural: Natural<R>, quantity, state| {
             channel.rates(self.path(dynamics), natural.natural_frequency, quantity, state)

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use strut_model::{
-    About, Choice, Equation, Experiment, Kind, Model, Nothing, Now, Real, Settings, Stimulus, Variables,
-    bundles,
+    About, Choice, Equation, Experiment, Instant, Kind, Model, NoVariables, Real, Settings, Stimulus,
+    Variables, bundles,
 };
 
 /// Makes of one model's signal what another model wants: another unit or sign, its rate of change, its integral.
@@ -140,7 +140,7 @@ impl Model for SignalAdapter {
         Some(parameters.period)
     }
 
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Memory<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Memory<R> {
         let (p, before, signal) = (now.parameters, now.memory, now.input.input);
         if now.tick == 0 {
             return Memory { signal, rate: R::from(0.0), integral: p.initial };
@@ -152,14 +152,14 @@ impl Model for SignalAdapter {
         }
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (Nothing, Output<R>) {
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (NoVariables, Output<R>) {
         let (p, memory) = (now.parameters, now.memory);
         let signal = match self.operation {
             Operation::Value => now.input.input,
             Operation::Derivative => memory.rate,
             Operation::Integral => memory.integral,
         };
-        (Nothing, Output { output: p.factor * signal + p.offset + now.input.added })
+        (NoVariables, Output { output: p.factor * signal + p.offset + now.input.added })
     }
 }
 

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use strut_model::{
-    About, Equation, Experiment, Kind, Model, NoSettings, Nothing, Now, Real, Stimulus, Variables, bundles,
+    About, Equation, Experiment, Instant, Kind, Model, NoSettings, NoVariables, Real, Stimulus, Variables,
+    bundles,
 };
 
 use crate::signals::{Acceleration, Velocity};
@@ -93,7 +94,7 @@ impl Model for VelocityEstimator {
         Some(parameters.period)
     }
 
-    fn tick<R: Real>(&self, now: Now<'_, Self, R>) -> Memory<R> {
+    fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Memory<R> {
         let (p, before, acceleration) = (now.parameters, now.memory, now.input.body.acceleration);
         let rate = R::from(2.0) / p.period;
         let (leak, high_pass) = (p.leak_frequency * TAU, p.high_pass_frequency * TAU);
@@ -103,8 +104,8 @@ impl Model for VelocityEstimator {
         Memory { acceleration, passed, velocity }
     }
 
-    fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (Nothing, Output<R>) {
-        (Nothing, Output { body: Velocity { velocity: now.memory.velocity } })
+    fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (NoVariables, Output<R>) {
+        (NoVariables, Output { body: Velocity { velocity: now.memory.velocity } })
     }
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use strut_model::{
-    About, Choice, Equation, Experiment, Kind, Model, Nothing, Now, Real, Settings, Variables,
+    About, Choice, Equation, Experiment, Instant, Kind, Model, NoVariables, Real, Settings, Variables,
 };
 
 use crate::waveform::{Chirp, edge, sine, square, stairs};
@@ -151,17 +151,17 @@ macro_rules! source {
 
             type Settings = $signal::Options;
             type Parameters<R: Real> = $signal::Parameters<R>;
-            type Derived<R: Real> = Nothing;
-            type Input<R: Real> = Nothing;
-            type State<R: Real> = Nothing;
-            type Memory<R: Real> = Nothing;
+            type Derived<R: Real> = NoVariables;
+            type Input<R: Real> = NoVariables;
+            type State<R: Real> = NoVariables;
+            type Memory<R: Real> = NoVariables;
             type Output<R: Real> = $signal::Output<R>;
 
             fn prepare(options: &$signal::Options, _: Option<&Path>) -> Result<Self, String> {
                 Ok(Self { shape: options.shape })
             }
 
-            fn equations<R: Real>(&self, now: Now<'_, Self, R>) -> (Nothing, $signal::Output<R>) {
+            fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (NoVariables, $signal::Output<R>) {
                 let (p, zero) = (now.parameters, R::from(0.0));
                 let since = now.time - p.start_time;
                 let tau = since.max(zero);
@@ -174,7 +174,7 @@ macro_rules! source {
                     Shape::Square => square(tau, p.amplitude, p.swing_frequency, p.edge_time)[0],
                     Shape::Chirp => p.chirp.at(tau, p.amplitude)[0],
                 };
-                (Nothing, $signal::Output { $signal: p.offset + begun(since, above) })
+                (NoVariables, $signal::Output { $signal: p.offset + begun(since, above) })
             }
         }
     };

@@ -1,4 +1,4 @@
-//! What a car may have besides its masses, strut and tyre.
+//! Parts of a car beyond its masses, strut and tyre.
 
 use std::f64::consts::TAU;
 

@@ -246,7 +246,7 @@ fn a_regulator_does_what_its_gains_say() {
     assert!(apart < 1e-5, "{apart} m");
 }
 
-/// What moves the body besides its strut, in N.
+/// Forces on the body other than the strut's, in N.
 fn on_body(motion: &Motion, k: usize) -> f64 {
     let (x, v) = (motion.body[k] - motion.wheel[k], motion.body_velocity[k] - motion.wheel_velocity[k]);
     94.38 * motion.body_acceleration[k] + 8400.0 * x + 707.0 * v

@@ -94,7 +94,7 @@ pub(super) static ENTRIES: &[Entry] = &[
     ),
     entry(
         "28",
-        "overlap of the valve",
+        "spool overlap (dead band)",
         Place::Actuator,
         &[drawn("actuator.spool.overlap", "m", (4e-6, 1e-5), ZERO, (0.0, 2.5e-5))],
     ),

@@ -30,7 +30,7 @@ pub(super) static ENTRIES: &[Entry] = &[
     ),
     entry(
         "03b",
-        "friction of the strut behind play",
+        "friction of the strut behind backlash",
         Place::Strut,
         &[
             drawn("hysteresis.presliding.force", "N", (40.0, 80.0), ZERO, (0.0, 400.0)),
@@ -97,7 +97,7 @@ pub(super) static ENTRIES: &[Entry] = &[
     ),
     entry(
         "12",
-        "play of the damper's bush",
+        "backlash of the damper's bush",
         Place::Strut,
         &[
             drawn("hysteresis.mount.gap", "m", (3e-4, 1e-3), ZERO, (0.0, 4e-3)),

@@ -116,7 +116,7 @@ fn forces(case: &Case, random: &mut Random, size: f64) -> Profile {
     if limited { steps(random, case.reach(), 0.025, size) } else { prbs(random, case.reach(), 0.025, size) }
 }
 
-/// Scales the road such that the tyre keeps a fifth of its static load, or, if it shall leave the road, such that
+/// Scales the road so that the tyre keeps a fifth of its static load, or, if it shall leave the road, so that
 /// the wheel flies well above it.
 fn limit_pull(case: &Case, plain: &Rig, excitation: &mut Excitation, lifting: bool) {
     if excitation.road.is_still() {
@@ -138,7 +138,7 @@ fn limit_pull(case: &Case, plain: &Rig, excitation: &mut Excitation, lifting: bo
     }
 }
 
-/// Scales the lift of an eccentric such that the tyre keeps a fifth of its static load.
+/// Scales the lift of an eccentric so that the tyre keeps a fifth of its static load.
 fn keep_contact(case: &Case, plain: &Rig, excitation: &mut Excitation) {
     let (_, load) = plain.sas.rest();
     for _ in 0..8 {

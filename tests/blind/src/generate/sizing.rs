@@ -138,7 +138,7 @@ impl<'a> Sizing<'a> {
         for _ in 0..5 {
             let mut rig = self.plain.clone();
             rig.put_in(entry, &sized(size), &hidden.signal)?;
-            // What leaves the road does so in the plain rig, too: there, the other one is that which never does.
+            // What leaves the road does so in the plain rig, too: there, the other one never does.
             rig.car.tire_is_glued = entry.id == LIFT_OFF;
             let Some(clutter) = clutter else { break };
             let changed = largest(&without(&self.change(&rig), &imitations));

@@ -164,7 +164,7 @@ pub fn start(plant: Plant) -> Vec<Value> {
     published.iter().filter(|(name, ..)| wanted(name)).map(value).chain(points).collect()
 }
 
-/// The true base parameters: those of `start`, off by a share of `off`, at most twice that.
+/// The true nominal parameters: those of `start`, off by a share of `off`, at most twice that.
 pub fn true_base(start: &[Value], off: f64, random: &mut Random) -> Vec<Value> {
     let mut base = start.to_vec();
     for value in base.iter_mut().filter(|value| is_uncertain(value)) {
@@ -173,7 +173,7 @@ pub fn true_base(start: &[Value], off: f64, random: &mut Random) -> Vec<Value> {
     base
 }
 
-/// Whether a base parameter is one that the rig has and that has to be measured.
+/// Whether a nominal parameter is one that the rig has and that has to be measured.
 pub fn is_uncertain(value: &Value) -> bool {
     value.value != 0.0 && !EXACT.contains(&value.table())
 }

@@ -15,7 +15,7 @@ pub struct Report {
     /// Parameters of the starting model.
     #[serde(default)]
     pub base_parameters: Vec<Fitted>,
-    /// Errors on the held-out data.
+    /// Errors on the validation data.
     #[serde(default)]
     pub signals: Vec<Signal>,
     /// A cause without a name, in format 1.
@@ -94,7 +94,7 @@ pub struct Fitted {
     pub mismatch: bool,
 }
 
-/// The error of one signal on the held-out data; what could not be determined is none.
+/// The error of one signal on the validation data; what could not be determined is none.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Signal {
     /// As in the FMU.

@@ -66,11 +66,11 @@ pub fn markdown(scores: &[Score]) -> String {
     let each = |(hits, of): (usize, usize)| (0..of).map(move |k| k < hits);
     row("95 % intervals that cover", "90–98 %", &mut scores.iter().flat_map(|score| each(score.covered)));
     let mut base = scores.iter().flat_map(|score| each(score.base_covered));
-    row("the same of base parameters", "90–98 %", &mut base);
+    row("the same of nominal parameters", "90–98 %", &mut base);
     let gains: Vec<Gain> = scores.iter().filter_map(|score| score.gained).collect();
     let sum = |of: fn(&Gain) -> f64| gains.iter().map(of).sum::<f64>();
     let oracles = [
-        ("Φ gained on held-out data, of an oracle's", "≥ 90 %", sum(|it| it.recorded)),
+        ("Φ gained on validation data, of an oracle's", "≥ 90 %", sum(|it| it.recorded)),
         ("the same of one that knows the inputs without noise", "–", sum(|it| it.exact)),
     ];
     for (name, wanted, oracle) in oracles.iter().filter(|it| it.2 > 0.0) {

@@ -200,7 +200,7 @@ fn base_parameters_are_judged_where_the_causes_are_right() {
     // Of a signal of 100 N, 50 N were left, then 20 N; oracles leave 12.5 and 10 N.
     let text = markdown(std::slice::from_ref(&right));
     assert!(
-        text.contains("| Φ gained on held-out data, of an oracle's | ≥ 90 % | 80.0 % | 1 | – |"),
+        text.contains("| Φ gained on validation data, of an oracle's | ≥ 90 % | 80.0 % | 1 | – |"),
         "{text}"
     );
     assert!(text.contains("without noise | – | 75.0 % | 1 | – |"), "{text}");

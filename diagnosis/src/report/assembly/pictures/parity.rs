@@ -23,7 +23,7 @@ use stretch::{Rigged, Stretch};
 /// Samples that are shown in the shortest period.
 const FINE: f64 = 5.0;
 
-/// A model to be balanced with, over the held-out records as they were measured.
+/// A model to be balanced with, over the validation records as they were measured.
 struct Judged {
     laws: Laws,
     point: Estimate,

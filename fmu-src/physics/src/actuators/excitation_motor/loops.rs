@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use strut_model::{Now, Real, Variables};
+use strut_model::{Instant, Real, Variables};
 
 use super::profile::{Point, beyond_dead_zone};
 use super::{ExcitationMotor, State};
@@ -85,7 +85,7 @@ impl<R: Real> State<R> {
 
 /// Position and velocity loop, Fig. 4–6: their rates and the current that they demand.
 #[inline]
-pub(super) fn cascade<R: Real>(now: Now<'_, ExcitationMotor, R>, current_limit: R) -> (State<R>, R) {
+pub(super) fn cascade<R: Real>(now: Instant<'_, ExcitationMotor, R>, current_limit: R) -> (State<R>, R) {
     let (x, p) = (now.state, now.parameters);
     let command = beyond_dead_zone(now.input.command.position, p.dead_zone);
     let target_acceleration = p.profile.derivation(command.clamp(-p.stroke_limit, p.stroke_limit), &x.target);

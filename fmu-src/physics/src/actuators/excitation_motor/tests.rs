@@ -185,13 +185,13 @@ fn evaluate(drive: Drive, x: [f64; 12], u: [f64; 5]) -> (State<f64>, State<f64>,
     let (model, p) = (ExcitationMotor { drive }, parameters());
     let state =
         Bundle::from_fn(|i| x[i] * [0.05, 1.0, 15.0, 200.0, 0.05, 1.0, 0.05, 1.0, 1.0, 10.0, 15.0, 100.0][i]);
-    let (rates, output) = model.equations(Now {
+    let (rates, output) = model.equations(Instant {
         time: 0.0,
         state: &state,
         input: &Bundle::from_fn(|i| u[i] * [0.05, 500.0, 300.0, 500.0, 500.0][i]),
         parameters: &p,
         derived: &model.derive(&p),
-        memory: &strut_model::Nothing,
+        memory: &strut_model::NoVariables,
         tick: 0,
     });
     (state, rates, output)

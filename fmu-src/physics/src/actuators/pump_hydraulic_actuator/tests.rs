@@ -1,5 +1,5 @@
 use proptest::prelude::*;
-use strut_model::{Access, Bundle, Declarations, Interface, Nothing, Simulation, Value};
+use strut_model::{Access, Bundle, Declarations, Interface, NoVariables, Simulation, Value};
 
 use super::*;
 
@@ -11,13 +11,13 @@ pub fn parameters() -> Parameters<f64> {
 /// Rates and outputs at speed and overpressures, with torque and suspension velocity.
 fn evaluate(p: &Parameters<f64>, x: [f64; 3], u: [f64; 2]) -> (State<f64>, Output<f64>) {
     let model = PumpHydraulicActuator { locked: false };
-    model.equations(Now {
+    model.equations(Instant {
         time: 0.0,
         state: &Bundle::from_fn(|i| x[i]),
         input: &Bundle::from_fn(|i| u[i]),
         parameters: p,
         derived: &model.derive(p),
-        memory: &Nothing,
+        memory: &NoVariables,
         tick: 0,
     })
 }

@@ -1,6 +1,6 @@
 use num_dual::Dual64;
 use proptest::prelude::*;
-use strut_model::{Bundle, Declarations, Nothing};
+use strut_model::{Bundle, Declarations, NoVariables};
 
 use super::*;
 use crate::actuators::PumpHydraulicActuator;
@@ -14,13 +14,13 @@ fn starts<B: Bundle<f64>>() -> B {
 
 /// Rates and outputs at speed and pressure difference, with torque and suspension velocity.
 fn evaluate(p: &Parameters<f64>, x: [f64; 2], u: [f64; 2]) -> [f64; 3] {
-    let (rates, output) = ACTUATOR.equations(Now {
+    let (rates, output) = ACTUATOR.equations(Instant {
         time: 0.0,
         state: &Bundle::from_fn(|i| x[i]),
         input: &Bundle::from_fn(|i| u[i]),
         parameters: p,
         derived: &ACTUATOR.derive(p),
-        memory: &Nothing,
+        memory: &NoVariables,
         tick: 0,
     });
     [rates.motor.speed, rates.pressure.difference, output.force]
@@ -55,13 +55,13 @@ fn slopes(areas: f64, direction: [f64; 5]) -> [f64; 3] {
     let p: P<Dual64> = Bundle::from_fn(|i| numbers[i].into());
     let nonlinear =
         PumpHydraulicActuator::prepare(&<PumpHydraulicActuator as Model>::Settings::starts(), None).unwrap();
-    let (rates, output) = nonlinear.equations(Now {
+    let (rates, output) = nonlinear.equations(Instant {
         time: Dual64::from(0.0),
         state: &Bundle::from_fn(|i| Dual64::new(0.0, direction[i])),
         input: &Bundle::from_fn(|i| Dual64::new(0.0, direction[3 + i])),
         parameters: &p,
         derived: &nonlinear.derive(&p),
-        memory: &Nothing,
+        memory: &NoVariables,
         tick: 0,
     });
     let difference = rates.overpressure.compression - rates.overpressure.rebound;
@@ -124,13 +124,13 @@ proptest! {
 fn locked_it_is_a_spring_and_a_damper() {
     let locked = PumpHydraulicActuatorLinear { locked: true };
     let p: Parameters<f64> = starts();
-    let (rates, output) = locked.equations(Now {
+    let (rates, output) = locked.equations(Instant {
         time: 0.0,
         state: &State { motor: Speed { speed: 0.0 }, pressure: Difference { difference: 2e5 } },
         input: &Bundle::from_fn(|i| [4.0, 0.3][i]),
         parameters: &p,
         derived: &locked.derive(&p),
-        memory: &Nothing,
+        memory: &NoVariables,
         tick: 0,
     });
     let damping = ACTUATOR.derive(&p).damping;

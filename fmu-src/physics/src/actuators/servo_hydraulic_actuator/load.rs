@@ -47,7 +47,7 @@ impl<R: Real> Load<R> {
         self.interval * 0.5 * (memory.force * self.mobility() + memory.acceleration)
     }
 
-    /// The cylinder's force now; with an estimate that which is best held until the next communication point.
+    /// The cylinder's force now; with an estimate of the force that is best held until the next communication point.
     #[inline(always)]
     pub fn force(
         &self,

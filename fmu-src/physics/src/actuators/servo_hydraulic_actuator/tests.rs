@@ -84,7 +84,7 @@ proptest! {
         let declared = strut_model::Declarations::of::<Parameters<f64>>();
         let p: Parameters<f64> = strut_model::Bundle::from_fn(|i| declared[i].start);
         let derived = actuator.derive(&p);
-        let (rates, output) = actuator.equations(Now {
+        let (rates, output) = actuator.equations(Instant {
             time: 0.0,
             state: &State { pressure, spool: SpoolState { position, follower: 0.0 } },
             input: &Input { voltage, suspension: TravelRate { velocity } },
@@ -110,7 +110,7 @@ proptest! {
         let p: Parameters<f64> = strut_model::Bundle::from_fn(|i| declared[i].start);
         let (cylinder, derived) = (p.cylinder(), actuator.derive(&p));
         prop_assert_eq!(ServoHydraulicActuator::period(&p), None);
-        let (rates, output) = actuator.equations(Now {
+        let (rates, output) = actuator.equations(Instant {
             time: 0.0,
             state: &State { pressure, spool: SpoolState { position, follower: 0.0 } },
             input: &Input { voltage: 0.0, suspension: TravelRate { velocity } },

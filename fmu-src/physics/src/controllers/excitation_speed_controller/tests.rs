@@ -29,12 +29,12 @@ impl Controller {
     }
 
     fn tick(&mut self, frequency_reference: f64, angle: f64, speed: f64) -> f64 {
-        self.memory = ExcitationSpeedController.tick(Now {
+        self.memory = ExcitationSpeedController.tick(Instant {
             time: self.tick as f64 * self.parameters.period,
-            state: &Nothing,
+            state: &NoVariables,
             input: &Input { frequency_reference, eccentric: Turning { angle, speed } },
             parameters: &self.parameters,
-            derived: &Nothing,
+            derived: &NoVariables,
             memory: &self.memory,
             tick: self.tick,
         });
@@ -52,7 +52,7 @@ fn evaluate<M: Model>(changes: &[(&str, f64)], state: &[f64], input: &[f64]) -> 
         change.map_or(declared[i].start, |(_, value)| *value)
     };
     let parameters = M::Parameters::<f64>::from_fn(value);
-    let (rates, output) = model.equations(Now {
+    let (rates, output) = model.equations(Instant {
         time: 0.0,
         state: &Bundle::from_fn(|i| state[i]),
         input: &Bundle::from_fn(|i| input[i]),

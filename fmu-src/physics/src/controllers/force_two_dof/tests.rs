@@ -14,12 +14,12 @@ const GEAR: f64 = TAU * 9.4e-4 / 12e-6;
 const MASS: f64 = GEAR * GEAR * 3.3e-4;
 
 fn tick(p: &Parameters<f64>, memory: &Memory<f64>, input: &Input<f64>) -> Memory<f64> {
-    CONTROLLER.tick(Now {
+    CONTROLLER.tick(Instant {
         time: 0.0,
-        state: &Nothing,
+        state: &NoVariables,
         input,
         parameters: p,
-        derived: &Nothing,
+        derived: &NoVariables,
         memory,
         tick: 0,
     })

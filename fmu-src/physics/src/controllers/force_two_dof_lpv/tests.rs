@@ -10,12 +10,12 @@ fn starts<B: Bundle<f64>>() -> B {
     Bundle::from_fn(|i| declared[i].start)
 }
 
-fn now<'a, M: Model<Derived<f64> = Nothing, State<f64> = Nothing>>(
+fn now<'a, M: Model<Derived<f64> = NoVariables, State<f64> = NoVariables>>(
     input: &'a M::Input<f64>,
     parameters: &'a M::Parameters<f64>,
     memory: &'a M::Memory<f64>,
-) -> Now<'a, M, f64> {
-    Now { time: 0.0, state: &Nothing, input, parameters, derived: &Nothing, memory, tick: 0 }
+) -> Instant<'a, M, f64> {
+    Instant { time: 0.0, state: &NoVariables, input, parameters, derived: &NoVariables, memory, tick: 0 }
 }
 
 /// What is measured.
@@ -136,6 +136,6 @@ proptest! {
 fn a_valve_that_turns_is_refused() {
     let mut p: Parameters<f64> = starts();
     p.valve.compression.flow[3] = 1e-5;
-    let error = ForceTwoDofLpv { order: 2 }.check(&p, &Nothing).unwrap_err();
+    let error = ForceTwoDofLpv { order: 2 }.check(&p, &NoVariables).unwrap_err();
     assert!(error.contains("valve.compression.flow[5] = 0 must be larger"), "{error}");
 }

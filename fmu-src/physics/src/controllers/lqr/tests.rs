@@ -86,9 +86,9 @@ proptest! {
 }
 
 fn force(controller: LqrController, p: &Parameters<f64>, x: [f64; 4], time: f64) -> f64 {
-    let now = Now {
+    let now = Instant {
         time,
-        state: &Nothing,
+        state: &NoVariables,
         input: &Bundle::from_fn(|i| x[i]),
         parameters: p,
         derived: &controller.derive(p),

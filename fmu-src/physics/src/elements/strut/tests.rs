@@ -21,7 +21,7 @@ fn strut(ratio: f64, force: f64) -> Strut<f64> {
 
 /// At time zero.
 fn force(strut: &Strut<f64>, x: f64, v: f64) -> f64 {
-    strut.force(0.0, x, v, strut.further_effects())
+    strut.force(0.0, x, v, strut.active_effects())
 }
 
 #[test]
@@ -42,7 +42,7 @@ proptest! {
     }
 
     #[test]
-    fn with_further_effects_neutral_only_rounding_is_left(
+    fn with_active_effects_neutral_only_rounding_is_left(
         x in -0.1..0.1_f64,
         v in -2.0..2.0_f64,
         ratio in -0.9..0.9_f64,
@@ -50,8 +50,8 @@ proptest! {
         let strut = strut(ratio, 115.0);
         let asked_for_each = strut.force(0.0, x, v, 1.0);
         prop_assert!((asked_for_each - force(&strut, x, v)).abs() < 1e-9);
-        let (remembering, rates) = strut.remembering(&neutral(), &HysteresisState::rest(), [0.0, x, v], 1.0);
-        prop_assert_eq!((remembering, rates), (asked_for_each, HysteresisState::rest()));
+        let (force, rates) = strut.force_with_states(&neutral(), &HysteresisState::rest(), [0.0, x, v], 1.0);
+        prop_assert_eq!((force, rates), (asked_for_each, HysteresisState::rest()));
     }
 
     #[test]
@@ -67,7 +67,7 @@ proptest! {
         // What is not passive by itself.
         strut.r#yield.slope = 0.0;
         strut.curve.scale = 0.0;
-        let at = |v| strut.force(30.0, x, v, strut.further_effects());
+        let at = |v| strut.force(30.0, x, v, strut.active_effects());
         prop_assert!((at(v) - at(0.0)) * v >= 0.0);
     }
 
@@ -96,16 +96,16 @@ proptest! {
     ) {
         let mut strut = every_effect();
         (strut.preload, strut.curve.scale, strut.linkage.slope) = (0.0, 0.0, 0.0);
-        let (hysteresis, mut state) = (remembering(), HysteresisState::rest());
+        let (hysteresis, mut state) = (with_states(), HysteresisState::rest());
         state.presliding.friction = friction;
         state.maxwell.deflection = branch;
         state.mount.deflection = bush;
         // In the middle, where neither springs nor the yield force's slope do anything.
-        let (force, rates) = strut.remembering(&hysteresis, &state, [5.0, 0.0, v], 1.0);
-        let beyond_play = bush - bush.clamp(-hysteresis.mount.gap, hysteresis.mount.gap);
+        let (force, rates) = strut.force_with_states(&hysteresis, &state, [5.0, 0.0, v], 1.0);
+        let beyond_backlash = bush - bush.clamp(-hysteresis.mount.gap, hysteresis.mount.gap);
         let stored = friction / hysteresis.presliding.stiffness * rates.presliding.friction
             + hysteresis.maxwell.stiffness * branch * rates.maxwell.deflection
-            + beyond_play / hysteresis.mount.compliance * rates.mount.deflection;
+            + beyond_backlash / hysteresis.mount.compliance * rates.mount.deflection;
         prop_assert!(force * v - stored >= -1e-9 * (1.0 + stored.abs()), "{force} {v} {stored}");
     }
 }
@@ -130,7 +130,7 @@ fn every_effect() -> Strut<f64> {
 }
 
 /// Every effect with a state at once.
-fn remembering() -> Hysteresis<f64> {
+fn with_states() -> Hysteresis<f64> {
     Hysteresis {
         presliding: Presliding { force: 60.0, stiffness: 2e5, exponent: 1.5, gap: 0.0 },
         maxwell: Maxwell { stiffness: 2e4, time: 0.02 },
@@ -156,16 +156,16 @@ fn effects_add_up_as_they_are_written() {
     let unnamed = over_x.floor().powi(2) + (2.0 * over_x.floor() + 1.0) * over_x.fract() + 3.0 * over_v;
     let expected = i * (spring + damper + friction + yielding + 300.0 * vs * vs + 12.0 + unnamed);
     let strut = every_effect();
-    let found = strut.force(t, x, v, strut.further_effects());
+    let found = strut.force(t, x, v, strut.active_effects());
     assert!((found - expected).abs() < 1e-9, "{found} {expected}");
-    assert_eq!(strut.further_effects(), 12.0);
+    assert_eq!(strut.active_effects(), 12.0);
 }
 
 #[test]
 fn an_effect_that_is_on_counts_whichever_it_is() {
-    assert_eq!(strut(0.3, 115.0).further_effects(), 0.0);
-    assert_eq!(neutral::<Hysteresis<f64>>().further_effects(), 0.0);
-    assert_eq!(remembering().further_effects(), 4.0);
+    assert_eq!(strut(0.3, 115.0).active_effects(), 0.0);
+    assert_eq!(neutral::<Hysteresis<f64>>().active_effects(), 0.0);
+    assert_eq!(with_states().active_effects(), 4.0);
 }
 
 #[test]
@@ -174,7 +174,7 @@ fn a_mount_without_play_lets_the_steady_damper_through() {
     let hysteresis = Hysteresis { mount: Mount { gap: 0.0, compliance: 1e-5 }, ..neutral() };
     let mut state = HysteresisState::rest();
     state.mount.deflection = 1e-5 * 1000.0 * 0.1;
-    let (force, rates) = strut.remembering(&hysteresis, &state, [0.0, 0.0, 0.1], 1.0);
+    let (force, rates) = strut.force_with_states(&hysteresis, &state, [0.0, 0.0, 0.1], 1.0);
     assert!((force - 100.0).abs() < 1e-9 && rates.mount.deflection.abs() < 1e-15);
 }
 

@@ -44,13 +44,13 @@ fn nonlinear() -> Parameters<f64> {
 }
 
 fn evaluate<R: Real>(car: FullCar, p: &Parameters<R>, x: [R; 14], u: [R; 12]) -> (State<R>, Output<R>) {
-    car.equations(Now {
+    car.equations(Instant {
         time: R::from(0.0),
         state: &Bundle::from_fn(|i| x[i]),
         input: &Bundle::from_fn(|i| u[i]),
         parameters: p,
         derived: &car.derive(p),
-        memory: &strut_model::Nothing,
+        memory: &strut_model::NoVariables,
         tick: 0,
     })
 }
@@ -397,13 +397,13 @@ fn alone(
     u: [f64; 3],
 ) -> (quarter_car::State<f64>, quarter_car::Output<f64>) {
     let car = QuarterCar::prepare(&Settings::starts(), None).unwrap();
-    car.equations(Now {
+    car.equations(Instant {
         time: 0.0,
         state: &Bundle::from_fn(|i| x.get(i).copied().unwrap_or(0.0)),
         input: &Bundle::from_fn(|i| u[i]),
         parameters: p,
         derived: &car.derive(p),
-        memory: &strut_model::Nothing,
+        memory: &strut_model::NoVariables,
         tick: 0,
     })
 }

@@ -38,14 +38,14 @@ fn table_10() -> Parameters<f64> {
 const CAR: QuarterCar = QuarterCar { lift_off: true };
 
 fn evaluate<R: Real>(car: QuarterCar, p: &Parameters<R>, x: [R; 4], u: [R; 3]) -> (State<R>, Output<R>) {
-    car.equations(Now {
+    car.equations(Instant {
         time: R::from(0.0),
         // What the strut remembers is at rest.
         state: &Bundle::from_fn(|i| x.get(i).copied().unwrap_or(R::from(0.0))),
         input: &Bundle::from_fn(|i| u[i]),
         parameters: p,
         derived: &car.derive(p),
-        memory: &strut_model::Nothing,
+        memory: &strut_model::NoVariables,
         tick: 0,
     })
 }

@@ -27,13 +27,13 @@ fn starts<B: Bundle<f64>>() -> B {
 }
 
 fn evaluate<R: Real>(rig: SasRig, p: &Parameters<R>, x: [R; 4], u: [R; 3]) -> (State<R>, Output<R>) {
-    rig.equations(Now {
+    rig.equations(Instant {
         time: R::from(0.0),
         state: &Bundle::from_fn(|i| x[i]),
         input: &Bundle::from_fn(|i| u[i]),
         parameters: p,
         derived: &rig.derive(p),
-        memory: &strut_model::Nothing,
+        memory: &strut_model::NoVariables,
         tick: 0,
     })
 }
@@ -214,13 +214,13 @@ fn at_1_35_hertz_the_body_swings_up_as_in_figure_3() {
 fn brake(duty: f64) -> f64 {
     let brake = MrRotaryBrake::prepare(&<MrRotaryBrake as Model>::Settings::starts(), None).unwrap();
     let p = starts();
-    let (_, output) = brake.equations(Now {
+    let (_, output) = brake.equations(Instant {
         time: 0.0,
         state: &Bundle::from_fn(|_| duty),
         input: &Bundle::from_fn(|_| duty),
         parameters: &p,
         derived: &brake.derive(&p),
-        memory: &strut_model::Nothing,
+        memory: &strut_model::NoVariables,
         tick: 0,
     });
     output.damping

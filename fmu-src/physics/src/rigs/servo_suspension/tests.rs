@@ -1,7 +1,7 @@
 use nalgebra::SMatrix;
 use num_dual::Dual64;
 use proptest::prelude::*;
-use strut_model::{Bundle, Declarations, Nothing, Value};
+use strut_model::{Bundle, Declarations, NoVariables, Value};
 
 use super::*;
 use crate::actuators::ServoHydraulicActuator;
@@ -29,13 +29,13 @@ fn parameters<R: Real>(changes: &[(&str, f64)]) -> Parameters<R> {
 /// States: z_2, z_2', z_1, q, P_r, u_1, without hysteresis of the valve; inputs: v, w, w'.
 fn evaluate<R: Real>(law: ValveLaw, p: &Parameters<R>, x: [R; 6], u: [R; 3]) -> (State<R>, Output<R>) {
     let suspension = ServoSuspension { law };
-    suspension.equations(Now {
+    suspension.equations(Instant {
         time: R::from(0.0),
         state: &Bundle::from_fn(|i| x.get(i).copied().unwrap_or(R::from(0.0))),
         input: &Bundle::from_fn(|i| u[i]),
         parameters: p,
         derived: &suspension.derive(p),
-        memory: &Nothing,
+        memory: &NoVariables,
         tick: 0,
     })
 }
@@ -195,13 +195,13 @@ proptest! {
             ..Bundle::from_fn(|i| declared[i].start)
         };
         let v1 = output.wheel.velocity;
-        let (expected, measured) = car.equations(Now {
+        let (expected, measured) = car.equations(Instant {
             time: 0.0,
             state: &Bundle::from_fn(|i| [x[0], x[1], x[2], v1].get(i).copied().unwrap_or(0.0)),
             input: &Bundle::from_fn(|i| [road[0], 20.0 * road[1], output.actuator.force][i]),
             parameters: &of_car,
             derived: &car.derive(&of_car),
-            memory: &Nothing,
+            memory: &NoVariables,
             tick: 0,
         });
         let close = |a: f64, b: f64, scale: f64| (a - b).abs() <= 1e-12 * scale;

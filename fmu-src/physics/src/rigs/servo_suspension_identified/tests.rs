@@ -1,5 +1,5 @@
 use nalgebra::{Complex, SMatrix};
-use strut_model::{Bundle, Nothing};
+use strut_model::{Bundle, NoVariables};
 
 use super::*;
 
@@ -9,13 +9,13 @@ type Matrix = SMatrix<f64, 6, 6>;
 const PLAIN: Parameters<f64> = Parameters { length_unit: 1.0, pressure_unit: 1.0, power_unit: 1.0 };
 
 fn rates(p: &Parameters<f64>, x: [f64; 6], u: [f64; 2]) -> [f64; 6] {
-    let (rates, _) = ServoSuspensionIdentified.equations(Now {
+    let (rates, _) = ServoSuspensionIdentified.equations(Instant {
         time: 0.0,
         state: &Bundle::from_fn(|i| x[i]),
         input: &Bundle::from_fn(|i| u[i]),
         parameters: p,
-        derived: &Nothing,
-        memory: &Nothing,
+        derived: &NoVariables,
+        memory: &NoVariables,
         tick: 0,
     });
     let mut list = [0.0; 6];

@@ -12,13 +12,13 @@ fn parameters() -> Parameters {
 
 fn at(shape: Shape, time: f64, p: &Parameters) -> f64 {
     let source = VoltageSource { shape };
-    let now = Now {
+    let now = Instant {
         time,
-        state: &Nothing,
-        input: &Nothing,
+        state: &NoVariables,
+        input: &NoVariables,
         parameters: p,
-        derived: &Nothing,
-        memory: &Nothing,
+        derived: &NoVariables,
+        memory: &NoVariables,
         tick: 0,
     };
     source.equations(now).1.voltage

@@ -60,7 +60,7 @@ impl Laws {
     /// What the guide resists the body's velocity with.
     pub fn on_body(&self, velocity: &[f64]) -> Vec<f64> {
         let resistance = |v: &f64| {
-            self.guide.as_ref().map_or(0.0, |guide| guide.added_to(|| 0.0, *v, guide.further_effects()))
+            self.guide.as_ref().map_or(0.0, |guide| guide.added_to(|| 0.0, *v, guide.active_effects()))
         };
         velocity.iter().map(resistance).collect()
     }

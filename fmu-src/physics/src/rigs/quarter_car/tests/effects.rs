@@ -2,7 +2,7 @@
 
 use num_dual::Dual64;
 use proptest::prelude::*;
-use strut_model::{Bundle, Declarations, Dependencies, Lanes, Nothing, Value};
+use strut_model::{Bundle, Declarations, Dependencies, Lanes, NoVariables, Value};
 
 use super::*;
 use crate::testing::{Bench, harmonic};
@@ -45,13 +45,13 @@ const STATES: usize = <State<f64> as Bundle<f64>>::LEN;
 
 /// The rates of all states and the outputs.
 fn with_memory<R: Real>(p: &Parameters<R>, x: [R; STATES], u: [R; 3]) -> Vec<R> {
-    let (rates, output) = CAR.equations(Now {
+    let (rates, output) = CAR.equations(Instant {
         time: R::from(50.0),
         state: &Bundle::from_fn(|i| x[i]),
         input: &Bundle::from_fn(|i| u[i]),
         parameters: p,
         derived: &CAR.derive(p),
-        memory: &Nothing,
+        memory: &NoVariables,
         tick: 0,
     });
     list(&rates).into_iter().chain(list(&output)).collect()
@@ -160,7 +160,7 @@ fn what_is_off_does_not_move() {
     assert!(moved.iter().any(|[_, branch, _]| branch.abs() > 1e-4));
     let moved = remembered(&[("hysteresis.mount.gap", 1e-3)]);
     assert!(moved.iter().all(|[friction, branch, _]| *friction == 0.0 && *branch == 0.0));
-    // From one side of the play to the other, and into the bush.
+    // From one side of the backlash to the other, and into the bush.
     assert!(moved.iter().any(|[.., bush]| *bush > 1e-3) && moved.iter().any(|[.., bush]| *bush < -1e-3));
     assert!(remembered(&[]).iter().flatten().all(|state| *state == 0.0));
 }
