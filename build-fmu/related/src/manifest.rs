@@ -142,7 +142,7 @@ mod tests {
 
     #[test]
     fn a_manifest_reads_back() {
-        let file = Related::new("text/csv", "a&b.csv", "experiment/validation", "the \"held-out\" record");
+        let file = Related::new("text/csv", "a&b.csv", "experiment/validation", "the \"validation\" record");
         let manifest = Manifest { related: vec![file] };
         let text = String::from_utf8(manifest.document()).unwrap();
         let document = Document::parse(&text).unwrap();

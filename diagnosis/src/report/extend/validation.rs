@@ -1,4 +1,4 @@
-//! The validation experiment that travels with the extended model: a part of a held-out record, and the model's errors on it.
+//! The validation experiment that travels with the extended model: a part of a validation record, and the model's errors on it.
 
 use std::ops::Range;
 
@@ -22,7 +22,7 @@ const WITHIN: f64 = 1e-3;
 /// The same as a share of the signal, for errors that are hardly more than rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// A part of a held-out record with the extended model's errors on it.
+/// A part of a validation record with the extended model's errors on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Validation {
     /// The record, and which part of it.
