@@ -68,8 +68,14 @@ impl Case {
             rig.drive_by(way, |name| name == input).unwrap();
         }
         let hidden = hidden.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
-        let experiment =
-            Experiment { hidden, noise: self.noise, seed: 3, step: self.step, length: self.length };
+        let experiment = Experiment {
+            hidden,
+            amplitude: 1.0,
+            noise: self.noise,
+            seed: 3,
+            step: self.step,
+            length: self.length,
+        };
         let folder = tempfile::tempdir().unwrap();
         let paths = ["train.csv", "test.csv"].map(|file| folder.path().join(file));
         for (path, number) in paths.iter().zip(1..) {

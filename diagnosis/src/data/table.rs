@@ -80,9 +80,8 @@ impl Table {
             .ok_or_else(|| {
                 let names = listed(self.columns.iter().map(|c| c.name.as_str()));
                 let text = format!(
-                    "no column of time among {}: call it `time [s]`, or name it in the map: \
-                     `time = {{ column = \"…\", unit = \"s\" }}`",
-                    names
+                    "no column of time among {names}: call it `time [s]`, or name it in the map: \
+                     `time = {{ column = \"…\", unit = \"s\" }}`"
                 );
                 DataError::file(&self.name, text)
             })
