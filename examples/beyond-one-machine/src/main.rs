@@ -4,6 +4,7 @@
 //! `sweep SETS.csv --out PEAKS.csv [--threads N] [--scalar]`; a set that cannot be computed has empty peaks.
 
 use std::path::{Path, PathBuf};
+use std::time;
 
 use clap::Parser;
 use rayon::prelude::*;
@@ -62,7 +63,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .collect();
     let rig = QuarterCar::prepare(&<QuarterCar as Model>::Settings::starts(), None)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(cli.threads).build()?;
-    let clock = std::time::Instant::now();
+    let clock = time::Instant::now();
     let peaks: Vec<[f64; 3]> = pool.install(|| {
         if cli.scalar {
             full.par_iter().map(|set| peaks::<f64>(&rig, |index| set[index])).collect()

@@ -3,6 +3,7 @@
 #![allow(missing_docs, reason = "a program, not a library")]
 
 use std::path::Path;
+use std::time;
 
 use strut_model::{
     About, Access, Experiment, Instant, Method, Model, NoSettings, ParameterSet, Real, Simulation, Variables,
@@ -76,7 +77,7 @@ fn time<M: Model>(set: &str) -> (f64, f64) {
     simulation.set_up(0.0, Some(1e-6)).expect("times are finite");
     simulation.initialize().expect("the parameters are legal");
     let mut output = [0.0];
-    let start = std::time::Instant::now();
+    let start = time::Instant::now();
     for step in 0..STEPS {
         let time = f64::from(step) * 1e-3;
         let phase = f64::from(step % 500) / 250.0 - 1.0;
