@@ -1,4 +1,4 @@
-//! From records to findings: nominal fit, search, and what is told about it.
+//! From records to findings: nominal fit, search, intervals.
 
 mod kept;
 mod nominal;

@@ -91,7 +91,7 @@ class Fmpy:
 
 
 class FmpyWithInputs(Fmpy):
-    """The same, with one line more in FMPy: it sets the inputs where it asks for rates, too. What is left is the FMU's."""
+    """The same, with one line more in FMPy: it sets the inputs where it asks for rates, too. The remaining error is the FMU's."""
 
     name, tolerance = "FMPy with inputs in its rates", INTEGRATED
 

@@ -116,7 +116,7 @@ impl Entry {
         run(&mut *self.instance(set, resources)?, &driven, signals, step, stop)
     }
 
-    /// The default experiment as an importer records it, in at most so many communication steps: inputs are set and held, outputs are
+    /// The default experiment as an importer records it, in a limited number of communication steps: inputs are set and held, outputs are
     /// read where a step arrives. Its driven inputs, all outputs, and how many of both are inputs.
     ///
     /// # Errors

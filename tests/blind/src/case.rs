@@ -285,7 +285,7 @@ pub struct Truth {
     pub base: Vec<Value>,
     /// Deviation of each column's noise.
     pub noise: Vec<Value>,
-    /// What is left of the validation records by who knows the parameters and the effects, but nothing of the clutter.
+    /// The remaining error on the validation records of a model with the true parameters and effects, but without the clutter.
     pub oracle: Oracle,
 }
 

@@ -129,7 +129,7 @@ impl Diagnosis<'_> {
     }
 }
 
-/// What is left of a signal on validation data, mean squares without noise in the inputs.
+/// The remaining error of a signal on validation data: mean squares without noise in the inputs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Left {
     /// By the extended model.

@@ -106,7 +106,7 @@ pub struct Periodogram {
     pub limit: f64,
 }
 
-/// A balance of measured signals, on the validation data: what is left of it is noise if the laws and the sensors in it are
+/// A balance of measured signals, on the validation data: its residual is noise if the laws and the sensors in it are
 /// right, whatever the rest of the model is like.
 #[derive(Clone, Debug, Serialize)]
 pub struct Parity {
