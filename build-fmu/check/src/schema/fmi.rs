@@ -1,15 +1,7 @@
 //! `modelDescription.xml` (FMI 2.0.5, `fmi2ModelDescription.xsd` and what it includes).
 
 use super::Type::{Boolean, DateTime, Double, Int, Line, ListOf, OneOf, Text, UnsignedInt, UnsignedInts};
-use super::{Attribute, Content, Element, Particle, any, maybe, one, optional, required, some};
-
-const fn element(
-    name: &'static str,
-    attributes: &'static [&'static [Attribute]],
-    content: &'static [&'static [Particle]],
-) -> Element {
-    Element { name, namespace: None, attributes, content: Content::Sequence(content) }
-}
+use super::{Attribute, Content, Element, any, element, maybe, one, optional, required, some};
 
 /// The root.
 pub static ROOT: Element = element(

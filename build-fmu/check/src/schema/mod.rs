@@ -23,6 +23,15 @@ pub struct Element {
     pub content: Content,
 }
 
+/// An element of a standard without a namespace, with elements in this order.
+const fn element(
+    name: &'static str,
+    attributes: &'static [&'static [Attribute]],
+    content: &'static [&'static [Particle]],
+) -> Element {
+    Element { name, namespace: None, attributes, content: Content::Sequence(content) }
+}
+
 /// What is in an element.
 #[derive(Debug)]
 pub enum Content {

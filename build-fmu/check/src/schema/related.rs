@@ -2,15 +2,7 @@
 //! (`maHarmonizedSpecificationExperiments.xsd`, and the form of its text: times as attributes of `<Experiment>`).
 
 use super::Type::{Double, Text, Uri};
-use super::{Attribute, Content, Element, Particle, any, maybe, optional, required, some};
-
-const fn element(
-    name: &'static str,
-    attributes: &'static [&'static [Attribute]],
-    content: &'static [&'static [Particle]],
-) -> Element {
-    Element { name, namespace: None, attributes, content: Content::Sequence(content) }
-}
+use super::{Attribute, Content, Element, any, element, maybe, optional, required, some};
 
 static ANNOTATIONS: Element = element("Annotations", &[], &[&[some(&[&ANNOTATION])]]);
 static ANNOTATION: Element = Element {
