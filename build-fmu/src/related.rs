@@ -1,10 +1,10 @@
 //! What travels with each FMU (FMI-LS-REF): its parameter set with sources, an experiment with expected outputs, and where its
 //! documentation and licence are.
 
-use strut_model::{Interface, Trajectory, VariableKind};
+use strut_model::{Interface, Trajectory, Value, VariableKind};
 use strut_related::{
     Agreement, Between, Experiment, Experiments, Files, Given, ParameterSet, Related, Series, Stated, Table,
-    Value, media, rounded,
+    media, rounded,
 };
 
 use crate::fmu::{Fmu, Set};

@@ -14,7 +14,7 @@ mod xml;
 pub use experiments::{Agreement, Between, Experiment, Experiments, Stated, Table};
 pub use files::Files;
 pub use manifest::{Manifest, ROLES, Related, Role};
-pub use parameters::{Given, ParameterSet, Value};
+pub use parameters::{Given, ParameterSet, root, typed};
 pub use series::{Series, rounded};
 pub use xml::Element;
 

@@ -2,34 +2,31 @@
 //!
 //! SSP 1.0 has no attribute for either: a description is for people, an annotation for programs.
 
+use strut_model::Value;
+
 use crate::Element;
 
 /// Type of the annotation.
 const ANNOTATION: &str = "io.github.strut-fmu.parameter";
 const NAMESPACE: &str = "https://github.com/strut-fmu/strut/parameter";
 
-/// A value of a type of SSP 1.0.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Value {
-    /// `<ssv:Real>`.
-    Real(f64),
-    /// `<ssv:Integer>`; of an enumeration too.
-    Integer(i32),
-    /// `<ssv:Boolean>`.
-    Boolean(bool),
-    /// `<ssv:String>`.
-    Text(String),
+/// A value as an element of SSP 1.0, a real one with its unit, if that has a symbol.
+pub fn typed(value: &Value, unit: &str) -> Element {
+    match value {
+        Value::Real(value) => Element::with_unit("ssv:Real", unit).with("value", format!("{value:?}")),
+        Value::Integer(value) => Element::new("ssv:Integer").with("value", value),
+        Value::Boolean(value) => Element::new("ssv:Boolean").with("value", value),
+        Value::Text(value) => Element::new("ssv:String").with("value", value),
+    }
 }
 
-impl Value {
-    fn element(&self) -> Element {
-        match self {
-            Self::Real(value) => Element::new("ssv:Real").with("value", format!("{value:?}")),
-            Self::Integer(value) => Element::new("ssv:Integer").with("value", value),
-            Self::Boolean(value) => Element::new("ssv:Boolean").with("value", value),
-            Self::Text(value) => Element::new("ssv:String").with("value", value),
-        }
-    }
+/// The root of a document with a parameter set.
+pub fn root(name: &str) -> Element {
+    Element::new("ssv:ParameterSet")
+        .with("xmlns:ssc", "http://ssp-standard.org/SSP1/SystemStructureCommon")
+        .with("xmlns:ssv", "http://ssp-standard.org/SSP1/SystemStructureParameterValues")
+        .with("version", "1.0")
+        .with("name", name)
 }
 
 /// A parameter set.
@@ -77,18 +74,14 @@ impl Given {
             parameter = parameter.with("description", words.join("; "));
         }
         let annotation = Element::new("ssc:Annotation").with("type", ANNOTATION).of([told]);
-        parameter.of([self.value.element(), Element::new("ssv:Annotations").of([annotation])])
+        parameter.of([typed(&self.value, ""), Element::new("ssv:Annotations").of([annotation])])
     }
 }
 
 impl ParameterSet {
     /// The document.
     pub fn document(&self) -> Vec<u8> {
-        Element::new("ssv:ParameterSet")
-            .with("xmlns:ssc", "http://ssp-standard.org/SSP1/SystemStructureCommon")
-            .with("xmlns:ssv", "http://ssp-standard.org/SSP1/SystemStructureParameterValues")
-            .with("version", "1.0")
-            .with("name", &self.name)
+        root(&self.name)
             .with("description", &self.description)
             .of([Element::new("ssv:Parameters").of(self.values.iter().map(Given::element))])
             .document()

@@ -1,7 +1,5 @@
 //! Time series in CSV, as importers of FMUs write and read them: a row of names, `time` first, then a row for each time.
 
-use std::fmt::Write;
-
 /// Signals over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
@@ -14,24 +12,19 @@ pub struct Series {
 impl Series {
     /// The text. A missing value is an empty cell.
     pub fn text(&self) -> String {
-        let quoted = |name: &str| match name.contains([',', '"', '\n']) {
-            true => format!("\"{}\"", name.replace('"', "\"\"")),
-            false => name.to_owned(),
-        };
-        let names = self.signals.iter().map(|(name, _)| quoted(name));
-        let mut text: String = std::iter::once("time".to_owned()).chain(names).collect::<Vec<_>>().join(",");
-        text.push('\n');
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let names = self.signals.iter().map(|(name, _)| name.clone());
+        let mut add = |row: Vec<String>| writer.write_record(row).expect("memory is written without errors");
+        add(std::iter::once("time".to_owned()).chain(names).collect());
         for (row, time) in self.time.iter().enumerate() {
-            let _ = write!(text, "{time}");
-            for (_, values) in &self.signals {
-                text.push(',');
-                if values[row].is_finite() {
-                    let _ = write!(text, "{}", shortest(values[row]));
-                }
-            }
-            text.push('\n');
+            let cell = |(_, values): &(String, Vec<f64>)| match values[row] {
+                value if value.is_finite() => shortest(value),
+                _ => String::new(),
+            };
+            add(std::iter::once(time.to_string()).chain(self.signals.iter().map(cell)).collect());
         }
-        text
+        let bytes = writer.into_inner().expect("memory is written without errors");
+        String::from_utf8(bytes).expect("names and numbers are text")
     }
 
     /// Reads a text.
@@ -74,7 +67,7 @@ fn shortest(value: f64) -> String {
     if power.len() < plain.len() { power } else { plain }
 }
 
-/// Values with so many digits of their largest magnitude: more would be noise, and take room.
+/// Values rounded to a number of digits of the largest one. Further digits would be noise and take room.
 pub fn rounded(values: &[f64], digits: i32) -> Vec<f64> {
     let largest =
         values.iter().filter(|it| it.is_finite()).fold(0.0_f64, |largest, it| largest.max(it.abs()));

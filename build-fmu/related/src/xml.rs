@@ -17,6 +17,14 @@ impl Element {
         Self { name, ..Self::default() }
     }
 
+    /// An element with a unit, if that has a symbol.
+    pub fn with_unit(name: &'static str, unit: &str) -> Self {
+        match unit {
+            "" => Self::new(name),
+            unit => Self::new(name).with("unit", unit),
+        }
+    }
+
     /// With an attribute.
     #[must_use]
     #[expect(clippy::needless_pass_by_value, reason = "literals and numbers read better without a reference")]

@@ -9,7 +9,6 @@
 //! connections suppress it.
 
 use strut_check::unit::Unit;
-use strut_model::Value;
 
 use super::adapter::Adapter;
 use super::check::Checked;
@@ -17,7 +16,7 @@ use super::face::{Kind, Variable};
 use super::wire::{End, Sink, Source, Way};
 use super::{Packed, System};
 use crate::archive::Archive;
-use strut_related::Element;
+use strut_related::{Element, root, typed};
 
 /// All parameter sets bear this name: Ecos applies one name at a time.
 const SET: &str = "defaults";
@@ -179,14 +178,17 @@ fn adapter_connectors(checked: &Checked, index: usize) -> Vec<Element> {
     list.extend(added.then_some(("added", "input", to)));
     let connector = |(name, kind, unit): (&str, &str, &Option<Unit>)| {
         let symbol = unit.as_ref().map_or("", |unit| &unit.symbol);
-        Element::new("ssd:Connector").with("name", name).with("kind", kind).of([real("ssc:Real", symbol)])
+        Element::new("ssd:Connector")
+            .with("name", name)
+            .with("kind", kind)
+            .of([Element::with_unit("ssc:Real", symbol)])
     };
     list.into_iter().map(connector).collect()
 }
 
 fn connector(name: &str, kind: &str, variable: &Variable) -> Element {
     let of_type = match variable.kind {
-        Kind::Real { .. } => real("ssc:Real", variable.symbol()),
+        Kind::Real { .. } => Element::with_unit("ssc:Real", variable.symbol()),
         Kind::Integer => Element::new("ssc:Integer"),
         Kind::Boolean => Element::new("ssc:Boolean"),
         Kind::Text => Element::new("ssc:String"),
@@ -194,13 +196,6 @@ fn connector(name: &str, kind: &str, variable: &Variable) -> Element {
         Kind::Choice(_) => Element::new("ssc:Integer"),
     };
     Element::new("ssd:Connector").with("name", name).with("kind", kind).of([of_type])
-}
-
-fn real(name: &'static str, unit: &str) -> Element {
-    match unit {
-        "" => Element::new(name),
-        unit => Element::new(name).with("unit", unit),
-    }
 }
 
 /// The units of the connectors, sorted.
@@ -233,19 +228,10 @@ fn elements_of(mut units: Vec<&Unit>) -> Vec<Element> {
 fn values(checked: &Checked, component: usize) -> Vec<u8> {
     let settings: Vec<_> = checked.settings.iter().filter(|(end, _)| end.component == component).collect();
     let parameters = settings.iter().map(|(end, value)| {
-        let value = match value {
-            Value::Real(value) => real("ssv:Real", end.variable.symbol()).with("value", number(*value)),
-            Value::Integer(value) => Element::new("ssv:Integer").with("value", value),
-            Value::Boolean(value) => Element::new("ssv:Boolean").with("value", value),
-            Value::Text(value) => Element::new("ssv:String").with("value", value),
-        };
+        let value = typed(value, end.variable.symbol());
         Element::new("ssv:Parameter").with("name", &end.variable.name).of([value])
     });
-    Element::new("ssv:ParameterSet")
-        .with("xmlns:ssc", "http://ssp-standard.org/SSP1/SystemStructureCommon")
-        .with("xmlns:ssv", "http://ssp-standard.org/SSP1/SystemStructureParameterValues")
-        .with("version", "1.0")
-        .with("name", SET)
+    root(SET)
         .list("ssv:Parameters", parameters)
         .list("ssv:Units", elements_of(settings.iter().filter_map(|(end, _)| end.variable.unit()).collect()))
         .document()

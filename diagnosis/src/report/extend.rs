@@ -105,7 +105,7 @@ impl Diagnosis<'_> {
             let interval = interval.filter(|it| it.half.is_finite()).map(|it| [it.low(), it.high()]);
             Some(Given {
                 name: declared.name.clone(),
-                value: strut_related::Value::Real(value),
+                value: Value::Real(value),
                 unit: declared.unit.symbol.into(),
                 source: "fitted to the records".into(),
                 interval,

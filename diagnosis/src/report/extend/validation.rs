@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
+use strut_model::Value;
 use strut_related::{
     Agreement, Between, Experiment, Experiments, Files, Given, ParameterSet, Related, Series, Stated, Table,
-    Value, media, rounded,
+    media, rounded,
 };
 
 use crate::dataset::recorded::Dataset;
