@@ -1,9 +1,8 @@
 //! Files of experiments: each experiment with its values, inputs and expected outputs.
 
-use roxmltree::Document;
 use strut_related::{Experiment, Experiments, Series, Table, media, resolved};
 
-use super::{of_one, values};
+use super::{of_one, parsed, values};
 use crate::description::{Description, Variable};
 use crate::finding::{Finding, Report, names};
 use crate::lines::Lines;
@@ -47,10 +46,7 @@ pub fn prepared(
 ) -> Result<Vec<Prepared>, String> {
     let (text, encoding) = text::decoded(bytes, Standard::Ssp, path);
     report.findings.extend(encoding.into_iter().map(|it| Finding { rule: related::EXPERIMENT, ..it }));
-    let read = Document::parse(&text)
-        .map_err(|error| format!("it is no well-formed XML: {error}"))
-        .and_then(|document| Ok((Experiments::read(&document)?, document)));
-    let (experiments, document) = match read {
+    let (experiments, document) = match parsed(&text, Experiments::read) {
         Ok(read) => read,
         Err(error) => {
             let message = format!("the experiments cannot be read: {error}");

@@ -51,10 +51,7 @@ pub fn check(
     let Some(bytes) = package.read(&path)? else { return Ok(Vec::new()) };
     let (text, encoding) = text::decoded(&bytes, Standard::Ssp, &path);
     report.findings.extend(encoding.into_iter().map(|it| warning(Finding { rule: related::HEAD, ..it })));
-    let manifest = Document::parse(&text)
-        .map_err(|error| format!("it is no well-formed XML: {error}"))
-        .and_then(|document| Ok((Manifest::read(&document)?, document)));
-    let (manifest, document) = match manifest {
+    let (manifest, document) = match parsed(&text, Manifest::read) {
         Ok(read) => read,
         Err(error) => {
             let message = format!("the manifest of the related files cannot be read: {error}");
@@ -88,6 +85,12 @@ pub fn check(
     let files = count(manifest.related.len(), "related file");
     report.done.push(format!("{files}, {} among them", count(prepared.len(), "experiment")));
     Ok(prepared)
+}
+
+/// A document, and what is read from it.
+fn parsed<T>(text: &str, read: fn(&Document) -> Result<T, String>) -> Result<(T, Document<'_>), String> {
+    let document = Document::parse(text).map_err(|error| format!("it is no well-formed XML: {error}"))?;
+    Ok((read(&document)?, document))
 }
 
 fn warning(finding: Finding) -> Finding {
