@@ -12,10 +12,11 @@
 //! comes `delay` seconds late is moved earlier by as much. What is no column's name is a formula of columns
 //! ([`super::formula`]). An offset `at rest` makes the signal zero while nothing moves at the start of the record.
 
+mod computed;
+
 use super::check::standstill;
 use super::formula::Formula;
 use super::interpolate::linear;
-use super::quantity::Quantity;
 use super::table::did_you_mean;
 use super::{Channel, DataError, Record, TimeColumn, units};
 use serde::Deserialize;
@@ -195,20 +196,11 @@ impl Map {
                 missing.push(wanted.name.clone());
                 continue;
             };
-            let values = match found {
-                Found::Column(index) => {
-                    used[index] = true;
-                    converted(&record, index, &source, wanted)?
-                }
-                Found::Formula(formula) => {
-                    for name in formula.columns() {
-                        let index = column(&record, name)
-                            .map_err(|problem| DataError::signal(&record.name, &wanted.name, problem))?;
-                        used[index] = true;
-                    }
-                    computed(&record, &formula, &source, wanted)?
-                }
+            let (columns, values) = match found {
+                Found::Column(index) => (vec![index], converted(&record, index, &source, wanted)?),
+                Found::Formula(formula) => computed::values(&record, &formula, &source, wanted)?,
             };
+            columns.into_iter().for_each(|index| used[index] = true);
             channels.push(corrected(&record, values, &source, wanted)?);
         }
         let unused = record.channels.iter().zip(used).filter(|(_, used)| !used);
@@ -230,7 +222,7 @@ impl Map {
             let unit = source.unit.as_deref();
             let found = match only(record, wanted, unit, |column| column.is_called(&source.column))? {
                 Some(index) => Found::Column(index),
-                None => Found::Formula(formula(record, name, &source.column)?),
+                None => Found::Formula(computed::read(record, name, &source.column)?),
             };
             return Ok(Some((found, source.signed(sign))));
         }
@@ -241,38 +233,6 @@ impl Map {
             }
         }
         Ok(None)
-    }
-}
-
-/// What is no column's name is a formula; a name alone is a column that does not exist.
-fn formula(record: &Record, name: &str, text: &str) -> Result<Formula, DataError> {
-    let formula = Formula::parse(text);
-    let problem = match formula {
-        Ok(formula) if !matches!(formula, Formula::Column(_)) => return Ok(formula),
-        Err(problem) if text.contains(['*', '+', '(', '{']) => {
-            format!("the map takes `{name}` from it, but {problem}")
-        }
-        _ => {
-            let hint = did_you_mean(text, record.channels.iter().map(|column| column.name.as_str()));
-            format!("the map takes `{name}` from it, but there is no such column{hint}")
-        }
-    };
-    Err(DataError::signal(&record.name, text, problem))
-}
-
-/// The column of a formula.
-fn column(record: &Record, name: &str) -> Result<usize, String> {
-    let of_the_name: Vec<usize> =
-        (0..record.channels.len()).filter(|it| record.channels[*it].is_called(name)).collect();
-    match of_the_name[..] {
-        [index] => Ok(index),
-        [] => {
-            let hint = did_you_mean(name, record.channels.iter().map(|column| column.name.as_str()));
-            Err(format!("its formula has the column `{name}`, and the file has none of that name{hint}"))
-        }
-        _ => Err(format!(
-            "its formula has the column `{name}`, and the file has several: write it with its unit in braces"
-        )),
     }
 }
 
@@ -313,6 +273,10 @@ pub fn plain(name: &str) -> String {
 /// A column in the model's unit. A column without a unit is in the model's.
 fn converted(record: &Record, index: usize, source: &Source, wanted: &Wanted) -> Result<Vec<f64>, DataError> {
     let column = &record.channels[index];
+    if !source.units.is_empty() {
+        let text = "`units` are those of a formula's columns; give this one's in the map as `unit`";
+        return Err(DataError::signal(&record.name, &column.name, text));
+    }
     let unit = source.unit.as_ref().unwrap_or(&column.unit);
     let unit = if unit.trim().is_empty() { &wanted.unit } else { unit };
     let conversion = units::conversion(unit, &wanted.unit).map_err(|problem| {
@@ -323,35 +287,6 @@ fn converted(record: &Record, index: usize, source: &Source, wanted: &Wanted) ->
         DataError::signal(&record.name, &column.name, text)
     })?;
     Ok(column.values.iter().map(|it| conversion.apply(*it)).collect())
-}
-
-/// A formula's values in the model's unit, SI.
-fn computed(
-    record: &Record,
-    formula: &Formula,
-    source: &Source,
-    wanted: &Wanted,
-) -> Result<Vec<f64>, DataError> {
-    let problem =
-        |text: String| DataError::signal(&record.name, &wanted.name, format!("its formula: {text}"));
-    let quantity = |name: &str| {
-        let column = &record.channels[column(record, name)?];
-        Quantity::new(&column.values, source.units.get(name).unwrap_or(&column.unit))
-    };
-    let found = formula.value(&quantity).map_err(problem)?;
-    if !found.is_of(&wanted.unit).map_err(problem)? {
-        let text = format!(
-            "the result is in {}, and {} is wanted; a column without a unit is a number: give it in the map, \
-             `units = {{ column = \"bar\" }}`",
-            found.unit(),
-            wanted.unit
-        );
-        return Err(problem(text));
-    }
-    Ok(match found.values[..] {
-        [one] => vec![one; record.time.len()],
-        _ => found.values,
-    })
 }
 
 /// The signal with its factor, offset and delay.

@@ -139,6 +139,12 @@ fn a_signal_may_be_computed_from_columns() {
         ("force = \"pA * pC\"", "column `pC`, and the file has none of that name"),
         ("force = \"pA * \"", "no formula at `*`"),
         ("force = \"pX\"", "there is no such column"),
+        ("force = { formula = \"pA * 1 m2\", unit = \"kN\" }", "has a unit of its own"),
+        (
+            "force = { formula = \"pA * 1 m2\", units = { pa = \"bar\" } }",
+            "`pa`, which is none of its columns",
+        ),
+        ("force = { column = \"pB\", units = { pB = \"N\" } }", "as `unit`"),
     ] {
         let message = error(&format!("[signals]\n{map}"), file(), &signals);
         assert!(message.contains(says), "{map}: {message}");
