@@ -91,25 +91,29 @@ impl Shape {
             Self::Triangle { frequency } => {
                 time.map(|t| amplitude * 2.0 / PI * (TAU * frequency * t).sin().asin()).collect()
             }
-            Self::Multisine { from, to } => multisine(time.collect(), amplitude, from, to),
+            Self::Multisine { from, to } => {
+                multisine(time, (from, to), duration).map(|it| amplitude * it).collect()
+            }
         }
     }
 
     /// The same shape, or a gentler one, and the amplitude with which its rate stays within a bound, in units per second.
     pub fn within_rate(self, amplitude: f64, rate: f64, duration: f64) -> (Self, f64) {
-        if let Self::Square { frequency, .. } = self {
-            // A cosine half wave of height 2 A has the rate π A/T in its middle.
-            let edge = (PI * amplitude / rate).clamp(EDGE, LONGEST_EDGE / frequency);
-            return (Self::Square { frequency, edge }, amplitude.min(rate * edge / PI));
-        }
         let steepest = match self {
+            Self::Square { frequency, .. } => {
+                // A cosine half wave of height 2 A has the rate π A/T in its middle.
+                let edge = (PI * amplitude / rate).clamp(EDGE, LONGEST_EDGE / frequency);
+                return (Self::Square { frequency, edge }, amplitude.min(rate * edge / PI));
+            }
             Self::Sine { frequency } => TAU * frequency,
             Self::Chirp { from, to } => TAU * from.max(to),
             Self::Triangle { frequency } => 4.0 * frequency,
-            Self::Square { .. } | Self::Multisine { .. } => {
-                let (from, to) = self.frequencies();
-                let step = 0.01 / to.unwrap_or(from);
-                let signal = self.signal(1.0, step, (duration / step) as usize);
+            Self::Multisine { from, to } => {
+                // To its very end: it may be steepest there.
+                let count = (100.0 * to * duration).ceil();
+                let step = duration / count;
+                let time = (0..=count as usize).map(|k| step * k as f64);
+                let signal: Vec<f64> = multisine(time, (from, to), duration).collect();
                 signal.windows(2).map(|pair| (pair[1] - pair[0]).abs() / step).fold(0.0, f64::max)
             }
         };
@@ -118,25 +122,28 @@ impl Shape {
 }
 
 /// Sines with the phases of M. R. Schroeder, Synthesis of low-peak-factor signals and binary sequences with low
-/// autocorrelation, IEEE Transactions on Information Theory 16 (1970), from rest; its largest value is the amplitude.
-fn multisine(time: Vec<f64>, amplitude: f64, from: f64, to: f64) -> Vec<f64> {
+/// autocorrelation, IEEE Transactions on Information Theory 16 (1970), from rest; its largest value over the duration is one.
+fn multisine(
+    time: impl Iterator<Item = f64>,
+    (from, to): (f64, f64),
+    duration: f64,
+) -> impl Iterator<Item = f64> {
     let count = ((to / from).ln() / SPACING.ln()).floor().max(0.0) as i32 + 1;
     let line = |k: i32| {
         let phase = -PI * f64::from(k) * f64::from(k + 1) / f64::from(count);
         (from * SPACING.powi(k), SPACING.powf(-0.5 * f64::from(k)), phase)
     };
     let lines: Vec<(f64, f64, f64)> = (0..count).map(line).collect();
-    let value = |t: f64| {
+    let value = move |t: f64| {
         let grown = (t / GROWING).min(1.0);
         let sum: f64 = lines.iter().map(|(f, a, phase)| a * (TAU * f * t + phase).sin()).sum();
         grown * grown * (3.0 - 2.0 * grown) * sum
     };
     // The peak is that between the samples, too: it must not depend on how often it is sampled.
-    let end = time.last().copied().unwrap_or(0.0);
     let fine = 5e-3 / to;
-    let peak =
-        (0..=(end / fine) as usize).map(|k| value(fine * k as f64).abs()).fold(f64::MIN_POSITIVE, f64::max);
-    time.into_iter().map(|t| amplitude * value(t) / peak).collect()
+    let moments = (0..=(duration / fine) as usize).map(|k| fine * k as f64);
+    let peak = moments.map(|t| value(t).abs()).fold(f64::MIN_POSITIVE, f64::max);
+    time.map(move |t| value(t) / peak)
 }
 
 /// What makes a signal outside of the diagnosis.
