@@ -14,6 +14,8 @@ mod tire;
 #[cfg(test)]
 mod tests;
 
+use serde::Deserialize;
+
 use crate::plant::Plant;
 use crate::signal::distortion::Fault;
 
@@ -124,7 +126,8 @@ impl Effect {
 }
 
 /// Where an effect acts; its parameters are measured in that element's own forces and motions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Element {
     /// Between body and wheel.
     Strut,

@@ -1,17 +1,18 @@
 //! The rigs that can be diagnosed: what each is made of, in the diagnosis's terms.
 
-mod actuated;
-mod drives;
-mod kinds;
+mod check;
+mod kind;
+
+use std::sync::Arc;
 
 use strut_model::{Declaration, ParameterSet, Value};
 use strut_physics::PARAMETER_SETS;
 
-use crate::catalogue::{self, Element};
+use crate::catalogue;
 use crate::data::table::did_you_mean;
-use crate::plant::Plant;
+use crate::plant::{Plant, models};
 
-use kinds::KINDS;
+pub use kind::{DrivenBy, ElementSignals, ForceOf, Inverse, Kind, Missing, Opposed};
 
 /// A rig to be diagnosed: a plant with the values of a parameter set.
 #[derive(Clone, Debug)]
@@ -33,142 +34,7 @@ pub struct Rig {
     /// Names of outputs that a record has as what drives the plant.
     pub taken: Vec<String>,
     /// What the diagnosis has to know of the model.
-    pub kind: &'static Kind,
-}
-
-/// A signal, and the other names that records have for it; `-name` is the negative.
-pub type Aliases = (&'static str, &'static [&'static str]);
-
-/// What the diagnosis has to know of a model.
-#[derive(Debug)]
-pub struct Kind {
-    plant: fn() -> Plant,
-    model: &'static str,
-    /// Parameters that are never quite those of a data sheet.
-    pub base: &'static [&'static str],
-    /// Where its elements' forces and motions are found.
-    pub elements: &'static [ElementSignals],
-    /// Other names of its signals in records.
-    pub aliases: &'static [Aliases],
-    /// Outputs that show a state of another name: output, state.
-    pub shown: &'static [(&'static str, &'static str)],
-    /// Outputs that follow from the inputs alone and show nothing.
-    pub trivial: &'static [&'static str],
-    /// A column in whose sense a signal is recorded if the column is there: of opposite sign to the model's.
-    pub opposed: Option<(&'static str, &'static str)>,
-    /// What the force that the model misses is made of: an output's error times a parameter, if any.
-    pub missing: &'static [Missing],
-    /// Longest section that is simulated in one go, in seconds: it bounds the memory, and how far a plant that
-    /// integrates its input may drift.
-    pub section: f64,
-    /// Ways in which it can be driven; empty if there is one only.
-    pub drives: &'static [DrivenBy],
-    /// What drives a virtual rig.
-    pub excitation: &'static [Excitation],
-}
-
-/// A way in which a plant can be driven.
-#[derive(Clone, Copy, Debug)]
-pub struct DrivenBy {
-    /// The setting that chooses it.
-    pub setting: &'static str,
-    /// The item of that setting.
-    pub item: &'static str,
-    /// The input that acts then.
-    pub input: &'static str,
-    /// Further nominal parameters that matter then.
-    pub base: &'static [&'static str],
-    /// Columns that are this input where none has its name.
-    pub columns: &'static [&'static str],
-    /// Outputs that follow from the inputs alone then.
-    pub trivial: &'static [&'static str],
-    /// What it takes for the inverse: the motion drives the model, and the force is compared.
-    pub inverse: Option<Inverse>,
-    /// Longest section then, in seconds, if it is not the kind's.
-    pub section: Option<f64>,
-}
-
-/// The inverse of a drive.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Inverse {
-    /// The output that is compared.
-    pub force: &'static str,
-    /// The input that is measured.
-    pub position: &'static str,
-    /// The input that is its second derivative.
-    pub acceleration: &'static str,
-    /// The output that says more where it is measured.
-    pub instead: &'static str,
-}
-
-/// A way in which a plant can be driven, forward: setting, item, input, columns.
-const fn driven(
-    setting: &'static str,
-    item: &'static str,
-    input: &'static str,
-    columns: &'static [&'static str],
-) -> DrivenBy {
-    DrivenBy { setting, item, input, base: &[], columns, trivial: &[], inverse: None, section: None }
-}
-
-/// A signal that drives a virtual rig.
-#[derive(Clone, Copy, Debug)]
-pub struct Excitation {
-    /// The input.
-    pub input: &'static str,
-    /// Amplitude of all its sines together, in the input's unit.
-    pub amplitude: f64,
-    /// Lowest and highest frequency in Hz.
-    pub band: (f64, f64),
-}
-
-/// Where an element's force and motion are found among a plant's outputs.
-#[derive(Clone, Copy, Debug)]
-pub struct ElementSignals {
-    /// The element.
-    pub element: Element,
-    /// Output with its deflection, or position.
-    pub deflection: &'static str,
-    /// Output with its velocity; none: the derivative of the deflection.
-    pub velocity: Option<&'static str>,
-    /// Where its force is found.
-    pub force: ForceOf,
-}
-
-/// Where an element's force is found.
-#[derive(Clone, Copy, Debug)]
-pub enum ForceOf {
-    /// In an output.
-    Output(&'static str),
-    /// In an input.
-    Input(&'static str),
-    /// A stiffness times the deflection and a damping rate times the velocity.
-    SpringAndDamper(&'static str, &'static str),
-    /// An output times a parameter, the lever with which it turns something.
-    Moment(&'static str, &'static str),
-}
-
-/// A force that the model misses, as it shows in an output.
-#[derive(Clone, Copy, Debug)]
-pub struct Missing {
-    /// What it is.
-    pub quantity: &'static str,
-    /// The output whose error shows it.
-    pub output: &'static str,
-    /// The parameter that makes it a force, and the sign.
-    pub factor: Option<(&'static str, f64)>,
-    /// The elements over whose motions it is shown.
-    pub over: &'static [Element],
-}
-
-impl ForceOf {
-    /// The signal that is the force, if there is one.
-    pub fn signal(self) -> Option<&'static str> {
-        match self {
-            Self::Output(name) | Self::Input(name) => Some(name),
-            Self::SpringAndDamper(..) | Self::Moment(..) => None,
-        }
-    }
+    pub kind: Arc<Kind>,
 }
 
 impl Rig {
@@ -183,10 +49,10 @@ impl Rig {
                 return Self::of(&set);
             }
         }
-        if let Some(kind) = KINDS.iter().find(|kind| kebab(kind.model) == name) {
+        if let Some(kind) = Kind::published().iter().find(|kind| kebab(&kind.model) == name) {
             return Self::of(&ParameterSet {
-                fmu: kind.model.into(),
-                model: kind.model.into(),
+                fmu: kind.model.clone(),
+                model: kind.model.clone(),
                 title: "The model's declared values".into(),
                 source: String::new(),
                 files: Vec::new(),
@@ -201,15 +67,16 @@ impl Rig {
 
     /// Every model that can be diagnosed, with its name.
     pub fn models() -> impl Iterator<Item = (&'static str, Plant)> {
-        KINDS.iter().map(|kind| (kind.model, (kind.plant)()))
+        let models = Kind::published().iter().filter_map(|kind| models::named(&kind.model));
+        models.map(|plant| (plant.name, plant))
     }
 
     /// Names of all published rigs.
     pub fn names() -> Vec<String> {
         let sets = PARAMETER_SETS.iter().filter_map(|(_, text)| ParameterSet::parse(text).ok());
-        let rigs = sets.filter(|set| KINDS.iter().any(|kind| kind.model == set.model));
+        let rigs = sets.filter(|set| Kind::published().iter().any(|kind| kind.model == set.model));
         let mut names: Vec<String> = rigs.map(|set| kebab(&set.fmu)).collect();
-        names.extend(KINDS.iter().map(|kind| kebab(kind.model)));
+        names.extend(Kind::published().iter().map(|kind| kebab(&kind.model)));
         names.sort();
         names
     }
@@ -219,11 +86,13 @@ impl Rig {
     /// # Errors
     /// If its model cannot be diagnosed, or a name or a value does not fit the model.
     pub fn of(set: &ParameterSet) -> Result<Self, String> {
-        let kind = KINDS.iter().find(|kind| kind.model == set.model).ok_or_else(|| {
-            let models: Vec<&str> = KINDS.iter().map(|kind| kind.model).collect();
+        let kinds = Kind::published();
+        let kind = kinds.iter().find(|kind| kind.model == set.model).ok_or_else(|| {
+            let models: Vec<&str> = kinds.iter().map(|kind| kind.model.as_str()).collect();
             format!("a {} cannot be diagnosed; give a set for one of {}", set.model, models.join(", "))
         })?;
-        let plant = (kind.plant)();
+        let plant = models::named(&kind.model)
+            .ok_or_else(|| format!("this program has no model `{}`", kind.model))?;
         let mut parameters: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
         let mut stated = vec![false; parameters.len()];
         let mut choices = plant.choices.clone();
@@ -255,41 +124,43 @@ impl Rig {
         let dynamics = plant.prepare(&choices)?;
         dynamics.check(&parameters)?;
         let (name, fmu, taken) = (kebab(&set.fmu), set.fmu.clone(), Vec::new());
-        Ok(Self { name, fmu, plant, parameters, stated, choices, start, taken, kind })
+        Ok(Self { name, fmu, plant, parameters, stated, choices, start, taken, kind: kind.clone() })
     }
 
     /// How it is driven; none if there is one way only.
-    pub fn driven(&self) -> Option<&'static DrivenBy> {
+    pub fn driven(&self) -> Option<&DrivenBy> {
         self.kind.drives.iter().find(|it| self.is_driven(it))
     }
 
     fn is_driven(&self, by: &DrivenBy) -> bool {
-        let Some(index) = self.plant.setting(by.setting) else { return false };
-        choice(&self.plant, index, &Value::Text(by.item.into())).as_ref() == Ok(&self.choices[index])
+        let Some(index) = self.plant.setting(&by.setting) else { return false };
+        choice(&self.plant, index, &Value::Text(by.item.clone())).as_ref() == Ok(&self.choices[index])
     }
 
     /// The ways in which the plant may be driven by what a record has; `has` tells whether there is a signal or a column of
     /// a name. The inverse comes first where the record has the force, too, then the rig's own way, and a signal's own
     /// name before a column's that may be it.
-    pub fn ways(&self, has: impl Fn(&str) -> bool) -> Vec<&'static DrivenBy> {
-        let drives = self.kind.drives;
+    pub fn ways(&self, has: impl Fn(&str) -> bool) -> Vec<DrivenBy> {
+        let drives = &self.kind.drives;
         let by_column = |it: &&DrivenBy| it.columns.iter().any(|column| has(column));
         let compared = |it: &&DrivenBy| {
-            let any = |signal: &'static str| self.called(signal).any(&has);
+            let any = |signal: &str| self.kind.called(signal).any(&has);
             // An accelerometer sees what differentiation loses.
-            let force = it.inverse.is_some_and(|inverse| any(inverse.force) && !any(inverse.instead));
-            force && (has(it.input) || by_column(it))
+            let inverse = it.inverse.as_ref();
+            let force = inverse.is_some_and(|inverse| any(&inverse.force) && !any(&inverse.instead));
+            force && (has(&it.input) || by_column(it))
         };
         let forward = || drives.iter().filter(|it| it.inverse.is_none());
-        let own = forward().filter(|it| self.is_driven(it) && has(it.input));
-        let by_name = forward().filter(|it| has(it.input));
-        drives.iter().filter(compared).chain(own).chain(by_name).chain(forward().filter(by_column)).collect()
-    }
-
-    /// A signal's own name and the others that it has in records.
-    fn called(&self, signal: &'static str) -> impl Iterator<Item = &'static str> {
-        let aliases = self.kind.aliases.iter().filter(move |(name, _)| *name == signal);
-        std::iter::once(signal).chain(aliases.flat_map(|(_, names)| *names).copied())
+        let own = forward().filter(|it| self.is_driven(it) && has(&it.input));
+        let by_name = forward().filter(|it| has(&it.input));
+        drives
+            .iter()
+            .filter(compared)
+            .chain(own)
+            .chain(by_name)
+            .chain(forward().filter(by_column))
+            .cloned()
+            .collect()
     }
 
     /// Drives the plant in this way by what a record has.
@@ -297,13 +168,13 @@ impl Rig {
     /// # Errors
     /// If the model does not know the choice.
     pub fn drive_by(&mut self, by: &DrivenBy, has: impl Fn(&str) -> bool) -> Result<(), String> {
-        if let Some(index) = self.plant.setting(by.setting) {
-            self.choices[index] = choice(&self.plant, index, &Value::Text(by.item.into()))?;
+        if let Some(index) = self.plant.setting(&by.setting) {
+            self.choices[index] = choice(&self.plant, index, &Value::Text(by.item.clone()))?;
         }
         self.taken.clear();
-        if !has(by.input) {
+        if !has(&by.input) {
             let column = by.columns.iter().find(|column| has(column));
-            self.taken.extend(column.map(|column| (*column).to_owned()));
+            self.taken.extend(column.cloned());
         }
         Ok(())
     }
@@ -315,8 +186,8 @@ impl Rig {
 
     /// Whether an output follows from the inputs alone.
     pub fn is_trivial(&self, output: &str) -> bool {
-        let driven = self.driven().map_or(&[][..], |by| by.trivial);
-        self.kind.trivial.iter().chain(driven).any(|it| *it == output)
+        let driven = self.driven().map_or(&[][..], |by| &by.follows_inputs);
+        self.kind.follows_inputs.iter().chain(driven).any(|it| *it == output)
     }
 
     /// Whether an input does nothing, since the plant is driven by another one.
@@ -330,8 +201,7 @@ impl Rig {
 
     /// The state that an output shows.
     pub fn shown(&self, output: &str) -> Option<usize> {
-        let named = self.kind.shown.iter().find(|(name, _)| *name == output).map(|(_, state)| *state);
-        self.plant.state(named.unwrap_or(output))
+        self.plant.state(self.kind.shows.get(output).map_or(output, String::as_str))
     }
 
     /// The input that one is the rate of: `road.velocity` is that of `road.position`.
@@ -360,8 +230,9 @@ impl Rig {
     }
 
     /// Names of the parameters that every model of the kind has, as it is driven.
-    pub fn nominal(&self) -> impl Iterator<Item = &'static str> {
-        self.kind.base.iter().chain(self.driven().map_or(&[][..], |it| it.base)).copied()
+    pub fn nominal(&self) -> impl Iterator<Item = &str> {
+        let driven = self.driven().map_or(&[][..], |it| &it.nominal);
+        self.kind.nominal.iter().chain(driven).map(String::as_str)
     }
 
     /// Indices of the parameters that are fitted first: those of the data sheet, and all of each effect that the rig has

@@ -64,8 +64,8 @@ impl Case {
     fn diagnosed(&self, hidden: &[(&str, f64)]) -> Said {
         let mut rig = Rig::published(self.rig).unwrap();
         if let Some(input) = self.drive {
-            let way = rig.ways(|name| name == input)[0];
-            rig.drive_by(way, |name| name == input).unwrap();
+            let way = rig.ways(|name| name == input).swap_remove(0);
+            rig.drive_by(&way, |name| name == input).unwrap();
         }
         let hidden = hidden.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
         let experiment = Experiment {

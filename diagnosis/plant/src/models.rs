@@ -5,21 +5,18 @@ use strut_physics::rigs::{ElementDyno, LinearDrive, QuarterCar, SasRig, ServoSus
 
 use crate::Plant;
 
-macro_rules! plants {
-    ($($name:ident: $model:ty;)*) => {$(
-        #[doc = concat!("`", stringify!($model), "`.")]
-        pub fn $name() -> Plant {
-            Plant::of::<$model>()
-        }
-    )*};
-}
+/// The models of the library.
+const ALL: [fn() -> Plant; 7] = [
+    Plant::of::<QuarterCar>,
+    Plant::of::<ElementDyno>,
+    Plant::of::<LinearDrive>,
+    Plant::of::<ExcitationMotor>,
+    Plant::of::<ServoSuspension>,
+    Plant::of::<PumpHydraulicActuator>,
+    Plant::of::<SasRig>,
+];
 
-plants! {
-    quarter_car: QuarterCar;
-    element_dyno: ElementDyno;
-    linear_drive: LinearDrive;
-    excitation_motor: ExcitationMotor;
-    servo_suspension: ServoSuspension;
-    pump_hydraulic_actuator: PumpHydraulicActuator;
-    sas_rig: SasRig;
+/// The model of a name.
+pub fn named(name: &str) -> Option<Plant> {
+    ALL.iter().map(|plant| plant()).find(|plant| plant.name == name)
 }

@@ -182,7 +182,7 @@ mod tests {
 
     /// A rig's outputs on a road, and how many steps they took.
     fn driven(named: &[(&str, f64)], finest: bool) -> (Vec<Vec<f64>>, usize) {
-        let plant = models::quarter_car();
+        let plant = models::named("QuarterCar").unwrap();
         let model = QuarterCar::prepare(&strut_model::Settings::starts(), None).unwrap();
         let mut parameters: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
         for (name, value) in named {

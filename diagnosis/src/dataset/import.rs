@@ -11,7 +11,7 @@ use crate::data::{
 use crate::dataset::recorded::{Dataset, Measured, Source};
 use crate::plant::Between;
 use crate::report::findings::DataProblem;
-use crate::rig::Rig;
+use crate::rig::{Opposed, Rig};
 
 use super::inverse::{self, Banded};
 
@@ -46,8 +46,8 @@ pub struct Loaded {
 pub fn load(rig: &mut Rig, origins: &[&Origin], map: &Map) -> Result<Loaded, String> {
     let has = names(rig, origins, map)?;
     for by in rig.ways(&has) {
-        rig.drive_by(by, &has)?;
-        let Some(inverse) = by.inverse else { break };
+        rig.drive_by(&by, &has)?;
+        let Some(inverse) = &by.inverse else { break };
         if let Ok(loaded) = forward(rig, origins, map)
             && let Some(Banded { records, note }) = inverse::banded(rig, &loaded.records, inverse)
         {
@@ -232,7 +232,7 @@ fn leave_out(values: &mut [f64], ranges: &[Range<usize>], time: &[f64], grid: &U
 
 /// Turns a signal over that is recorded in the sense of another one, unless a map says what it is.
 fn oppose(rig: &Rig, record: &mut Record, map: &Map) {
-    let Some((column, signal)) = rig.kind.opposed else { return };
+    let Some(Opposed { column, signal }) = &rig.kind.opposed else { return };
     let named = |name: &str, other: &str| name.trim().eq_ignore_ascii_case(other);
     if map.signals.is_empty() && record.channels.iter().any(|channel| named(&channel.name, column)) {
         for channel in record.channels.iter_mut().filter(|channel| named(&channel.name, signal)) {
@@ -244,7 +244,7 @@ fn oppose(rig: &Rig, record: &mut Record, map: &Map) {
 /// Every signal of a rig with the names that it may have.
 fn wanted(rig: &Rig) -> Vec<Wanted> {
     // What follows from the inputs the way the rig is driven has its column all the same: it explains nothing.
-    let shows = |name: &String| !rig.kind.trivial.contains(&name.as_str()) && !rig.taken.contains(name);
+    let shows = |name: &String| !rig.kind.follows_inputs.contains(name) && !rig.taken.contains(name);
     let outputs = rig.plant.outputs.iter().filter(|it| shows(&it.name));
     let driven = rig.driven();
     rig.plant
@@ -253,16 +253,15 @@ fn wanted(rig: &Rig) -> Vec<Wanted> {
         .filter(|declared| !rig.is_idle(&declared.name))
         .chain(outputs)
         .map(|declared| {
-            let aliases = rig.kind.aliases.iter().filter(|(name, _)| *name == declared.name);
-            let aliases = aliases.flat_map(|(_, aliases)| *aliases);
-            let columns = driven.filter(|it| it.input == declared.name).map_or(&[][..], |it| it.columns);
+            let columns = driven.filter(|it| it.input == declared.name).map_or(&[][..], |it| &it.columns);
             // A column that drives the rig is not what it did, too.
-            let aliases = aliases.filter(|it| !rig.taken.iter().any(|taken| taken == *it));
-            let aliases = aliases.chain(columns);
+            let aliases = rig.kind.aliases(&declared.name);
+            let aliases = aliases.filter(|it| !rig.taken.iter().any(|taken| taken == it));
+            let aliases = aliases.chain(columns.iter().map(String::as_str));
             Wanted {
                 name: declared.name.clone(),
                 unit: declared.unit.symbol.into(),
-                aliases: aliases.map(|alias| (*alias).to_owned()).collect(),
+                aliases: aliases.map(str::to_owned).collect(),
             }
         })
         .collect()

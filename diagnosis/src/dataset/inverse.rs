@@ -46,10 +46,10 @@ pub struct Banded {
 }
 
 /// The records in the widest band in which the position's noise makes up little of the force, if most of the force is in it.
-pub fn banded(rig: &Rig, records: &[Dataset], inverse: Inverse) -> Option<Banded> {
+pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Banded> {
     let signals = Signals {
-        force: rig.plant.output(inverse.force)?,
-        acceleration: rig.plant.input(inverse.acceleration)?,
+        force: rig.plant.output(&inverse.force)?,
+        acceleration: rig.plant.input(&inverse.acceleration)?,
     };
     // One band for all: in a wider one, what is fast would decide.
     let ends = records.iter().map(|record| Some(relevant(record, signals.force(record)?)));
@@ -77,7 +77,7 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: Inverse) -> Option<Banded
         inverse.position,
         100.0 * NEGLIGIBLE
     );
-    let note = DataProblem { record: "all".into(), signal: inverse.force.into(), text, fatal: false };
+    let note = DataProblem { record: "all".into(), signal: inverse.force.clone(), text, fatal: false };
     Some(Banded { records: banded.into_iter().map(|it| signals.moving(it)).collect(), note })
 }
 
@@ -255,9 +255,9 @@ mod tests {
     #[test]
     fn a_position_has_to_be_fine_where_the_mass_matters() {
         let rig = Rig::published("linear-drive").unwrap();
-        let inverse = rig.kind.drives.iter().find_map(|by| by.inverse).unwrap();
+        let inverse = rig.kind.drives.iter().find_map(|by| by.inverse.clone()).unwrap();
         let step = |mass: f64, noise: f64| {
-            banded(&rig, &[record(&rig, mass, noise)], inverse).map(|it| it.records[0].step)
+            banded(&rig, &[record(&rig, mass, noise)], &inverse).map(|it| it.records[0].step)
         };
         assert!(step(20.0, 1e-7).unwrap() < 0.01);
         // Half of the force is at 40 Hz, where nothing of the motion is left in such noise.

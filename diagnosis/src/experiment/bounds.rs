@@ -102,14 +102,14 @@ impl Baseline<'_> {
     /// The output that is the rig's stroke: the deflection of its first element that has one.
     fn stroke(&self) -> Option<usize> {
         let plant = &self.rig.plant;
-        let deflections = self.rig.kind.elements.iter().filter_map(|it| plant.output(it.deflection));
+        let deflections = self.rig.kind.elements.iter().filter_map(|it| plant.output(&it.deflection));
         deflections.into_iter().find(|output| matches!(plant.outputs[*output].unit.symbol, "m" | "rad"))
     }
 
     /// The measured output that is the rig's force.
     fn force(&self) -> Option<usize> {
-        let outputs = self.rig.kind.elements.iter().filter_map(|it| match it.force {
-            ForceOf::Output(name) => self.rig.plant.output(name),
+        let outputs = self.rig.kind.elements.iter().filter_map(|it| match &it.force {
+            ForceOf::Output { output: name } => self.rig.plant.output(name),
             _ => None,
         });
         let measured = &self.train.first()?.measured;

@@ -62,8 +62,8 @@ pub fn motions(
     let own = ports.get(port).filter(|it| !it.is_sensor())?;
     let before = ports[..port].iter().filter(|it| !it.is_sensor()).count();
     let element = rig.kind.elements.iter().find(|it| Some(it.element) == own.element)?;
-    let deflection = plant.output(element.deflection)?;
-    let velocity = element.velocity.and_then(|name| plant.output(name));
+    let deflection = plant.output(&element.deflection)?;
+    let velocity = element.velocity.as_ref().and_then(|name| plant.output(name));
     let motion = |(window, signals): (&Window, &Signals)| Motion {
         deflection: signals[deflection].clone(),
         velocity: velocity

@@ -81,12 +81,8 @@ pub fn sheet(rig: &Rig) -> String {
 
 /// Name, unit and description.
 fn signal(rig: &Rig, it: &Declaration) -> (String, String, String) {
-    let aliases = rig.kind.aliases.iter().filter(|(name, _)| *name == it.name);
-    let others: Vec<String> = aliases
-        .flat_map(|(_, names)| *names)
-        .filter(|name| **name != it.name)
-        .map(|it| format!("`{it}`"))
-        .collect();
+    let others = rig.kind.aliases(&it.name).filter(|name| *name != it.name);
+    let others: Vec<String> = others.map(|it| format!("`{it}`")).collect();
     let also = if others.is_empty() { String::new() } else { format!("; also {}", others.join(", ")) };
     (it.name.clone(), format!("[{}]", it.unit.symbol), format!("{}{also}", it.doc))
 }

@@ -31,8 +31,8 @@ pub fn typical(
         rms(&driven).max(1e-12)
     };
     let of = |element: &ElementSignals| {
-        let positions = signal(element.deflection);
-        let velocities = match element.velocity {
+        let positions = signal(&element.deflection);
+        let velocities = match &element.velocity {
             Some(name) => signal(name),
             None => {
                 let pairs = positions.iter().zip(records);
@@ -40,8 +40,8 @@ pub fn typical(
             }
         };
         let (deflection, velocity) = (magnitude(&positions), magnitude(&velocities));
-        let force = match element.force {
-            ForceOf::Output(name) => {
+        let force = match &element.force {
+            ForceOf::Output { output: name } => {
                 // Measured rather than simulated, where it is measured: the model may be far off.
                 let index = plant.output(name);
                 let measured: Vec<f64> = records
@@ -51,9 +51,11 @@ pub fn typical(
                     .collect();
                 if measured.is_empty() { magnitude(&signal(name)) } else { rms(&measured).max(1e-12) }
             }
-            ForceOf::Input(name) => driven(name),
-            ForceOf::Moment(force, lever) => (value(lever) * magnitude(&signal(force))).max(1e-12),
-            ForceOf::SpringAndDamper(stiffness, damping) => {
+            ForceOf::Input { input: name } => driven(name),
+            ForceOf::Moment { moment_of: force, lever } => {
+                (value(lever) * magnitude(&signal(force))).max(1e-12)
+            }
+            ForceOf::SpringAndDamper { stiffness, damping } => {
                 (value(stiffness) * deflection).hypot(value(damping) * velocity)
             }
         };

@@ -58,8 +58,8 @@ impl Diagnosis<'_> {
         let signals = self.baseline.rig.kind.elements.iter().find(|it| it.element == element);
         let (signal, otherwise, unit) = match scale {
             Scale::FORCE => (signals.and_then(|it| it.force.signal()), "force", "N"),
-            Scale::VELOCITY => (signals.and_then(|it| it.velocity), "velocity", "m/s"),
-            _ => (signals.map(|it| it.deflection), "deflection", "m"),
+            Scale::VELOCITY => (signals.and_then(|it| it.velocity.as_deref()), "velocity", "m/s"),
+            _ => (signals.map(|it| it.deflection.as_str()), "deflection", "m"),
         };
         let plant = &self.baseline.rig.plant;
         let name = signal.unwrap_or(otherwise);

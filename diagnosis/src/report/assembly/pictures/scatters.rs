@@ -16,7 +16,7 @@ impl Diagnosis<'_> {
     pub(super) fn scatters(&self) -> Vec<Binned> {
         let base = &self.found.base;
         let all = simulated(&self.baseline, &base.terms, &base.point, self.baseline.train);
-        let kind = self.baseline.rig.kind;
+        let kind = &self.baseline.rig.kind;
         let pairs = kind.missing.iter().flat_map(|missing| missing.over.iter().map(move |it| (missing, *it)));
         pairs
             .flat_map(|(missing, element)| {
@@ -35,10 +35,11 @@ impl Diagnosis<'_> {
     ) -> Option<Binned> {
         let plant = &self.baseline.rig.plant;
         let signals = self.baseline.rig.kind.elements.iter().find(|it| it.element == element)?;
-        let (output, position) = (plant.output(missing.output)?, plant.output(signals.deflection)?);
-        let factor = match missing.factor {
-            Some((name, sign)) => sign * self.found.base.point.parameters[plant.parameter(name)?],
-            None => 1.0,
+        let (output, position) = (plant.output(&missing.output)?, plant.output(&signals.deflection)?);
+        let sign = if missing.negative { -1.0 } else { 1.0 };
+        let factor = match &missing.times {
+            Some(name) => sign * self.found.base.point.parameters[plant.parameter(name)?],
+            None => sign,
         };
         // Variable, its rate, force.
         let mut points: Vec<(f64, f64, f64)> = Vec::new();
@@ -77,7 +78,7 @@ impl Diagnosis<'_> {
             Some(2.0 * (variance / n as f64).sqrt())
         });
         Some(Binned {
-            quantity: missing.quantity.into(),
+            quantity: missing.quantity.clone(),
             unit: "N".into(),
             variable: format!("{} {}", element.name(), if over_velocity { "velocity" } else { "deflection" }),
             variable_unit: if over_velocity { "m/s" } else { "m" }.into(),

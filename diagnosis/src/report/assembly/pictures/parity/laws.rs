@@ -87,7 +87,7 @@ struct Dyno {
 
 impl Dyno {
     fn of(element: &str, lift_off: &Value, named: impl Fn(&str) -> Option<f64>) -> Option<Self> {
-        let plant = models::element_dyno();
+        let plant = models::named("ElementDyno")?;
         let mut choices = plant.choices.clone();
         let clamped = plant.setting("element")?;
         choices[clamped] = choice(&plant, clamped, &Value::Text(element.into())).ok()?;

@@ -1,0 +1,226 @@
+//! What the diagnosis has to know of a model, as a file says it.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, LazyLock};
+
+use serde::Deserialize;
+
+use crate::catalogue::Element;
+
+/// What the diagnosis has to know of a model: the content of a rig file.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Kind {
+    /// The model.
+    pub model: String,
+    /// Parameters that are never quite those of a data sheet.
+    #[serde(default)]
+    pub nominal: Vec<String>,
+    /// Where its elements' forces and motions are found.
+    #[serde(default)]
+    pub elements: Vec<ElementSignals>,
+    /// Other names of its signals in records; `-name` is the negative.
+    #[serde(default)]
+    pub names: BTreeMap<String, Vec<String>>,
+    /// Outputs that show a state of another name: output, state.
+    #[serde(default)]
+    pub shows: BTreeMap<String, String>,
+    /// Outputs that follow from the inputs alone and show nothing.
+    #[serde(default)]
+    pub follows_inputs: Vec<String>,
+    /// A signal that is of opposite sign where records have a column.
+    pub opposed: Option<Opposed>,
+    /// What the force that the model misses is made of.
+    #[serde(default)]
+    pub missing: Vec<Missing>,
+    /// Longest section that is simulated in one go, in seconds: it bounds the memory, and how far a plant that
+    /// integrates its input may drift.
+    #[serde(default = "minute")]
+    pub section: f64,
+    /// Ways in which it can be driven; empty if there is one only.
+    #[serde(default)]
+    pub drives: Vec<DrivenBy>,
+    /// What drives a virtual rig.
+    #[serde(default)]
+    pub excitation: Vec<Excitation>,
+}
+
+/// Section of a plant that does not drift, in seconds.
+fn minute() -> f64 {
+    60.0
+}
+
+/// A signal that is recorded with the sense of a column, opposite to the model's, if the column is there.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Opposed {
+    /// The column.
+    pub column: String,
+    /// The signal.
+    pub signal: String,
+}
+
+/// A way in which a plant can be driven.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DrivenBy {
+    /// The setting that chooses it.
+    pub setting: String,
+    /// The item of that setting.
+    pub item: String,
+    /// The input that acts then.
+    pub input: String,
+    /// Further nominal parameters that matter then.
+    #[serde(default)]
+    pub nominal: Vec<String>,
+    /// Columns that are this input where none has its name.
+    #[serde(default)]
+    pub columns: Vec<String>,
+    /// Outputs that follow from the inputs alone then.
+    #[serde(default)]
+    pub follows_inputs: Vec<String>,
+    /// What it takes for the inverse: the motion drives the model, and the force is compared.
+    pub inverse: Option<Inverse>,
+    /// Longest section then, in seconds, if it is not the model's.
+    pub section: Option<f64>,
+}
+
+/// The inverse of a drive.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Inverse {
+    /// The output that is compared.
+    pub force: String,
+    /// The input that is measured.
+    pub position: String,
+    /// The input that is its second derivative.
+    pub acceleration: String,
+    /// The output that says more where it is measured.
+    pub instead: String,
+}
+
+/// A signal that drives a virtual rig.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Excitation {
+    /// The input.
+    pub input: String,
+    /// Amplitude of all its sines together, in the input's unit.
+    pub amplitude: f64,
+    /// Lowest and highest frequency in Hz.
+    pub band: (f64, f64),
+}
+
+/// Where an element's force and motion are found among a plant's outputs.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ElementSignals {
+    /// The element.
+    pub element: Element,
+    /// Output with its deflection, or position.
+    pub deflection: String,
+    /// Output with its velocity; none: the derivative of the deflection.
+    pub velocity: Option<String>,
+    /// Where its force is found.
+    pub force: ForceOf,
+}
+
+/// Where an element's force is found.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "write output, input, stiffness and damping, or moment_of and lever",
+    deny_unknown_fields
+)]
+pub enum ForceOf {
+    /// In an output.
+    Output {
+        /// The output.
+        output: String,
+    },
+    /// In an input.
+    Input {
+        /// The input.
+        input: String,
+    },
+    /// A stiffness times the deflection and a damping rate times the velocity.
+    SpringAndDamper {
+        /// The parameter of the stiffness.
+        stiffness: String,
+        /// The parameter of the damping rate.
+        damping: String,
+    },
+    /// An output times a parameter, the lever with which it turns something.
+    Moment {
+        /// The output.
+        moment_of: String,
+        /// The parameter.
+        lever: String,
+    },
+}
+
+/// A force that the model misses, as it shows in an output.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Missing {
+    /// What it is.
+    pub quantity: String,
+    /// The output whose error shows it.
+    pub output: String,
+    /// The parameter that makes it a force.
+    pub times: Option<String>,
+    /// Whether it counts in the other sense.
+    #[serde(default)]
+    pub negative: bool,
+    /// The elements over whose motions it is shown.
+    pub over: Vec<Element>,
+}
+
+impl ForceOf {
+    /// The signal that is the force, if there is one.
+    pub fn signal(&self) -> Option<&str> {
+        match self {
+            Self::Output { output: name } | Self::Input { input: name } => Some(name),
+            Self::SpringAndDamper { .. } | Self::Moment { .. } => None,
+        }
+    }
+}
+
+impl Kind {
+    /// Reads a rig file.
+    ///
+    /// # Errors
+    /// Where the text is no rig file, and what was expected there.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())
+    }
+
+    /// Those of the models of this library.
+    pub fn published() -> &'static [Arc<Self>] {
+        static KINDS: LazyLock<Vec<Arc<Kind>>> = LazyLock::new(|| {
+            let parsed = |text: &&str| Kind::parse(text).expect("a rig file of the library").into();
+            FILES.iter().map(parsed).collect()
+        });
+        &KINDS
+    }
+
+    /// A signal's own name and the others that it has in records.
+    pub fn called<'a>(&'a self, signal: &'a str) -> impl Iterator<Item = &'a str> {
+        std::iter::once(signal).chain(self.aliases(signal))
+    }
+
+    /// The other names of a signal in records.
+    pub fn aliases(&self, signal: &str) -> impl Iterator<Item = &str> {
+        self.names.get(signal).into_iter().flatten().map(String::as_str)
+    }
+}
+
+const FILES: [&str; 7] = [
+    include_str!("../../rigs/quarter-car.toml"),
+    include_str!("../../rigs/element-dyno.toml"),
+    include_str!("../../rigs/servo-suspension.toml"),
+    include_str!("../../rigs/pump-hydraulic-actuator.toml"),
+    include_str!("../../rigs/sas-rig.toml"),
+    include_str!("../../rigs/excitation-motor.toml"),
+    include_str!("../../rigs/linear-drive.toml"),
+];
