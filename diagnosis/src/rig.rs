@@ -1,6 +1,7 @@
 //! The rigs that can be diagnosed: what each is made of, in the diagnosis's terms.
 
 mod check;
+mod file;
 mod kind;
 
 use std::sync::Arc;
@@ -33,6 +34,8 @@ pub struct Rig {
     pub start: Vec<f64>,
     /// Names of outputs that a record has as what drives the plant.
     pub taken: Vec<String>,
+    /// Independently measured parameters: index, value and standard deviation.
+    pub known: Vec<(usize, f64, f64)>,
     /// What the diagnosis has to know of the model.
     pub kind: Arc<Kind>,
 }
@@ -65,10 +68,9 @@ impl Rig {
         Err(format!("there is no rig `{name}` (`diagnose rigs` lists them){hint}"))
     }
 
-    /// Every model that can be diagnosed, with its name.
-    pub fn models() -> impl Iterator<Item = (&'static str, Plant)> {
-        let models = Kind::published().iter().filter_map(|kind| models::named(&kind.model));
-        models.map(|plant| (plant.name, plant))
+    /// Every model of the library that can be diagnosed.
+    pub fn models() -> impl Iterator<Item = Plant> {
+        Kind::published().iter().filter_map(|kind| models::named(&kind.model))
     }
 
     /// Names of all published rigs.
@@ -93,12 +95,24 @@ impl Rig {
         })?;
         let plant = models::named(&kind.model)
             .ok_or_else(|| format!("this program has no model `{}`", kind.model))?;
+        let values = set.values.iter().map(|(name, given)| (name.as_str(), &given.value));
+        Self::made((kebab(&set.fmu), set.fmu.clone()), plant, kind.clone(), values)
+            .map_err(|error| format!("the parameter set {}: {error}", set.fmu))
+    }
+
+    /// A rig by its own name and its FMU's, with these values in place of declared ones.
+    fn made<'a>(
+        (name, fmu): (String, String),
+        plant: Plant,
+        kind: Arc<Kind>,
+        values: impl Iterator<Item = (&'a str, &'a Value)>,
+    ) -> Result<Self, String> {
         let mut parameters: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
         let mut stated = vec![false; parameters.len()];
         let mut choices = plant.choices.clone();
         let mut start: Vec<f64> = plant.states.iter().map(|it| it.start).collect();
-        for (name, given) in &set.values {
-            let number = match given.value {
+        for (name, given) in values {
+            let number = match *given {
                 Value::Real(number) => Some(number),
                 Value::Integer(number) => Some(f64::from(number)),
                 _ => None,
@@ -108,23 +122,25 @@ impl Rig {
                     parameters[index] = number;
                     stated[index] = true;
                 }
-                (_, Some(index), _) => choices[index] = choice(&plant, index, &given.value)?,
+                (_, Some(index), _) => choices[index] = choice(&plant, index, given)?,
                 (None, None, Some(number)) if plant.state(name).is_some() => {
                     plant.state(name).into_iter().for_each(|index| start[index] = number);
                 }
                 _ if name.starts_with("solver.") => {}
                 _ => {
+                    let all = plant.parameters.iter().map(|it| it.name.as_str());
+                    let hint = did_you_mean(name, all.chain(plant.settings.iter().map(|it| it.name)));
                     return Err(format!(
-                        "the parameter set {} gives `{name}`, which a {} does not have or not as a value of this kind",
-                        set.fmu, set.model
+                        "it gives `{name}`, which a {} does not have or not as a value of this kind{hint}",
+                        plant.name
                     ));
                 }
             }
         }
         let dynamics = plant.prepare(&choices)?;
         dynamics.check(&parameters)?;
-        let (name, fmu, taken) = (kebab(&set.fmu), set.fmu.clone(), Vec::new());
-        Ok(Self { name, fmu, plant, parameters, stated, choices, start, taken, kind: kind.clone() })
+        let (taken, known) = (Vec::new(), Vec::new());
+        Ok(Self { name, fmu, plant, parameters, stated, choices, start, taken, known, kind })
     }
 
     /// How it is driven; none if there is one way only.

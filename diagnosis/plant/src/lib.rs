@@ -3,27 +3,31 @@
 //! A model's equations are integrated over the samples of a record, with dual numbers for the derivatives. The
 //! derivatives are those of the integration itself, so that they belong to the outputs to the last digit.
 
+mod foreign;
 mod integrate;
 mod jet;
 pub mod models;
 mod pace;
 mod steps;
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use strut_model::{Bundle, Declaration, Declarations, Model, SettingDeclaration, Settings, Value};
 
 use integrate::{Equations, Run};
 
+pub use foreign::{Attachment, Foreign, Replaced};
 pub use steps::{Follower, Seen};
 
 /// Derivatives that are taken at once.
 const DIRECTIONS: usize = 8;
 
 /// A model as a predictor.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Plant {
     /// The model's name.
-    pub name: &'static str,
+    pub name: String,
     /// What drives it.
     pub inputs: Vec<Declaration>,
     /// What can be measured: its outputs, then those of its states that are outputs too.
@@ -48,20 +52,20 @@ impl Plant {
         let starts = M::Settings::starts();
         let settings = M::Settings::declare();
         Self {
-            name: M::ABOUT.name,
+            name: M::ABOUT.name.into(),
             inputs: Declarations::of::<M::Input<f64>>(),
             outputs,
             parameters: Declarations::of::<M::Parameters<f64>>(),
             states,
             choices: (0..settings.len()).filter_map(|index| starts.get(index)).collect(),
             settings,
-            prepare: |choices| {
+            prepare: Arc::new(|choices| {
                 let mut settings = M::Settings::starts();
                 for (index, choice) in choices.iter().enumerate() {
                     settings.set(index, choice.clone()).ok_or("a setting has a value of a wrong type")?;
                 }
                 Ok(Box::new(Equations { model: M::prepare(&settings, None)? }))
-            },
+            }),
         }
     }
 
@@ -99,8 +103,14 @@ impl Plant {
     }
 }
 
+impl std::fmt::Debug for Plant {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Plant").field("name", &self.name).finish_non_exhaustive()
+    }
+}
+
 /// Makes equations from choices.
-type Prepare = fn(&[Value]) -> Result<Box<dyn Dynamics>, String>;
+type Prepare = Arc<dyn Fn(&[Value]) -> Result<Box<dyn Dynamics>, String> + Send + Sync>;
 
 /// How signals go from sample to sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -77,8 +77,8 @@ pub enum Command {
 /// A diagnosis.
 #[derive(Args, Debug)]
 pub struct DiagnosisArguments {
-    /// The rig, e.g. tum-quarter-vehicle; `diagnose rigs` lists them
-    #[arg(long)]
+    /// The rig, e.g. tum-quarter-vehicle (`diagnose rigs` lists them), or a rig file: my-rig.toml
+    #[arg(long, value_name = "NAME|FILE")]
     pub rig: Option<String>,
 
     /// Parameter set (TOML) of the starting model, in place of a rig's

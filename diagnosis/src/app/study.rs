@@ -108,7 +108,8 @@ impl Study {
         }
         let test: Vec<Dataset> = records.split_off(self.train.len());
         problems.extend(witness::notes(&records, &test));
-        let options = Options { known: self.known.clone(), only: self.effects.clone(), deadline };
+        let known = [&self.rig.known[..], &self.known].concat();
+        let options = Options { known, only: self.effects.clone(), deadline };
         progress("removing the noise of the inputs");
         let whole = Split::new(&records, test);
         progress("comparing each column with the model");
@@ -150,13 +151,14 @@ impl Study {
     }
 }
 
-/// The rig of a name, with the parameters of a set (TOML) in place of its own if there is one; or the set's rig.
+/// The rig of a name or a rig file, with the parameters of a set (TOML) in place of its own if there is one; or the set's rig.
 ///
 /// # Errors
 /// If neither is given, the file cannot be read, or the set does not fit the rig: what to do.
 pub fn rig(name: Option<&str>, parameters: Option<&Path>) -> Result<Rig, String> {
     let path = match (parameters, name) {
         (Some(path), _) => path,
+        (None, Some(file)) if file.ends_with(".toml") => return Rig::read(Path::new(file)),
         (None, Some(name)) => return Rig::published(name),
         (None, None) => return Err(format!("which rig? Give --rig with one of {}", Rig::names().join(", "))),
     };

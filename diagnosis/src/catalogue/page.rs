@@ -32,7 +32,7 @@ What the diagnosis looks for, effect by effect. `diagnose effects` prints this p
 
 /// The whole page.
 pub fn page() -> String {
-    let models: Vec<(&str, Plant)> = Rig::models().collect();
+    let models: Vec<Plant> = Rig::models().collect();
     let works = Work::all();
     let mut page = Page { text: String::new(), models: &models, works: &works, cited: Vec::new() };
     for element in Element::ALL {
@@ -54,7 +54,7 @@ fn contents(text: &str) -> String {
 
 struct Page<'a> {
     text: String,
-    models: &'a [(&'static str, Plant)],
+    models: &'a [Plant],
     works: &'a [Work],
     /// Keys of the works that entries refer to.
     cited: Vec<&'static str>,
@@ -70,12 +70,12 @@ impl Page<'_> {
     }
 
     fn effect(&mut self, effect: &Effect) {
-        let models: Vec<&(&str, Plant)> = self.models.iter().filter(|(_, it)| effect.is_in(it)).collect();
+        let models: Vec<&Plant> = self.models.iter().filter(|it| effect.is_in(it)).collect();
         self.head(effect.id, effect.name, effect.equation);
         for part in effect.parts {
             let declared = models
                 .first()
-                .and_then(|(_, plant)| plant.parameter(part.parameter).map(|index| &plant.parameters[index]));
+                .and_then(|plant| plant.parameter(part.parameter).map(|index| &plant.parameters[index]));
             let line = parameter(part, effect.element, declared);
             let _ = writeln!(self.text, "- {line}");
         }
@@ -85,7 +85,7 @@ impl Page<'_> {
         let names: Vec<String> = effect.contains.iter().map(|id| numbered(effect.element, id)).collect();
         self.item("Special cases", &names.join(", "));
         self.when(effect.onset, effect.prevalence);
-        let names: Vec<&str> = models.iter().map(|(name, _)| *name).collect();
+        let names: Vec<&str> = models.iter().map(|it| it.name.as_str()).collect();
         self.foot(effect.experiment, &names.join(", "), effect.literature);
     }
 
@@ -157,8 +157,8 @@ impl Page<'_> {
         };
         self.models
             .iter()
-            .filter(|(_, plant)| is_sought(plant))
-            .map(|(name, _)| *name)
+            .filter(|plant| is_sought(plant))
+            .map(|plant| plant.name.as_str())
             .collect::<Vec<_>>()
             .join(", ")
     }
@@ -172,8 +172,8 @@ impl Page<'_> {
         for law in UNNAMED {
             self.head(law.id, &format!("unnamed {}", law.quantity), "a table over the variable");
             for table in TABLES.iter().filter(|it| it.law.id == law.id) {
-                let models = self.models.iter().filter(|(_, plant)| table.is_in(plant));
-                let names: Vec<&str> = models.map(|(name, _)| *name).collect();
+                let models = self.models.iter().filter(|plant| table.is_in(plant));
+                let names: Vec<&str> = models.map(|it| it.name.as_str()).collect();
                 let bounds = scaled(law.bounds, law.point, table.element);
                 let _ = writeln!(
                     self.text,

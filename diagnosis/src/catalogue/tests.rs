@@ -9,7 +9,7 @@ use super::*;
 use crate::rig::Rig;
 
 /// What is wrong with entries, in words.
-fn mistakes(effects: &[Effect], models: &[(&str, Plant)]) -> Vec<String> {
+fn mistakes(effects: &[Effect], models: &[Plant]) -> Vec<String> {
     let mut mistakes = Vec::new();
     let mut seen = BTreeSet::new();
     let keys: Vec<String> = Work::all().into_iter().map(|work| work.key).collect();
@@ -20,16 +20,16 @@ fn mistakes(effects: &[Effect], models: &[(&str, Plant)]) -> Vec<String> {
             wrong("the number is there twice".into());
         }
         for part in effect.parts {
-            if !models.iter().any(|(_, plant)| plant.parameter(part.parameter).is_some()) {
+            if !models.iter().any(|plant| plant.parameter(part.parameter).is_some()) {
                 wrong(format!("no model has the parameter `{}`", part.parameter));
             }
         }
         if let Some(setting) = effect.setting
-            && !models.iter().any(|(_, plant)| plant.setting(setting).is_some())
+            && !models.iter().any(|plant| plant.setting(setting).is_some())
         {
             wrong(format!("no model has the setting `{setting}`"));
         }
-        if !models.iter().any(|(_, plant)| effect.is_in(plant)) {
+        if !models.iter().any(|plant| effect.is_in(plant)) {
             wrong("no model has all of its parameters".into());
         }
         if effect.parts.is_empty() && effect.setting.is_none() {
@@ -42,7 +42,7 @@ fn mistakes(effects: &[Effect], models: &[(&str, Plant)]) -> Vec<String> {
         }
         if let Some(replaced) = effect.replaces {
             let is_own = |plant: &Plant| plant.inputs.iter().any(|it| it.name.starts_with(replaced.inputs));
-            if !models.iter().any(|(_, plant)| effect.is_in(plant) && is_own(plant)) {
+            if !models.iter().any(|plant| effect.is_in(plant) && is_own(plant)) {
                 wrong(format!("no model with it has an input `{}…`", replaced.inputs));
             }
         }
@@ -70,14 +70,14 @@ fn mistakes(effects: &[Effect], models: &[(&str, Plant)]) -> Vec<String> {
 
 #[test]
 fn every_entry_is_complete_and_means_what_models_have() {
-    let models: Vec<(&str, Plant)> = Rig::models().collect();
+    let models: Vec<Plant> = Rig::models().collect();
     let effects: Vec<Effect> = all().copied().collect();
     assert_eq!(mistakes(&effects, &models), Vec::<String>::new());
 }
 
 #[test]
 fn a_wrong_entry_is_noticed() {
-    let models: Vec<(&str, Plant)> = Rig::models().collect();
+    let models: Vec<Plant> = Rig::models().collect();
     let right = *all().next().unwrap();
     let told = |effect: Effect, text: &str| {
         let mistakes = mistakes(&[right, effect], &models);
@@ -99,11 +99,11 @@ fn a_wrong_entry_is_noticed() {
 
 #[test]
 fn every_table_is_in_some_model_and_of_a_published_kind() {
-    let models: Vec<(&str, Plant)> = Rig::models().collect();
+    let models: Vec<Plant> = Rig::models().collect();
     let keys: Vec<String> = Work::all().into_iter().map(|work| work.key).collect();
     for table in TABLES {
         let has = |plant: &Plant| table.is_in(plant) && plant.parameter(table.range).is_some();
-        assert!(models.iter().any(|(_, plant)| has(plant)), "{}", table.points);
+        assert!(models.iter().any(has), "{}", table.points);
         let same = |it: &&Table| {
             (it.law.id, it.element, it.variable) == (table.law.id, table.element, table.variable)
         };
@@ -148,14 +148,14 @@ fn a_number_of_a_signal_is_one_effect_or_a_family() {
 
 #[test]
 fn what_a_signal_s_name_ends_in_is_a_model_s_signal() {
-    let models: Vec<(&str, Plant)> = Rig::models().collect();
+    let models: Vec<Plant> = Rig::models().collect();
     for own in DISTORTIONS {
         for signal in Signal::ALL {
             let (Among::Ending(end) | Among::NotEnding(end)) = own.at(signal).among else { continue };
             let has = |plant: &Plant| {
                 plant.inputs.iter().chain(&plant.outputs).any(|declared| declared.name.ends_with(end))
             };
-            assert!(models.iter().any(|(_, plant)| has(plant)), "{end}");
+            assert!(models.iter().any(has), "{end}");
         }
     }
 }

@@ -18,7 +18,7 @@ const DIGITS: usize = 4;
 pub fn rigs() -> String {
     let rigs: Vec<Rig> = Rig::names().iter().filter_map(|name| Rig::published(name).ok()).collect();
     let width = |of: fn(&Rig) -> &str| rigs.iter().map(|rig| of(rig).width()).max().unwrap_or(0);
-    let (name, model) = (width(|rig| &rig.name), width(|rig| rig.plant.name));
+    let (name, model) = (width(|rig| &rig.name), width(|rig| &rig.plant.name));
     rigs.iter().fold(String::new(), |all, rig| {
         all + &format!("{:name$}  {:model$}  {}\n", rig.name, rig.plant.name, title(&rig.fmu))
     })

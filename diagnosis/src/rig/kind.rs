@@ -11,8 +11,11 @@ use crate::catalogue::Element;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Kind {
-    /// The model.
+    /// The model: one of the library by its name, or a file `….fmu`.
     pub model: String,
+    /// Values that differ from the model's own, in base units of the SI, or a setting's item.
+    #[serde(default)]
+    pub values: BTreeMap<String, Given>,
     /// Parameters that are never quite those of a data sheet.
     #[serde(default)]
     pub nominal: Vec<String>,
@@ -43,6 +46,29 @@ pub struct Kind {
     /// What drives a virtual rig.
     #[serde(default)]
     pub excitation: Vec<Excitation>,
+}
+
+/// A value that a rig file gives.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "write a number, a text, or { value = 94.4, deviation = 0.5 }",
+    deny_unknown_fields
+)]
+pub enum Given {
+    /// A parameter or a start value.
+    Number(f64),
+    /// Whether something is on.
+    Flag(bool),
+    /// An item of a setting.
+    Item(String),
+    /// A parameter that was measured independently.
+    Measured {
+        /// The value.
+        value: f64,
+        /// Its standard deviation.
+        deviation: f64,
+    },
 }
 
 /// Section of a plant that does not drift, in seconds.
@@ -123,6 +149,22 @@ pub struct ElementSignals {
     pub velocity: Option<String>,
     /// Where its force is found.
     pub force: ForceOf,
+    /// Inputs of a foreign model that take the force of a strut of the library, positive where it pulls the ends together;
+    /// `-name` takes the negative.
+    #[serde(default)]
+    pub acts_on: Vec<String>,
+    /// Parameters of a foreign model that the library's strut stands for.
+    pub replaces: Option<Replaced>,
+}
+
+/// Parameters that are zero while a strut of the library does what they did.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Replaced {
+    /// Spring rate.
+    pub stiffness: String,
+    /// Damping rate.
+    pub damping: String,
 }
 
 /// Where an element's force is found.

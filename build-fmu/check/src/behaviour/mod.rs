@@ -9,8 +9,8 @@ mod subject;
 use std::path::Path;
 
 pub use signs::Response;
-pub use subject::plain;
 use subject::{STEPS, Subject, read};
+pub use subject::{plain, uri};
 
 use crate::description::{Description, Kind};
 use crate::finding::{Finding, Report};

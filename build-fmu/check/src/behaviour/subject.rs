@@ -204,7 +204,7 @@ pub fn read(run: &Run) -> Vec<&Outcome> {
 }
 
 /// A path as an address (RFC 8089): what is no plain character is encoded.
-fn uri(path: &Path) -> String {
+pub fn uri(path: &Path) -> String {
     let mut uri = String::from("file://");
     let text = path.to_string_lossy().replace('\\', "/");
     if !text.starts_with('/') {

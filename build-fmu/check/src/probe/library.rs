@@ -55,9 +55,17 @@ pub struct Library {
     callbacks: Box<Callbacks>,
 }
 
+// SAFETY: the library's functions may be called from any thread, and the callbacks are never changed.
+unsafe impl Send for Library {}
+// SAFETY: as above.
+unsafe impl Sync for Library {}
+
 /// An instance; it is not freed by itself.
 #[derive(Clone, Copy)]
 pub struct Instance(Component);
+
+// SAFETY: an instance may be used by any thread, though by one at a time.
+unsafe impl Send for Instance {}
 
 /// A saved state.
 #[derive(Clone, Copy)]

@@ -14,8 +14,8 @@ use std::process::ExitCode;
 use serde::{Deserialize, Serialize};
 
 use crate::description::Kind;
-pub use library::ABSENT;
-use library::{Instance, Library, Saved};
+use library::Saved;
+pub use library::{ABSENT, Instance, Library, Status};
 pub use logger::Log;
 pub use memory::Memory;
 pub use process::{Ending, Probe, Run};

@@ -1,0 +1,259 @@
+//! A model of another maker as equations whose derivatives are differences: of the very integration, with its steps kept.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use rayon::prelude::*;
+use strut_model::Declaration;
+
+use crate::{Drive, Dynamics, Follower, Linearised, Seed, Seen, Signals};
+
+use super::beside::Beside;
+use super::exchange::Fmu;
+use super::lanes::Lanes;
+use super::walk::Walk;
+
+/// Smallest change of a parameter, relative to its value or its typical magnitude, that a difference is made with.
+const SMALL: f64 = 1e-6;
+/// Share of the outputs' magnitude that a change has to make, so that rounding is a millionth of it.
+const SEEN: f64 = 1e-8;
+/// Share that a change is made anew for if it was not seen, or was too large to be a derivative.
+const WANTED: f64 = 1e-6;
+
+/// An FMU, with or without an element beside it.
+#[derive(Clone, Debug)]
+pub struct Differences {
+    pub(super) fmu: Arc<Fmu>,
+    pub(super) beside: Option<Beside>,
+    /// Declared start or typical magnitude of each parameter, and of each state.
+    typical: [Vec<f64>; 2],
+    /// Changes that were found to be seen, by what was changed.
+    changes: Arc<Mutex<HashMap<(u8, usize), f64>>>,
+}
+
+/// What differs from the model as it is.
+pub(super) struct Changed<'a> {
+    pub parameters: Vec<f64>,
+    /// The states at the start, or their change.
+    pub start: Vec<f64>,
+    inputs: &'a [(usize, Vec<f64>)],
+    by: f64,
+}
+
+impl Changed<'_> {
+    pub fn input(&self, drive: &Drive, index: usize, sample: usize, share: f64) -> f64 {
+        let own = drive.value(&drive.inputs[index], sample, share);
+        let change = self.inputs.iter().find(|(input, _)| *input == index);
+        own + change.map_or(0.0, |(_, signal)| self.by * drive.value(signal, sample, share))
+    }
+}
+
+impl Differences {
+    pub fn new(
+        fmu: Arc<Fmu>,
+        beside: Option<Beside>,
+        parameters: &[Declaration],
+        states: &[Declaration],
+    ) -> Self {
+        let of = |it: &Declaration| if it.start == 0.0 { it.nominal.unwrap_or(0.0) } else { it.start.abs() };
+        let typical = [parameters, states].map(|all| all.iter().map(of).collect());
+        Self { fmu, beside, typical, changes: Arc::default() }
+    }
+
+    /// Refuses an element whose force changes its own motion at once.
+    pub fn refuse_loops(&self) -> Result<(), String> {
+        let Some(beside) = &self.beside else { return Ok(()) };
+        let parameters: Vec<f64> = self.fmu.parameters.iter().map(|it| it.start).collect();
+        let mut session = self
+            .fmu
+            .open(&parameters)
+            .ok_or_else(|| format!("{} refuses its own start values", self.fmu.name))?;
+        let start: Vec<f64> = self.fmu.states.iter().map(|it| it.start).collect();
+        let (outputs, inputs) = beside.ends();
+        let mut values: Vec<f64> = self.fmu.inputs.iter().map(|it| it.start).collect();
+        session.place(0.0, &start, &values);
+        let before = outputs.map(|output| session.output(output));
+        inputs.for_each(|input| values[input] += 1.0);
+        session.drive(&values);
+        if outputs.map(|output| session.output(output)) != before {
+            return Err(format!(
+                "{}: the strut's force changes its own deflection or velocity at once (an algebraic loop); name outputs \
+                 that follow from states",
+                self.fmu.name
+            ));
+        }
+        Ok(())
+    }
+
+    /// A model on its way, with these parameters; none if it refuses them.
+    pub(super) fn walk(&self, parameters: &[f64]) -> Option<Walk<'_>> {
+        let (own, further) = parameters.split_at(self.fmu.parameters.len());
+        let beside = self.beside.as_ref().map(|it| (it, it.set(further)));
+        Some(Walk::new(self.fmu.open(own)?, beside, self.typical[1].len()))
+    }
+
+    /// The outputs of a model that is changed; not a number from where it cannot be run.
+    fn run(&self, changed: &Changed<'_>, drive: &Drive, steps: Option<usize>) -> (Signals, usize) {
+        let count = self.fmu.outputs.len();
+        let mut signals = vec![Vec::with_capacity(drive.len()); count];
+        let mut state = changed.start.clone();
+        let mut walk = self.walk(&changed.parameters);
+        let steps = steps.unwrap_or_else(|| walk.as_mut().map_or(1, |walk| walk.steps(&state, drive)));
+        let (mut rates, mut outputs) = (vec![0.0; state.len()], vec![f64::NAN; count]);
+        for sample in 0..drive.len() {
+            if let Some(walk) = &mut walk {
+                let input = |i: usize| changed.input(drive, i, sample, 0.0);
+                walk.look(
+                    sample as f64 * drive.step,
+                    &state,
+                    (&input, drive.inputs.len()),
+                    &mut rates,
+                    Some(&mut outputs),
+                );
+                walk.settle(&mut state);
+                if sample + 1 < drive.len() {
+                    let input = |i: usize, share: f64| changed.input(drive, i, sample, share);
+                    walk.advance((sample, steps), drive, &mut state, &rates, &input);
+                }
+            }
+            signals.iter_mut().zip(&outputs).for_each(|(signal, value)| signal.push(*value));
+        }
+        (signals, steps)
+    }
+
+    /// What a seed is kept under, and the change to begin with.
+    fn change(&self, seed: &Seed, parameters: &[f64], start: &[f64]) -> ((u8, usize), f64) {
+        let of =
+            |value: f64, typical: f64| SMALL * if value == 0.0 { typical.max(SMALL) } else { value.abs() };
+        let (key, first) = match seed {
+            Seed::Parameter(index) => ((0, *index), of(parameters[*index], self.typical[0][*index])),
+            Seed::State(index) => ((1, *index), of(start[*index], self.typical[1][*index])),
+            Seed::Inputs(changes) => ((2, changes.first().map_or(0, |it| it.0)), SMALL),
+        };
+        let kept = self.changes.lock().unwrap_or_else(PoisonError::into_inner).get(&key).copied();
+        (key, kept.unwrap_or(first))
+    }
+
+    fn changed<'a>(parameters: &[f64], start: &[f64], seed: &'a Seed, by: f64) -> Changed<'a> {
+        let mut changed = Changed { parameters: parameters.to_vec(), start: start.to_vec(), inputs: &[], by };
+        match seed {
+            Seed::Parameter(index) => changed.parameters[*index] += by,
+            Seed::State(index) => changed.start[*index] += by,
+            Seed::Inputs(changes) => changed.inputs = changes,
+        }
+        changed
+    }
+
+    /// Slopes of the outputs with respect to a seed.
+    fn slopes(
+        &self,
+        (parameters, start): (&[f64], &[f64]),
+        drive: &Drive,
+        seed: &Seed,
+        base: &(Signals, usize),
+    ) -> Signals {
+        let (key, mut by) = self.change(seed, parameters, start);
+        let mut moved = Vec::new();
+        for attempt in 0..4 {
+            (moved, _) = self.run(&Self::changed(parameters, start, seed, by), drive, Some(base.1));
+            let share = share(&base.0, &moved);
+            if attempt == 3 || (SEEN..=1e3 * WANTED).contains(&share) {
+                break;
+            }
+            by *= if share == 0.0 { 1e4 } else { (WANTED / share).clamp(1e-6, 1e8) };
+        }
+        self.changes.lock().unwrap_or_else(PoisonError::into_inner).insert(key, by);
+        for (moved, base) in moved.iter_mut().zip(&base.0) {
+            moved.iter_mut().zip(base).for_each(|(moved, base)| *moved = (*moved - base) / by);
+        }
+        moved
+    }
+}
+
+/// Largest change of an output, in shares of its magnitude.
+fn share(base: &Signals, moved: &Signals) -> f64 {
+    let of = |(base, moved): (&Vec<f64>, &Vec<f64>)| {
+        let largest = base.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
+        let change = base.iter().zip(moved).fold(0.0_f64, |most, (a, b)| most.max((b - a).abs()));
+        if largest > 0.0 { change / largest } else { 0.0 }
+    };
+    base.iter().zip(moved).map(of).fold(0.0, f64::max)
+}
+
+impl Dynamics for Differences {
+    fn outputs(&self, parameters: &[f64], start: &[f64], drive: &Drive) -> Signals {
+        let changed =
+            Changed { parameters: parameters.to_vec(), start: start.to_vec(), inputs: &[], by: 0.0 };
+        self.run(&changed, drive, None).0
+    }
+
+    fn linearised(
+        &self,
+        parameters: &[f64],
+        start: &[f64],
+        drive: &Drive,
+        seeds: &[Seed],
+        wanted: &[usize],
+    ) -> Linearised {
+        let changed =
+            Changed { parameters: parameters.to_vec(), start: start.to_vec(), inputs: &[], by: 0.0 };
+        let base = self.run(&changed, drive, None);
+        let only = |signals: &Signals| wanted.iter().map(|output| signals[*output].clone()).collect();
+        let of = |seed: &Seed| only(&self.slopes((parameters, start), drive, seed, &base));
+        let slopes = seeds.par_iter().map(of).collect();
+        Linearised { outputs: only(&base.0), slopes }
+    }
+
+    fn followed(
+        &self,
+        parameters: &[f64],
+        start: &[f64],
+        drive: &Drive,
+        (seeds, wanted): (&[Seed], &[usize]),
+        follower: &mut dyn Follower,
+    ) {
+        let changes: Vec<f64> = seeds.iter().map(|seed| self.change(seed, parameters, start).1).collect();
+        let none = vec![0.0; start.len()];
+        let plain = Changed { parameters: parameters.to_vec(), start: none.clone(), inputs: &[], by: 0.0 };
+        let changed =
+            seeds.iter().zip(&changes).map(|(seed, by)| Self::changed(parameters, &none, seed, *by));
+        let Some(mut lanes) = Lanes::new(self, std::iter::once(plain).chain(changed), drive) else { return };
+        let mut state = start.to_vec();
+        let steps = lanes.steps(&state);
+        let count = seeds.len();
+        let (mut values, mut slopes) = (vec![0.0; wanted.len()], vec![0.0; wanted.len() * count]);
+        let mut advanced = vec![0.0; state.len() * count];
+        for sample in 0..drive.len() {
+            follower.state(sample, &mut state);
+            lanes.look(sample, &state);
+            for (row, output) in wanted.iter().enumerate() {
+                values[row] = lanes.output(0, *output);
+                for (seed, by) in changes.iter().enumerate() {
+                    slopes[row * count + seed] = (lanes.output(seed + 1, *output) - values[row]) / by;
+                }
+            }
+            follower.seen(
+                sample,
+                Seen { outputs: &values, slopes: &slopes, rates: lanes.rates() },
+                &mut state,
+            );
+            if sample + 1 == drive.len() {
+                return;
+            }
+            lanes.look(sample, &state);
+            lanes.advance(sample, steps);
+            state.copy_from_slice(lanes.next(0));
+            for (index, value) in state.iter().enumerate() {
+                for (seed, by) in changes.iter().enumerate() {
+                    advanced[index * count + seed] = (lanes.next(seed + 1)[index] - value) / by;
+                }
+            }
+            follower.advanced(sample, &state, &advanced);
+        }
+    }
+
+    fn check(&self, parameters: &[f64]) -> Result<(), String> {
+        let further = &parameters[self.fmu.parameters.len()..];
+        self.beside.as_ref().map_or(Ok(()), |it| it.check(further))
+    }
+}

@@ -1,0 +1,110 @@
+//! A model and changed versions of it, each one sample ahead of the same state: what derivatives of predictions are made of.
+
+use crate::Drive;
+
+use super::beside::Set;
+use super::differences::{Changed, Differences};
+use super::walk::Walk;
+
+/// The model as it is, then its changed versions.
+pub struct Lanes<'a> {
+    drive: &'a Drive,
+    walks: Vec<Walk<'a>>,
+    lanes: Vec<Lane<'a>>,
+}
+
+struct Lane<'a> {
+    changed: Changed<'a>,
+    set: Option<Set>,
+    /// Which of the walks it goes: all that have the model's own parameters share one.
+    walk: usize,
+    from: Vec<f64>,
+    rates: Vec<f64>,
+    outputs: Vec<f64>,
+    next: Vec<f64>,
+}
+
+impl<'a> Lanes<'a> {
+    /// None if the model refuses the parameters of one of them.
+    pub fn new(
+        model: &'a Differences,
+        all: impl Iterator<Item = Changed<'a>>,
+        drive: &'a Drive,
+    ) -> Option<Self> {
+        let own = model.fmu.parameters.len();
+        let (mut walks, mut lanes) = (Vec::new(), Vec::<Lane<'a>>::new());
+        for changed in all {
+            let same = |first: &Lane<'_>| first.changed.parameters[..own] == changed.parameters[..own];
+            let walk = if lanes.first().is_some_and(same) {
+                0
+            } else {
+                walks.push(model.walk(&changed.parameters)?);
+                walks.len() - 1
+            };
+            let set = model.beside.as_ref().map(|it| it.set(&changed.parameters[own..]));
+            let none = vec![0.0; changed.start.len()];
+            let outputs = vec![0.0; model.fmu.outputs.len()];
+            lanes.push(Lane {
+                changed,
+                set,
+                walk,
+                from: none.clone(),
+                rates: none.clone(),
+                outputs,
+                next: none,
+            });
+        }
+        Some(Self { drive, walks, lanes })
+    }
+
+    /// Steps between two samples that the model asks for.
+    pub fn steps(&mut self, state: &[f64]) -> usize {
+        self.walks.first_mut().map_or(1, |walk| walk.steps(state, self.drive))
+    }
+
+    /// Puts all of them in a state at a sample, each with its own change, and computes rates and outputs there.
+    pub fn look(&mut self, sample: usize, state: &[f64]) {
+        let Self { drive, walks, lanes } = self;
+        for lane in lanes {
+            let walk = &mut walks[lane.walk];
+            if let Some(set) = &lane.set {
+                walk.attach(set.clone());
+            }
+            let changes = state.iter().zip(&lane.changed.start);
+            lane.from.iter_mut().zip(changes).for_each(|(from, (state, change))| *from = state + change);
+            let input = |i: usize| lane.changed.input(drive, i, sample, 0.0);
+            let time = sample as f64 * drive.step;
+            let inputs = drive.inputs.len();
+            walk.look(time, &lane.from, (&input, inputs), &mut lane.rates, Some(&mut lane.outputs));
+        }
+    }
+
+    /// Goes to the next sample from where they are.
+    pub fn advance(&mut self, sample: usize, steps: usize) {
+        let Self { drive, walks, lanes } = self;
+        for lane in lanes {
+            let walk = &mut walks[lane.walk];
+            if let Some(set) = &lane.set {
+                walk.attach(set.clone());
+            }
+            lane.next.copy_from_slice(&lane.from);
+            let input = |i: usize, share: f64| lane.changed.input(drive, i, sample, share);
+            walk.advance((sample, steps), drive, &mut lane.next, &lane.rates, &input);
+        }
+    }
+
+    /// An output of one of them.
+    pub fn output(&self, lane: usize, index: usize) -> f64 {
+        self.lanes[lane].outputs[index]
+    }
+
+    /// The rates of the model as it is.
+    pub fn rates(&self) -> &[f64] {
+        &self.lanes[0].rates
+    }
+
+    /// The states of one of them at the next sample.
+    pub fn next(&self, lane: usize) -> &[f64] {
+        &self.lanes[lane].next
+    }
+}

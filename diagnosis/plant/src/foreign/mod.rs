@@ -1,0 +1,87 @@
+//! Models of other makers: an FMU (FMI 2.0, model exchange) as a predictor, alone or with an element of the library
+//! beside it.
+//!
+//! The FMU is run in this process. Who fears that it crashes has to be another process.
+
+mod beside;
+mod differences;
+mod exchange;
+mod lanes;
+mod units;
+mod walk;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use strut_model::{Declaration, unit};
+
+use crate::{Dynamics, Plant};
+
+use beside::Beside;
+use differences::Differences;
+use exchange::Fmu;
+
+pub use beside::{Attachment, Replaced};
+
+/// What a predictor is made of.
+#[derive(Clone, Debug)]
+pub struct Foreign {
+    /// The FMU.
+    pub fmu: PathBuf,
+    /// Its parameters that the diagnosis may change.
+    pub parameters: Vec<String>,
+    /// A strut of the library that acts beside the model.
+    pub strut: Option<Attachment>,
+}
+
+impl Foreign {
+    /// The FMU as a plant: its real inputs, outputs and states, and the parameters that were named, in base units of the
+    /// SI; those of the element beside it come after the FMU's own.
+    ///
+    /// # Errors
+    /// If the FMU cannot be read or run here, or lacks what was named: all of it in one text, with what to do.
+    pub fn plant(&self) -> Result<Plant, String> {
+        let replaced = self.strut.as_ref().and_then(|it| it.replaces.as_ref());
+        let taken: Vec<&str> =
+            replaced.iter().flat_map(|it| [it.stiffness.as_str(), it.damping.as_str()]).collect();
+        let fmu = Fmu::load(&self.fmu, &self.parameters, &taken)?;
+        let beside = self.strut.as_ref().map(|strut| Beside::new(&fmu, strut)).transpose()?;
+        let (mut parameters, mut states) = (fmu.parameters.clone(), fmu.states.clone());
+        if let Some(beside) = &beside {
+            parameters.extend(beside.parameters.iter().cloned());
+            states.extend(beside.states.iter().cloned());
+        }
+        let (name, inputs, outputs) = (fmu.name.clone(), fmu.inputs.clone(), fmu.outputs.clone());
+        let equations = Differences::new(fmu, beside, &parameters, &states);
+        equations.refuse_loops()?;
+        let prepare =
+            Arc::new(move |_: &[strut_model::Value]| Ok(Box::new(equations.clone()) as Box<dyn Dynamics>));
+        Ok(Plant {
+            name,
+            inputs,
+            outputs,
+            parameters,
+            states,
+            settings: Vec::new(),
+            choices: Vec::new(),
+            prepare,
+        })
+    }
+}
+
+/// A declaration of what nobody told more of than its name.
+fn plain(name: &str) -> Declaration {
+    Declaration {
+        name: name.into(),
+        doc: String::new(),
+        unit: unit::ANY,
+        start: 0.0,
+        min: None,
+        max: None,
+        nominal: None,
+        fixed: false,
+        output: false,
+        port: false,
+        element: None,
+    }
+}

@@ -1,0 +1,160 @@
+//! A rig that a file describes, with a model of the library or of another maker.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::Path;
+
+use strut_model::Value;
+
+use crate::catalogue::Element;
+use crate::plant::{self, Attachment, Foreign, Plant, models};
+
+use super::Rig;
+use super::kind::{ElementSignals, Given, Kind};
+
+/// What names of the parameters begin with that an attached strut has.
+const OF_STRUT: [&str; 2] = ["strut.", "hysteresis."];
+
+impl Rig {
+    /// Reads a rig file. Paths in it are relative to its folder.
+    ///
+    /// # Errors
+    /// If the file or its model cannot be read, or names what the model does not have: all of it, with what to do.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let failed = |error: String| format!("`{}`: {error}", path.display());
+        let text = fs::read_to_string(path).map_err(|error| failed(error.to_string()))?;
+        let kind = Kind::parse(&text).map_err(failed)?;
+        // What a file does not say of a model of the library is as the library's own file has it.
+        let own = Kind::published().iter().find(|it| it.model == kind.model);
+        let kind = own.map_or_else(|| kind.clone(), |own| kind.clone().completed(own));
+        let plant = kind.plant(path.parent().unwrap_or(Path::new("."))).map_err(failed)?;
+        let mistakes = kind.mistakes(&plant);
+        if !mistakes.is_empty() {
+            return Err(failed(mistakes.join("\n  ")));
+        }
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let fmu = plant.name.clone();
+        let values: Vec<(&str, Value)> =
+            kind.values.iter().map(|(name, given)| (name.as_str(), given.value())).collect();
+        let given = values.iter().map(|(name, value)| (*name, value));
+        let mut rig = Self::made((name, fmu), plant, kind.clone().into(), given).map_err(failed)?;
+        for (name, given) in &kind.values {
+            if let Given::Measured { value, deviation } = given {
+                let index = rig.plant.parameter(name).ok_or_else(|| {
+                    failed(format!("values, {name}: only a parameter may have a deviation"))
+                })?;
+                if !deviation.is_finite() || *deviation <= 0.0 {
+                    return Err(failed(format!(
+                        "values, {name}: the deviation has to be finite and positive"
+                    )));
+                }
+                rig.known.push((index, *value, *deviation));
+            }
+        }
+        if rig.kind.is_foreign() {
+            // Who made the model said what its parameters are; of the library's strut nobody has said anything.
+            let own =
+                rig.plant.parameters.iter().map(|it| !OF_STRUT.iter().any(|of| it.name.starts_with(of)));
+            rig.stated.iter_mut().zip(own).for_each(|(stated, own)| *stated |= own);
+        }
+        Ok(rig)
+    }
+}
+
+impl Given {
+    fn value(&self) -> Value {
+        match self {
+            Self::Number(value) | Self::Measured { value, .. } => Value::Real(*value),
+            Self::Flag(flag) => Value::Boolean(*flag),
+            Self::Item(item) => Value::Text(item.clone()),
+        }
+    }
+}
+
+impl Kind {
+    /// Whether the model is another maker's FMU.
+    pub fn is_foreign(&self) -> bool {
+        Path::new(&self.model)
+            .extension()
+            .and_then(OsStr::to_str)
+            .is_some_and(|it| it.eq_ignore_ascii_case("fmu"))
+    }
+
+    fn plant(&self, folder: &Path) -> Result<Plant, String> {
+        if !self.is_foreign() {
+            return models::named(&self.model).ok_or_else(|| {
+                let names: Vec<&str> = Self::published().iter().map(|it| it.model.as_str()).collect();
+                format!(
+                    "model: there is no `{}`; name a file with the ending .fmu, or one of {}",
+                    self.model,
+                    names.join(", ")
+                )
+            });
+        }
+        let is_own = |name: &&String| !OF_STRUT.iter().any(|of| name.starts_with(of));
+        let mut parameters: Vec<String> = self.nominal.iter().filter(is_own).cloned().collect();
+        let given = self.values.keys().filter(is_own).filter(|name| !parameters.contains(name));
+        parameters.extend(given.cloned().collect::<Vec<_>>());
+        let attached: Vec<&ElementSignals> =
+            self.elements.iter().filter(|it| !it.acts_on.is_empty()).collect();
+        let strut = match attached[..] {
+            [] => None,
+            [element] if element.element == Element::Strut => Some(element.attachment()?),
+            _ => return Err("elements: acts_on is for one element, the strut".into()),
+        };
+        Foreign { fmu: folder.join(&self.model), parameters, strut }.plant()
+    }
+
+    /// Takes from another what is not said here.
+    fn completed(mut self, other: &Self) -> Self {
+        let Self {
+            model: _,
+            values,
+            nominal,
+            elements,
+            names,
+            shows,
+            follows_inputs,
+            opposed,
+            missing,
+            drives,
+            excitation,
+            section: _,
+        } = other.clone();
+        fn or<T: IntoIterator + Clone>(own: &mut T, other: T) {
+            if own.clone().into_iter().next().is_none() {
+                *own = other;
+            }
+        }
+        or(&mut self.values, values);
+        or(&mut self.nominal, nominal);
+        or(&mut self.elements, elements);
+        for (signal, others) in names {
+            self.names.entry(signal).or_default().extend(others);
+        }
+        or(&mut self.shows, shows);
+        or(&mut self.follows_inputs, follows_inputs);
+        self.opposed = self.opposed.or(opposed);
+        or(&mut self.missing, missing);
+        or(&mut self.drives, drives);
+        or(&mut self.excitation, excitation);
+        self
+    }
+}
+
+impl ElementSignals {
+    fn attachment(&self) -> Result<Attachment, String> {
+        let velocity =
+            self.velocity.clone().ok_or("elements, strut: a strut that acts on inputs needs its velocity")?;
+        let factor = |name: &String| match name.strip_prefix('-') {
+            Some(name) => (name.to_owned(), -1.0),
+            None => (name.clone(), 1.0),
+        };
+        let replaces = self
+            .replaces
+            .as_ref()
+            .map(|it| plant::Replaced { stiffness: it.stiffness.clone(), damping: it.damping.clone() });
+        let deflection = self.deflection.clone();
+        Ok(Attachment { deflection, velocity, acts_on: self.acts_on.iter().map(factor).collect(), replaces })
+    }
+}
