@@ -2,6 +2,7 @@
 
 pub mod cli;
 pub mod completions;
+mod guard;
 pub mod run;
 pub mod study;
 pub mod virtual_rig;

@@ -12,6 +12,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::app::cli::{Arguments, Command, DiagnosisArguments, SimulateArguments};
 use crate::app::completions;
+use crate::app::guard;
 use crate::app::study::{self, Outcome, Study};
 use crate::app::virtual_rig::{self, Experiment};
 use crate::catalogue;
@@ -34,6 +35,9 @@ pub fn main() -> ExitCode {
 
 /// Runs a command line; failures are printed on stderr.
 pub fn execute(arguments: &Arguments) -> ExitCode {
+    if let Some(code) = guard::elsewhere(arguments) {
+        return code;
+    }
     let done = match (&arguments.command, &arguments.diagnosis) {
         (Some(Command::Simulate(arguments)), _) => simulate(arguments),
         (Some(Command::Rigs { name: None }), _) => {

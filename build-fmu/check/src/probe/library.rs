@@ -1,4 +1,5 @@
-//! A library of FMI 2.0 behind functions without `unsafe`: here, in [`memory`] and in [`logger`] is all of it.
+//! A library of FMI 2.0 behind functions without `unsafe`: here, in [`exchange`](super::exchange), in
+//! [`memory`] and in [`logger`] is all of it.
 //!
 //! What the library does with its memory is beyond anyone's control. That is why it is loaded in a process
 //! of its own.
@@ -9,6 +10,7 @@ use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::path::Path;
 use std::ptr::null_mut;
 
+use super::exchange::Functions;
 use super::{logger, memory};
 
 /// What a call came to: fmi2OK is 0, fmi2Error 3, fmi2Fatal 4.
@@ -17,7 +19,7 @@ pub type Status = c_int;
 /// A status of our own: the function is not there, or an instance is missing.
 pub const ABSENT: Status = -1;
 
-type Component = *mut c_void;
+pub(super) type Component = *mut c_void;
 type Logger = unsafe extern "C" fn(*mut c_void, *const c_char, Status, *const c_char, *const c_char);
 
 /// `fmi2CallbackFunctions`. The logger is variadic; the further arguments are left alone, which the
@@ -31,18 +33,6 @@ struct Callbacks {
     environment: *mut c_void,
 }
 
-/// `fmi2EventInfo`.
-#[repr(C)]
-#[derive(Default)]
-struct EventInfo {
-    again: c_int,
-    terminate: c_int,
-    nominals_changed: c_int,
-    states_changed: c_int,
-    next_event_defined: c_int,
-    next_event: f64,
-}
-
 /// An error with what the system says of it.
 fn words(error: &libloading::Error) -> String {
     std::error::Error::source(error).map_or_else(|| error.to_string(), |source| format!("{error}: {source}"))
@@ -50,9 +40,11 @@ fn words(error: &libloading::Error) -> String {
 
 /// A loaded library.
 pub struct Library {
-    library: libloading::Library,
+    pub(super) library: libloading::Library,
     // Instances keep a pointer to it.
     callbacks: Box<Callbacks>,
+    /// What an integration calls all the time.
+    pub(super) exchange: Functions,
 }
 
 // SAFETY: the library's functions may be called from any thread, and the callbacks are never changed.
@@ -62,7 +54,7 @@ unsafe impl Sync for Library {}
 
 /// An instance; it is not freed by itself.
 #[derive(Clone, Copy)]
-pub struct Instance(Component);
+pub struct Instance(pub(super) Component);
 
 // SAFETY: an instance may be used by any thread, though by one at a time.
 unsafe impl Send for Instance {}
@@ -82,6 +74,8 @@ macro_rules! call {
         }
     }};
 }
+
+pub(super) use call;
 
 impl Library {
     /// Loads a library.
@@ -106,7 +100,9 @@ impl Library {
             step_finished: None,
             environment: null_mut(),
         });
-        Ok(Self { library: library.map_err(|error| words(&error))?, callbacks })
+        let library = library.map_err(|error| words(&error))?;
+        let exchange = Functions::of(&library);
+        Ok(Self { library, callbacks, exchange })
     }
 
     /// The library's word on a version or platform; none if the function is not there or says nothing.
@@ -197,20 +193,6 @@ impl Library {
         )
     }
 
-    /// `fmi2GetReal`.
-    pub fn reals(&self, instance: Instance, references: &[u32], values: &mut [f64]) -> Status {
-        let count = references.len().min(values.len());
-        call!(
-            self.library,
-            "fmi2GetReal",
-            instance,
-            (*const u32, usize, *mut f64),
-            references.as_ptr(),
-            count,
-            values.as_mut_ptr()
-        )
-    }
-
     /// `fmi2GetInteger` or `fmi2GetBoolean`.
     pub fn integers(
         &self,
@@ -251,20 +233,6 @@ impl Library {
             }));
         }
         status
-    }
-
-    /// `fmi2SetReal`.
-    pub fn set_reals(&self, instance: Instance, references: &[u32], values: &[f64]) -> Status {
-        let count = references.len().min(values.len());
-        call!(
-            self.library,
-            "fmi2SetReal",
-            instance,
-            (*const u32, usize, *const f64),
-            references.as_ptr(),
-            count,
-            values.as_ptr()
-        )
     }
 
     /// `fmi2SetRealInputDerivatives`: first derivatives.
@@ -368,72 +336,5 @@ impl Library {
             &raw mut state
         );
         (status, Saved(state))
-    }
-
-    /// `fmi2GetDirectionalDerivative` towards one known.
-    pub fn directional(
-        &self,
-        instance: Instance,
-        unknowns: &[u32],
-        known: u32,
-        values: &mut [f64],
-    ) -> Status {
-        let (seed, count) = (1.0, unknowns.len().min(values.len()));
-        call!(
-            self.library,
-            "fmi2GetDirectionalDerivative",
-            instance,
-            (*const u32, usize, *const u32, usize, *const f64, *mut f64),
-            unknowns.as_ptr(),
-            count,
-            &raw const known,
-            1,
-            &raw const seed,
-            values.as_mut_ptr()
-        )
-    }
-
-    /// `fmi2NewDiscreteStates`: whether it wants to be called again, and whether to be ended.
-    pub fn new_discrete_states(&self, instance: Instance) -> (Status, bool, bool) {
-        let mut info = EventInfo::default();
-        let status = call!(self.library, "fmi2NewDiscreteStates", instance, (*mut EventInfo), &raw mut info);
-        (status, info.again != 0, info.terminate != 0)
-    }
-
-    /// `fmi2CompletedIntegratorStep`: whether events are to be handled.
-    pub fn completed_step(&self, instance: Instance) -> (Status, bool) {
-        let (mut event, mut terminate) = (0, 0);
-        let status = call!(
-            self.library,
-            "fmi2CompletedIntegratorStep",
-            instance,
-            (c_int, *mut c_int, *mut c_int),
-            1,
-            &raw mut event,
-            &raw mut terminate
-        );
-        (status, event != 0)
-    }
-
-    /// `fmi2SetTime`.
-    pub fn set_time(&self, instance: Instance, time: f64) -> Status {
-        call!(self.library, "fmi2SetTime", instance, (f64), time)
-    }
-
-    /// A function that writes an array: `fmi2GetDerivatives` and its like.
-    pub fn array(&self, function: &str, instance: Instance, values: &mut [f64]) -> Status {
-        call!(self.library, function, instance, (*mut f64, usize), values.as_mut_ptr(), values.len())
-    }
-
-    /// `fmi2SetContinuousStates`.
-    pub fn set_states(&self, instance: Instance, values: &[f64]) -> Status {
-        call!(
-            self.library,
-            "fmi2SetContinuousStates",
-            instance,
-            (*const f64, usize),
-            values.as_ptr(),
-            values.len()
-        )
     }
 }

@@ -1,5 +1,6 @@
 //! What another process does with a library, act by act, and what came of it.
 
+mod exchange;
 mod library;
 mod logger;
 mod memory;
@@ -351,7 +352,7 @@ fn euler(
         let fine = |status: i32| if (0..=1).contains(&status) { Ok(()) } else { Err(status) };
         if states > 0 {
             fine(library.array("fmi2GetContinuousStates", instance, &mut x))?;
-            fine(library.array("fmi2GetDerivatives", instance, &mut rates))?;
+            fine(library.rates(instance, &mut rates))?;
         }
         fine(library.set_time(instance, time + size))?;
         if states > 0 {

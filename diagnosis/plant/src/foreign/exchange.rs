@@ -262,7 +262,7 @@ impl Session {
     /// The rates of change of all states there, in base units; not a number after a failure.
     pub fn rates(&mut self, rates: &mut [f64]) {
         if !rates.is_empty() {
-            self.failed |= !fine(self.fmu.library.array("fmi2GetDerivatives", self.instance, rates));
+            self.failed |= !fine(self.fmu.library.rates(self.instance, rates));
         }
         for (rate, conversion) in rates.iter_mut().zip(&self.fmu.of_states) {
             *rate = if self.failed { f64::NAN } else { conversion.si_rate(*rate) };

@@ -1,0 +1,104 @@
+//! A process of its own for a diagnosis that runs another maker's FMU: what that does wrong ends the process, and is told.
+
+use std::env;
+use std::path::Path;
+use std::process::{Child, Command, ExitCode, ExitStatus};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use crate::app::cli::Arguments;
+use crate::rig::Kind;
+
+/// Set in the process that runs the FMU.
+const INSIDE: &str = "STRUT_RUNS_FMU";
+/// How much longer than the time limit the process may live: the report and the page are written afterwards.
+const GRACE: Duration = Duration::from_secs(60);
+
+/// Runs the command line in a process of its own if it takes another maker's FMU; none if it takes none.
+pub fn elsewhere(arguments: &Arguments) -> Option<ExitCode> {
+    let diagnosis = arguments.diagnosis.as_ref().filter(|_| arguments.command.is_none())?;
+    let file = diagnosis.rig.as_deref().filter(|it| it.ends_with(".toml"))?;
+    // What is wrong with the file is told where it is read.
+    let kind = Kind::parse(&std::fs::read_to_string(file).ok()?).ok()?;
+    if !kind.is_foreign() || env::var_os(INSIDE).is_some() {
+        return None;
+    }
+    let fmu = Path::new(file).with_file_name(&kind.model);
+    let limit = Duration::from_secs(diagnosis.time_limit).saturating_add(GRACE);
+    Some(match run(limit) {
+        Ok(status) => match told(status, &fmu) {
+            None => ExitCode::from(u8::try_from(status.code().unwrap_or(1)).unwrap_or(1)),
+            Some(text) => failed(&text),
+        },
+        Err(text) => failed(&text),
+    })
+}
+
+fn failed(text: &str) -> ExitCode {
+    eprintln!("error: {text}");
+    ExitCode::FAILURE
+}
+
+/// This very command line in another process; its end.
+fn run(limit: Duration) -> Result<ExitStatus, String> {
+    let started = |error: std::io::Error| format!("cannot start a process for the FMU: {error}");
+    let program = env::current_exe().map_err(started)?;
+    let mut child =
+        Command::new(program).args(env::args_os().skip(1)).env(INSIDE, "1").spawn().map_err(started)?;
+    ended(&mut child, limit)
+}
+
+fn ended(child: &mut Child, limit: Duration) -> Result<ExitStatus, String> {
+    let begin = Instant::now();
+    loop {
+        match child.try_wait() {
+            Ok(Some(status)) => return Ok(status),
+            Ok(None) if begin.elapsed() < limit => sleep(Duration::from_millis(20)),
+            Ok(None) => {
+                // It is killed or has ended by itself.
+                let _ = child.kill();
+                let _ = child.wait();
+                return Err(format!(
+                    "the FMU does not return from a call: stopped after {} s, a minute after the time limit. \
+                     `build-fmu check` tells which call",
+                    limit.as_secs()
+                ));
+            }
+            Err(error) => return Err(format!("lost the process of the FMU: {error}")),
+        }
+    }
+}
+
+/// What an end by a signal means; none if the process ended by itself.
+fn told(status: ExitStatus, fmu: &Path) -> Option<String> {
+    if status.code().is_some() {
+        return None;
+    }
+    Some(format!(
+        "`{}` crashed the process that ran it ({status}); nothing is written. `build-fmu check {}` tells which call does it",
+        fmu.display(),
+        fmu.display()
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[cfg(unix)]
+    fn a_process_that_is_killed_is_told_and_one_that_fails_has_told_itself() {
+        let ended = |script: &str| Command::new("sh").args(["-c", script]).status().unwrap();
+        let text = told(ended("kill -SEGV $$"), Path::new("rigs/car.fmu")).unwrap();
+        assert!(text.starts_with("`rigs/car.fmu` crashed") && text.contains("SIGSEGV"), "{text}");
+        assert_eq!(told(ended("exit 1"), Path::new("car.fmu")), None);
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_process_that_does_not_end_is_stopped() {
+        let mut child = Command::new("sleep").arg("100").spawn().unwrap();
+        let text = ended(&mut child, Duration::from_millis(50)).unwrap_err();
+        assert!(text.contains("does not return"), "{text}");
+    }
+}
