@@ -222,6 +222,9 @@ impl Rig {
 
     /// The input that one is the rate of: `road.velocity` is that of `road.position`.
     pub fn rate_of(&self, name: &str) -> Option<usize> {
+        if let Some(of) = self.kind.rates.get(name) {
+            return self.plant.input(of);
+        }
         const RATES: [(&str, &[&str]); 2] =
             [("velocity", &["position", "height"]), ("acceleration", &["velocity"])];
         let (group, of) = RATES.iter().find_map(|(rate, of)| Some((name.strip_suffix(rate)?, of)))?;

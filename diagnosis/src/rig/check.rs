@@ -16,6 +16,10 @@ impl Kind {
             names.element(element);
         }
         self.names.keys().for_each(|name| names.signal("names", name));
+        for (rate, of) in &self.rates {
+            names.input("rates", rate);
+            names.input("rates", of);
+        }
         for (output, state) in &self.shows {
             names.output("shows", output);
             names.state("shows", state);

@@ -113,6 +113,7 @@ impl Kind {
             nominal,
             elements,
             names,
+            rates,
             shows,
             follows_inputs,
             opposed,
@@ -132,6 +133,7 @@ impl Kind {
         for (signal, others) in names {
             self.names.entry(signal).or_default().extend(others);
         }
+        self.rates.extend(rates);
         or(&mut self.shows, shows);
         or(&mut self.follows_inputs, follows_inputs);
         self.opposed = self.opposed.or(opposed);

@@ -25,6 +25,9 @@ pub struct Kind {
     /// Other names of its signals in records; `-name` is the negative.
     #[serde(default)]
     pub names: BTreeMap<String, Vec<String>>,
+    /// Inputs that are the rate of change of another one: rate, input. `road.velocity` is that of `road.position` unsaid.
+    #[serde(default)]
+    pub rates: BTreeMap<String, String>,
     /// Outputs that show a state of another name: output, state.
     #[serde(default)]
     pub shows: BTreeMap<String, String>,

@@ -1,0 +1,136 @@
+//! The FMU of another maker: effects that another program has hidden are found with it, and what it does wrong is told.
+
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use strut_blind::{cases, files, generate};
+use strut_diagnosis::rig::Rig;
+use tempfile::TempDir;
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
+
+const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/foreign/model");
+
+/// Where a platform's library is in an FMU; none where no C compiler makes it as here.
+const LIBRARY: Option<&str> = if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
+    Some("binaries/linux64/quarter.so")
+} else if cfg!(all(target_os = "linux", target_arch = "aarch64")) {
+    Some("binaries/aarch64-linux/quarter.so")
+} else {
+    None
+};
+
+/// A folder with the FMU, compiled with these definitions, and its rig file after a change.
+fn rig(definitions: &[&str], change: impl Fn(String) -> String) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let library = folder.path().join("quarter.so");
+    let compiled = Command::new("cc")
+        .args(["-O2", "-shared", "-fPIC", "-o"])
+        .arg(&library)
+        .args(definitions)
+        .arg(format!("{MODEL}/quarter.c"))
+        .arg("-lm")
+        .status()
+        .expect("a C compiler, cc");
+    assert!(compiled.success());
+    let mut archive = ZipWriter::new(File::create(folder.path().join("quarter.fmu")).unwrap());
+    let description = fs::read(format!("{MODEL}/modelDescription.xml")).unwrap();
+    let name = LIBRARY.unwrap_or("binaries/unknown/quarter.so");
+    for (name, contents) in [("modelDescription.xml", description), (name, fs::read(&library).unwrap())] {
+        archive.start_file(name, SimpleFileOptions::default()).unwrap();
+        archive.write_all(&contents).unwrap();
+    }
+    archive.finish().unwrap();
+    let path = folder.path().join("rig.toml");
+    fs::write(&path, change(fs::read_to_string(format!("{MODEL}/rig.toml")).unwrap())).unwrap();
+    (folder, path)
+}
+
+/// Records of a case of the blind benchmark, whose equations are its own.
+fn records(name: &str, below: &Path) -> (PathBuf, PathBuf) {
+    let case = cases::compact().into_iter().find(|case| case.name == name).expect("a case of that name");
+    let data = files::write(&generate(&case).unwrap(), below).unwrap().join("data");
+    (data.join("train-multisine.csv"), data.join("test-sweep.csv"))
+}
+
+fn diagnosed(rig: &Path, (train, test): (&Path, &Path), out: &Path) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_diagnose"));
+    command.arg("--rig").arg(rig).arg("--train").arg(train).arg("--test").arg(test);
+    command.arg("--out").arg(out).arg("--no-fmu").output().unwrap()
+}
+
+fn found(name: &str) -> String {
+    let (folder, rig) = rig(&[], |text| text);
+    let (train, test) = records(name, folder.path());
+    let output = diagnosed(&rig, (&train, &test), &folder.path().join("report"));
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(folder.path().join("report/report.html").is_file());
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn friction_that_another_program_has_hidden_is_found_beside_the_fmu() {
+    if LIBRARY.is_none() {
+        return println!("skipped: FMI 2.0 has no name for this platform that this test knows");
+    }
+    let told = found("single-01");
+    assert!(told.contains("The model lacks Coulomb friction in the strut."), "{told}");
+    let value =
+        told.split("strut.coulomb.force = ").nth(1).and_then(|it| it.split_once(' ')).expect("its size").0;
+    let value: f64 = value.parse().unwrap();
+    // The generator's truth, with the small effects that it adds to every case.
+    assert!((value / 51.823 - 1.0).abs() < 0.05, "{value}");
+}
+
+#[test]
+fn nothing_is_found_beside_the_fmu_where_nothing_is_hidden() {
+    if LIBRARY.is_none() {
+        return println!("skipped: FMI 2.0 has no name for this platform that this test knows");
+    }
+    let told = found("none");
+    assert!(told.contains("NO EFFECT"), "{told}");
+}
+
+#[test]
+fn what_a_rig_file_and_its_fmu_lack_is_told_at_once() {
+    if LIBRARY.is_none() {
+        return println!("skipped: FMI 2.0 has no name for this platform that this test knows");
+    }
+    let refused = |change: fn(String) -> String| {
+        let (_folder, path) = rig(&[], change);
+        Rig::read(&path).unwrap_err()
+    };
+    let text = refused(|text| text.replace("\"m_s\"", "\"m_x\", \"m_y\""));
+    assert!(text.contains("no real parameter m_x, m_y") && text.contains("m_s, m_u"), "{text}");
+    let text = refused(|text| text.replace("-F_act", "-F_axt"));
+    assert!(text.contains("the input `F_axt`"), "{text}");
+    // The acceleration follows from the force at once.
+    let text = refused(|text| text.replace("velocity = \"v_rel\"", "velocity = \"a_s\""));
+    assert!(text.contains("algebraic loop"), "{text}");
+    let text = refused(|text| text.replace("F_t = [", "F_x = [").replace("z_r = [", "z_x = ["));
+    assert!(text.contains("`F_x`") && text.contains("`z_x`"), "{text}");
+    let text = refused(|text| text.replace("quarter.fmu", "other.fmu"));
+    assert!(text.contains("other.fmu"), "{text}");
+    let text = refused(|text| text.replace("v_r = \"z_r\"", "v_r = \"z_q\""));
+    assert!(text.contains("no input `z_q`"), "{text}");
+}
+
+#[test]
+fn an_fmu_that_crashes_or_computes_nothing_is_told_and_leaves_nothing_behind() {
+    if LIBRARY.is_none() {
+        return println!("skipped: FMI 2.0 has no name for this platform that this test knows");
+    }
+    for (definition, expected) in
+        [("-DCRASH_AFTER=20000", "crashed the process"), ("-DNOT_A_NUMBER", "diverges")]
+    {
+        let (folder, rig) = rig(&[definition], |text| text);
+        let (train, test) = records("none", folder.path());
+        let out = folder.path().join("report");
+        let output = diagnosed(&rig, (&train, &test), &out);
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(!output.status.success() && told.contains(expected), "{definition}: {told}");
+        assert!(!out.exists(), "{definition}");
+    }
+}
