@@ -14,7 +14,7 @@ mod tire;
 #[cfg(test)]
 mod tests;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::plant::Plant;
 use crate::signal::distortion::Fault;
@@ -126,7 +126,7 @@ impl Effect {
 }
 
 /// Where an effect acts; its parameters are measured in that element's own forces and motions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Element {
     /// Between body and wheel.

@@ -13,7 +13,7 @@ use crate::catalogue;
 use crate::data::table::did_you_mean;
 use crate::plant::{Plant, models};
 
-pub use kind::{DrivenBy, ElementSignals, ForceOf, Inverse, Kind, Missing, Opposed};
+pub use kind::{DrivenBy, ElementSignals, ForceOf, Given, Inverse, Kind, Missing, Opposed};
 
 /// A rig to be diagnosed: a plant with the values of a parameter set.
 #[derive(Clone, Debug)]

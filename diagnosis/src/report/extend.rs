@@ -13,7 +13,7 @@ use crate::diagnosis::Diagnosis;
 use crate::estimation::fit::Unknown;
 use crate::report::file::replace;
 use crate::report::findings::Findings;
-use crate::rig::Rig;
+use crate::rig::{self, Kind, Rig};
 
 use validation::Validation;
 
@@ -21,6 +21,23 @@ use validation::Validation;
 pub const NAME: &str = "extended";
 
 impl Diagnosis<'_> {
+    /// The rig file of a foreign model with the values that were found.
+    fn rig_file(&self) -> String {
+        let rig = self.baseline.rig;
+        let point = self.found.extended.point.within(&rig.plant);
+        let mut kind = Kind::clone(&rig.kind);
+        for (declared, value) in rig.plant.parameters.iter().zip(&point.parameters) {
+            if *value != declared.start {
+                kind.values.insert(declared.name.clone(), rig::Given::Number(*value));
+            }
+        }
+        format!(
+            "# The rig file with the values that a diagnosis has found.\n{}{}",
+            kind.text(),
+            self.passed()
+        )
+    }
+
     /// The extended model's parameter set, as `build-fmu --parameters` takes it.
     fn parameter_set(&self) -> String {
         let rig = self.baseline.rig;
@@ -73,6 +90,14 @@ impl Diagnosis<'_> {
                 declaration.name
             );
         }
+        text + &self.passed()
+    }
+
+    /// What signals pass, in comments; empty if they pass nothing.
+    fn passed(&self) -> String {
+        let rig = self.baseline.rig;
+        let extended = &self.found.extended;
+        let point = extended.point.within(&rig.plant);
         let signals: Vec<String> = extended
             .coordinates
             .iter()
@@ -82,14 +107,13 @@ impl Diagnosis<'_> {
                 format!("# {name} = {:?} {unit}\n", point.get(it.handle))
             })
             .collect();
-        if !signals.is_empty() {
-            let _ = write!(
-                text,
-                "\n# What signals pass on their way into the model and out of it, the timing of the channels included:\n{}",
-                signals.concat()
-            );
+        if signals.is_empty() {
+            return String::new();
         }
-        text
+        format!(
+            "\n# What signals pass on their way into the model and out of it, the timing of the channels included:\n{}",
+            signals.concat()
+        )
     }
 
     /// The fitted values for the starting model's FMU, with their intervals.
@@ -121,17 +145,21 @@ impl Diagnosis<'_> {
     /// The extended model's files.
     pub fn extended(&self) -> Extended {
         let ssv = String::from_utf8(self.fitted().document()).expect("XML is written in UTF-8");
-        Extended { parameters: self.parameter_set(), ssv, validation: self.validation() }
+        let is_foreign = self.baseline.rig.kind.is_foreign();
+        let parameters = if is_foreign { self.rig_file() } else { self.parameter_set() };
+        Extended { parameters, ssv, is_foreign, validation: self.validation() }
     }
 }
 
 /// The extended model's files.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extended {
-    /// The parameter set in TOML, as `build-fmu --parameters` takes it.
+    /// The parameter set in TOML, as `build-fmu --parameters` takes it; of a foreign model its rig file.
     pub parameters: String,
     /// The fitted values as SSP's parameter set.
     pub ssv: String,
+    /// Whether the model is another maker's, of which no FMU is made.
+    is_foreign: bool,
     validation: Option<Validation>,
 }
 
@@ -163,7 +191,7 @@ impl Extended {
                 failures.push(format!("cannot write `{}`: {error}", path.display()));
             }
         }
-        if let (Some(packing), true) = (fmu, failures.is_empty()) {
+        if let (Some(packing), true) = (fmu.filter(|_| !self.is_foreign), failures.is_empty()) {
             let wanted = build_fmu::Wanted::Parameters(&set, self.related(findings, packing.record));
             if let Err(error) = build_fmu::make(&build_fmu::strut(), wanted, folder, packing.libraries) {
                 let error = error.strip_prefix("error: ").unwrap_or(&error);

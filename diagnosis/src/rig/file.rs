@@ -27,7 +27,13 @@ impl Rig {
         // What a file does not say of a model of the library is as the library's own file has it.
         let own = Kind::published().iter().find(|it| it.model == kind.model);
         let kind = own.map_or_else(|| kind.clone(), |own| kind.clone().completed(own));
-        let plant = kind.plant(path.parent().unwrap_or(Path::new("."))).map_err(failed)?;
+        let mut kind = kind;
+        if kind.is_foreign() {
+            let model = path.parent().unwrap_or(Path::new("")).join(&kind.model);
+            let model = std::path::absolute(&model).map_err(|error| failed(error.to_string()))?;
+            kind.model = model.to_string_lossy().into_owned();
+        }
+        let plant = kind.plant().map_err(failed)?;
         let mistakes = kind.mistakes(&plant);
         if !mistakes.is_empty() {
             return Err(failed(mistakes.join("\n  ")));
@@ -80,7 +86,7 @@ impl Kind {
             .is_some_and(|it| it.eq_ignore_ascii_case("fmu"))
     }
 
-    fn plant(&self, folder: &Path) -> Result<Plant, String> {
+    fn plant(&self) -> Result<Plant, String> {
         if !self.is_foreign() {
             return models::named(&self.model).ok_or_else(|| {
                 let names: Vec<&str> = Self::published().iter().map(|it| it.model.as_str()).collect();
@@ -102,7 +108,7 @@ impl Kind {
             [element] if element.element == Element::Strut => Some(element.attachment()?),
             _ => return Err("elements: acts_on is for one element, the strut".into()),
         };
-        Foreign { fmu: folder.join(&self.model), parameters, strut }.plant()
+        Foreign { fmu: (&self.model).into(), parameters, strut }.plant()
     }
 
     /// Takes from another what is not said here.

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock};
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::catalogue::Element;
 
 /// What the diagnosis has to know of a model: the content of a rig file.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Kind {
     /// The model: one of the library by its name, or a file `….fmu`.
@@ -52,7 +52,7 @@ pub struct Kind {
 }
 
 /// A value that a rig file gives.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(
     untagged,
     expecting = "write a number, a text, or { value = 94.4, deviation = 0.5 }",
@@ -80,7 +80,7 @@ fn minute() -> f64 {
 }
 
 /// A signal that is recorded with the sense of a column, opposite to the model's, if the column is there.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Opposed {
     /// The column.
@@ -90,7 +90,7 @@ pub struct Opposed {
 }
 
 /// A way in which a plant can be driven.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DrivenBy {
     /// The setting that chooses it.
@@ -115,7 +115,7 @@ pub struct DrivenBy {
 }
 
 /// The inverse of a drive.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Inverse {
     /// The output that is compared.
@@ -129,7 +129,7 @@ pub struct Inverse {
 }
 
 /// A signal that drives a virtual rig.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Excitation {
     /// The input.
@@ -141,7 +141,7 @@ pub struct Excitation {
 }
 
 /// Where an element's force and motion are found among a plant's outputs.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ElementSignals {
     /// The element.
@@ -161,7 +161,7 @@ pub struct ElementSignals {
 }
 
 /// Parameters that are zero while a strut of the library does what they did.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Replaced {
     /// Spring rate.
@@ -171,7 +171,7 @@ pub struct Replaced {
 }
 
 /// Where an element's force is found.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(
     untagged,
     expecting = "write output, input, stiffness and damping, or moment_of and lever",
@@ -205,7 +205,7 @@ pub enum ForceOf {
 }
 
 /// A force that the model misses, as it shows in an output.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Missing {
     /// What it is.
@@ -238,6 +238,17 @@ impl Kind {
     /// Where the text is no rig file, and what was expected there.
     pub fn parse(text: &str) -> Result<Self, String> {
         toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())
+    }
+
+    /// As a rig file, without what is empty.
+    pub fn text(&self) -> String {
+        let mut table = toml::Table::try_from(self).expect("a rig file is a table");
+        table.retain(|_, value| match value {
+            toml::Value::Array(list) => !list.is_empty(),
+            toml::Value::Table(table) => !table.is_empty(),
+            _ => true,
+        });
+        toml::to_string_pretty(&table).expect("a table has a text")
     }
 
     /// Those of the models of this library.
