@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use strut_blind::{cases, files, generate};
+use strut_diagnosis::plant::{Between, Drive, Foreign, Plant, Seed, models};
 use strut_diagnosis::rig::Rig;
 use tempfile::TempDir;
 use zip::ZipWriter;
@@ -132,5 +133,72 @@ fn an_fmu_that_crashes_or_computes_nothing_is_told_and_leaves_nothing_behind() {
         let told = String::from_utf8_lossy(&output.stderr);
         assert!(!output.status.success() && told.contains(expected), "{definition}: {told}");
         assert!(!out.exists(), "{definition}");
+    }
+}
+
+/// The same equations in Rust, with exact derivatives.
+#[test]
+fn an_fmu_predicts_as_the_same_model_of_the_library_does() {
+    if LIBRARY.is_none() {
+        return println!("skipped: FMI 2.0 has no name for this platform that this test knows");
+    }
+    let (folder, _) = rig(&[], |text| text);
+    let names = ["m_s", "m_u", "k_s", "d_s", "k_t", "d_t"];
+    let parameters = names.map(str::to_owned).to_vec();
+    let fmu = Foreign { fmu: folder.path().join("quarter.fmu"), parameters, strut: None }.plant().unwrap();
+    let ours = models::named("QuarterCar").unwrap();
+    let same = [
+        "sprung_mass",
+        "unsprung_mass",
+        "strut.stiffness",
+        "strut.damping",
+        "tire.stiffness",
+        "tire.damping",
+    ];
+    let own = same.map(|name| ours.parameter(name).unwrap());
+    let mut values: Vec<f64> = ours.parameters.iter().map(|it| it.start).collect();
+    let theirs: Vec<f64> = fmu.parameters.iter().map(|it| it.start).collect();
+    own.iter().zip(&theirs).for_each(|(index, value)| values[*index] = *value);
+    let signal = |f: fn(f64) -> f64| (0..2000).map(|k| f(f64::from(k) * 1e-3)).collect::<Vec<f64>>();
+    let road = signal(|t| 0.01 * (9.0 * t).sin() + 2e-3 * (50.0 * t).sin());
+    let rate = signal(|t| 0.09 * (9.0 * t).cos() + 0.1 * (50.0 * t).cos());
+    let force = signal(|t| 30.0 * (20.0 * t).sin());
+    let drive = |plant: &Plant, names: [&str; 3]| {
+        let mut inputs = vec![vec![0.0; 2000]; plant.inputs.len()];
+        for (name, signal) in names.into_iter().zip([&road, &rate, &force]) {
+            inputs[plant.input(name).unwrap()].clone_from(signal);
+        }
+        Drive { step: 1e-3, inputs, finer: 1, between: Between::Lines }
+    };
+    let outputs = [("z_rel", "suspension.deflection"), ("a_s", "body.acceleration"), ("F_t", "wheel.force")];
+    let linearised = |plant: &Plant, drive: &Drive, values: &[f64], seeds: &[Seed], wanted: &[usize]| {
+        let start: Vec<f64> = plant.states.iter().map(|it| it.start).collect();
+        plant.prepare(&plant.choices).unwrap().linearised(values, &start, drive, seeds, wanted)
+    };
+    let seeds = |all: &[usize]| {
+        let parameters = all.iter().map(|index| Seed::Parameter(*index));
+        parameters.chain([Seed::State(0), Seed::State(3)]).collect::<Vec<_>>()
+    };
+    let wanted = outputs.map(|(name, _)| fmu.output(name).unwrap());
+    let found = linearised(
+        &fmu,
+        &drive(&fmu, ["z_r", "v_r", "F_act"]),
+        &theirs,
+        &seeds(&[0, 1, 2, 3, 4, 5]),
+        &wanted,
+    );
+    let wanted = outputs.map(|(_, name)| ours.output(name).unwrap());
+    let drive = drive(&ours, ["road.position", "road.velocity", "actuator.force"]);
+    let exact = linearised(&ours, &drive, &values, &seeds(&own), &wanted);
+    let near = |a: &[f64], b: &[f64], tolerance: f64, what: &str| {
+        let largest = b.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
+        let error = a.iter().zip(b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+        assert!(error < tolerance * largest, "{what}: {error} of {largest}");
+    };
+    for (output, (name, _)) in outputs.iter().enumerate() {
+        near(&found.outputs[output], &exact.outputs[output], 1e-12, name);
+        for (seed, (found, exact)) in found.slopes.iter().zip(&exact.slopes).enumerate() {
+            near(&found[output], &exact[output], 1e-5, &format!("{name}, seed {seed}"));
+        }
     }
 }
