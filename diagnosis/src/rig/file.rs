@@ -10,7 +10,7 @@ use crate::catalogue::Element;
 use crate::plant::{self, Attachment, Foreign, Plant, models};
 
 use super::Rig;
-use super::kind::{ElementSignals, Given, Kind};
+use super::kind::{ElementSignals, ForceOf, Given, Kind};
 
 /// What names of the parameters begin with that an attached strut has.
 const OF_STRUT: [&str; 2] = ["strut.", "hysteresis."];
@@ -108,7 +108,20 @@ impl Kind {
             [element] if element.element == Element::Strut => Some(element.attachment()?),
             _ => return Err("elements: acts_on is for one element, the strut".into()),
         };
-        Foreign { fmu: (&self.model).into(), parameters, strut }.plant()
+        let locals = self.signals().map(str::to_owned).collect();
+        Foreign { fmu: (&self.model).into(), parameters, locals, strut }.plant()
+    }
+
+    /// All that is named as something to be measured.
+    fn signals(&self) -> impl Iterator<Item = &str> {
+        let forces = self.elements.iter().filter_map(|it| match &it.force {
+            ForceOf::Output { output: name } | ForceOf::Moment { moment_of: name, .. } => Some(name),
+            ForceOf::Input { .. } | ForceOf::SpringAndDamper { .. } => None,
+        });
+        let motions = self.elements.iter().flat_map(|it| std::iter::once(&it.deflection).chain(&it.velocity));
+        let others = self.missing.iter().map(|it| &it.output).chain(&self.follows_inputs);
+        let named = self.names.keys().chain(self.shows.keys());
+        forces.chain(motions).chain(others).chain(named).map(String::as_str)
     }
 
     /// Takes from another what is not said here.
@@ -162,7 +175,13 @@ impl ElementSignals {
             .replaces
             .as_ref()
             .map(|it| plant::Replaced { stiffness: it.stiffness.clone(), damping: it.damping.clone() });
-        let deflection = self.deflection.clone();
-        Ok(Attachment { deflection, velocity, acts_on: self.acts_on.iter().map(factor).collect(), replaces })
+        let (deflection, rest) = (self.deflection.clone(), self.rest);
+        Ok(Attachment {
+            deflection,
+            rest,
+            velocity,
+            acts_on: self.acts_on.iter().map(factor).collect(),
+            replaces,
+        })
     }
 }

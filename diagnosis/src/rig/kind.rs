@@ -148,6 +148,9 @@ pub struct ElementSignals {
     pub element: Element,
     /// Output with its deflection, or position.
     pub deflection: String,
+    /// What that output is where the spring carries nothing, in m.
+    #[serde(default)]
+    pub rest: f64,
     /// Output with its velocity; none: the derivative of the deflection.
     pub velocity: Option<String>,
     /// Where its force is found.

@@ -145,7 +145,9 @@ fn an_fmu_predicts_as_the_same_model_of_the_library_does() {
     let (folder, _) = rig(&[], |text| text);
     let names = ["m_s", "m_u", "k_s", "d_s", "k_t", "d_t"];
     let parameters = names.map(str::to_owned).to_vec();
-    let fmu = Foreign { fmu: folder.path().join("quarter.fmu"), parameters, strut: None }.plant().unwrap();
+    let fmu = Foreign { fmu: folder.path().join("quarter.fmu"), parameters, locals: Vec::new(), strut: None }
+        .plant()
+        .unwrap();
     let ours = models::named("QuarterCar").unwrap();
     let same = [
         "sprung_mass",

@@ -10,6 +10,8 @@ use super::exchange::{Fmu, Session};
 pub struct Attachment {
     /// Output with its deflection, positive in rebound.
     pub deflection: String,
+    /// What that output is where the strut's spring carries nothing, in m.
+    pub rest: f64,
     /// Output with its rate.
     pub velocity: String,
     /// Inputs that its force is added to, each with a factor; the force is positive where it pulls the ends together.
@@ -54,6 +56,7 @@ pub struct Beside {
     /// The model's parameters with all effects off.
     plain: Vec<f64>,
     deflection: usize,
+    rest: f64,
     velocity: usize,
     acts_on: Vec<(usize, f64)>,
 }
@@ -97,6 +100,7 @@ impl Beside {
             indices,
             plain,
             deflection: index(&fmu.outputs, &at.deflection, "the output")?,
+            rest: at.rest,
             velocity: index(&fmu.outputs, &at.velocity, "the output")?,
             acts_on,
         })
@@ -126,7 +130,8 @@ impl Beside {
         session: &mut Session,
         (inputs, states, rates): (&mut [f64], &[f64], &mut [f64]),
     ) {
-        let (deflection, velocity) = (session.output(self.deflection), session.output(self.velocity));
+        let (deflection, velocity) =
+            (session.output(self.deflection) - self.rest, session.output(self.velocity));
         // The bench moves the lower end: its deflection is the motion's negative.
         let moved = [-deflection, -velocity];
         let input = <ElementDyno as Model>::Input::from_fn(|i| moved.get(i).copied().unwrap_or(0.0));

@@ -1,6 +1,5 @@
 //! An FMU, loaded, and instances of it that compute rates and outputs.
 
-use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use strut_check::import::{
@@ -9,8 +8,8 @@ use strut_check::import::{
 use strut_model::Declaration;
 use tempfile::TempDir;
 
-use super::plain;
 use super::units::{Conversion, coherent};
+use super::{Foreign, plain};
 
 /// A loaded FMU.
 pub struct Fmu {
@@ -63,7 +62,8 @@ impl std::fmt::Debug for Fmu {
 
 impl Fmu {
     /// Loads an FMU with the parameters that may be changed, and those that are to be zero.
-    pub fn load(file: &Path, parameters: &[String], zero: &[&str]) -> Result<Arc<Self>, String> {
+    pub fn load(wanted: &Foreign, zero: &[&str]) -> Result<Arc<Self>, String> {
+        let Foreign { fmu: file, parameters, locals, .. } = wanted;
         let failed = |error: String| format!("`{}`: {error}", file.display());
         let mut package = Package::open(file).map_err(failed)?;
         let (description, _) = description(&mut package).map_err(failed)?;
@@ -80,8 +80,8 @@ impl Fmu {
             move |it: &&Variable| it.kind == "Real" && it.causality == causality && it.reference.is_some()
         };
         let (inputs, of_inputs) = declared(&description, description.variables.iter().filter(has("input")));
-        let (outputs, of_outputs) =
-            declared(&description, description.variables.iter().filter(has("output")));
+        let shown = |it: &&Variable| has("output")(it) || (has("local")(it) && locals.contains(&it.name));
+        let (outputs, of_outputs) = declared(&description, description.variables.iter().filter(shown));
         let of = |name: &&str| {
             let own = |it: &&Variable| it.name == **name && has("parameter")(it);
             description.variables.iter().find(own).ok_or_else(|| (*name).to_owned())

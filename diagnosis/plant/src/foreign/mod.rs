@@ -30,6 +30,8 @@ pub struct Foreign {
     pub fmu: PathBuf,
     /// Its parameters that the diagnosis may change.
     pub parameters: Vec<String>,
+    /// Its local variables that count as outputs. What it does not have is left out.
+    pub locals: Vec<String>,
     /// A strut of the library that acts beside the model.
     pub strut: Option<Attachment>,
 }
@@ -44,7 +46,7 @@ impl Foreign {
         let replaced = self.strut.as_ref().and_then(|it| it.replaces.as_ref());
         let taken: Vec<&str> =
             replaced.iter().flat_map(|it| [it.stiffness.as_str(), it.damping.as_str()]).collect();
-        let fmu = Fmu::load(&self.fmu, &self.parameters, &taken)?;
+        let fmu = Fmu::load(self, &taken)?;
         let beside = self.strut.as_ref().map(|strut| Beside::new(&fmu, strut)).transpose()?;
         let (mut parameters, mut states) = (fmu.parameters.clone(), fmu.states.clone());
         if let Some(beside) = &beside {
