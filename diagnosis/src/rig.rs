@@ -16,6 +16,7 @@ use crate::data::table::did_you_mean;
 use crate::plant::{Plant, models};
 
 pub use draft::{Draft, SAME};
+pub use file::is_fmu;
 pub use kind::{DrivenBy, ElementSignals, ForceOf, Given, Inverse, Kind, Missing, Opposed};
 pub use stand_in::difference;
 

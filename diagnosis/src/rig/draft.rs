@@ -6,11 +6,10 @@ mod library;
 mod names;
 mod text;
 
-use std::ffi::OsStr;
 use std::path::{Component, Path, PathBuf};
 
 use super::Rig;
-use super::file::is_of_strut;
+use super::file::{is_fmu, is_of_strut};
 use super::stand_in;
 
 use guess::{Guess, Strut};
@@ -35,16 +34,12 @@ impl Draft {
     /// # Errors
     /// If there is no such model, or the FMU cannot be read or run on this machine: what to do.
     pub fn of(model: &str, folder: &Path) -> Result<Self, String> {
-        let path = Path::new(model);
-        match path.extension().and_then(OsStr::to_str) {
-            Some(end) if end.eq_ignore_ascii_case("fmu") => Self::of_fmu(path, folder),
-            _ => {
-                let rig = Rig::published(model).map_err(|error| {
-                    format!("{error}; of an FMU, name the file with its ending: model.fmu")
-                })?;
-                library::draft(&rig)
-            }
+        if is_fmu(Path::new(model)) {
+            return Self::of_fmu(Path::new(model), folder);
         }
+        let rig = Rig::published(model)
+            .map_err(|error| format!("{error}; of an FMU, name the file with its ending: model.fmu"))?;
+        library::draft(&rig)
     }
 
     fn of_fmu(path: &Path, folder: &Path) -> Result<Self, String> {

@@ -12,6 +12,11 @@ use crate::plant::{self, Attachment, Foreign, Plant, models};
 use super::Rig;
 use super::kind::{ElementSignals, Given, Kind};
 
+/// Whether a file is an FMU, by its ending.
+pub fn is_fmu(path: &Path) -> bool {
+    path.extension().and_then(OsStr::to_str).is_some_and(|it| it.eq_ignore_ascii_case("fmu"))
+}
+
 /// Whether a foreign model's parameter is one of the strut that is attached to it.
 pub(super) fn is_of_strut(name: &str) -> bool {
     ["strut.", "hysteresis."].iter().any(|start| name.starts_with(start))
@@ -88,10 +93,7 @@ impl Given {
 impl Kind {
     /// Whether the model is another maker's FMU.
     pub fn is_foreign(&self) -> bool {
-        Path::new(&self.model)
-            .extension()
-            .and_then(OsStr::to_str)
-            .is_some_and(|it| it.eq_ignore_ascii_case("fmu"))
+        is_fmu(Path::new(&self.model))
     }
 
     fn plant(&self) -> Result<Plant, String> {

@@ -36,6 +36,8 @@ pub struct Guess {
     pub forces: Vec<(usize, Option<f64>)>,
     /// Parameters in N/m and in N.s/m.
     pub rates: [Vec<usize>; 2],
+    /// Inputs that are the rate of change of another one: rate, input.
+    pub input_rates: Vec<(usize, usize)>,
     /// Outputs that follow from the inputs alone, by the model's own word.
     pub at_once: Vec<usize>,
     /// The strut, where all of it is clear.
@@ -125,7 +127,16 @@ impl Declared {
             acts_on,
             replaces: acts_on.is_some() && pair.is_some(),
         });
-        Guess { nominal, others, motions, forces, rates, at_once: self.at_once(), strut }
+        Guess {
+            nominal,
+            others,
+            motions,
+            forces,
+            rates,
+            input_rates: self.input_rates(),
+            at_once: self.at_once(),
+            strut,
+        }
     }
 
     /// Every output in m with the outputs in m/s whose names go with it.
@@ -144,6 +155,24 @@ impl Declared {
             }
         }
         motions
+    }
+
+    /// Every input in m/s with the only input in m whose name goes with it.
+    fn input_rates(&self) -> Vec<(usize, usize)> {
+        let of =
+            |unit: Unit| (0..self.inputs.len()).filter(move |it| self.inputs[*it].unit.base == unit.base);
+        let name = |input: usize| self.inputs[input].name.as_str();
+        let mut rates = Vec::new();
+        for rate in of(unit::M_PER_S) {
+            let fits = |motion: &usize| {
+                go_together((Quantity::Position, name(*motion)), (Quantity::Velocity, name(rate)))
+            };
+            let mut motions = of(unit::M).filter(fits);
+            if let (Some(motion), None) = (motions.next(), motions.next()) {
+                rates.push((rate, motion));
+            }
+        }
+        rates
     }
 
     /// Inputs in N that move a strut, and not at once: then the strut's force would depend on itself.
@@ -365,6 +394,16 @@ mod tests {
         assert_eq!(tyre.guess().strut.map(|it| it.force), Some(Force::Rates(2, 3)));
         tyre.parameters.remove(2);
         assert_eq!(tyre.guess().strut, None);
+    }
+
+    #[test]
+    fn a_road_s_velocity_is_the_rate_of_its_position() {
+        let mut road = quarter();
+        assert_eq!(road.guess().input_rates, []);
+        road.inputs.push(declared("v_r", unit::M_PER_S, ""));
+        assert_eq!(road.guess().input_rates, [(2, 0)]);
+        road.inputs.push(declared("x_r", unit::M, "another wheel's"));
+        assert_eq!(road.guess().input_rates, []);
     }
 
     #[test]

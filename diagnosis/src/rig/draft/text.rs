@@ -100,6 +100,7 @@ pub fn text(
     nominal(&mut page, declared, guess, strut);
     keys(&mut page, declared, guess);
     names(&mut page, declared);
+    rates(&mut page, declared, guess);
     elements(&mut page, declared, guess, strut, notes);
     page.text()
 }
@@ -203,6 +204,21 @@ fn names(page: &mut Page, declared: &Declared) {
             [format!("{} = []", quoted(&it.name)), format!("[{}]", it.unit.symbol), it.doc.clone()]
         };
         page.rows(all.iter().map(line));
+    }
+    page.blank();
+}
+
+fn rates(page: &mut Page, declared: &Declared, guess: &Guess) {
+    if guess.input_rates.is_empty() {
+        return;
+    }
+    page.comment(
+        "Inputs that are the rate of change of another one. They follow from it where no column has them.",
+    );
+    page.lines("[rates]");
+    for (rate, motion) in &guess.input_rates {
+        let name = |input: &usize| quoted(&declared.inputs[*input].name);
+        page.lines(&format!("{} = {} # GUESS", name(rate), name(motion)));
     }
     page.blank();
 }
