@@ -3,6 +3,7 @@
 mod effects;
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use strut_model::Declaration;
 use textwrap::{Options, WordSplitter};
@@ -20,6 +21,12 @@ const WIDTH: usize = 100;
 
 /// Digits of a parameter's value.
 const DIGITS: usize = 4;
+
+/// Difference of outputs that is no more than that of two ways to compute the same.
+const UNSEEN: f64 = 5e-4;
+
+/// Difference of outputs beyond which its size says nothing more.
+const MANY: f64 = 10.0;
 
 /// What only the model of another maker can tell.
 #[derive(Clone, Debug, Default)]
@@ -62,7 +69,8 @@ pub fn capability(rig: &Rig, foreign: &Foreign) -> Result<String, String> {
 /// The first line of what is said of a rig.
 pub fn headline(rig: &Rig) -> String {
     if rig.kind.is_foreign() {
-        format!("{}: the FMU {}, of another maker", rig.name, rig.kind.model)
+        let file = Path::new(&rig.kind.model).file_name().unwrap_or_default().to_string_lossy();
+        format!("{}: the FMU {file}, of another maker", rig.name)
     } else {
         format!("{}: a {}, in the FMU {}", rig.name, rig.plant.name, rig.fmu)
     }
@@ -70,7 +78,7 @@ pub fn headline(rig: &Rig) -> String {
 
 fn signals(text: &mut Text, rig: &Rig) {
     let plant = &rig.plant;
-    text.title("Columns that drive the model: a record needs at least one");
+    text.title("Columns that drive the model (a record needs at least one)");
     text.rows(plant.inputs.iter().map(|it| signal(rig, it)));
     for by in &rig.kind.drives {
         let others =
@@ -86,7 +94,7 @@ fn signals(text: &mut Text, rig: &Rig) {
         let motion = &plant.inputs[motion].name;
         text.paragraph("  ", &format!("`{}` follows from `{motion}` where no column has it.", rate.name));
     }
-    text.title("Columns that are compared: a record needs at least one");
+    text.title("Columns that are compared (a record needs at least one)");
     text.rows(plant.outputs.iter().filter(|it| !rig.is_trivial(&it.name)).map(|it| signal(rig, it)));
     let trivial: Vec<String> =
         plant.outputs.iter().filter(|it| rig.is_trivial(&it.name)).map(|it| it.name.clone()).collect();
@@ -246,23 +254,24 @@ fn said(rig: &Rig, foreign: &Foreign) -> Vec<String> {
         }
         if let Some(replaced) = &it.replaces {
             let (stiffness, damping) = (&replaced.stiffness, &replaced.damping);
+            let strut = format!("{name}: a strut of the library in place of {stiffness} and {damping}");
+            let check = format!(
+                "Check the signs in acts_on and of {}, and that the two are this element's spring and damper and act \
+                 linearly.",
+                it.deflection
+            );
             notes.push(match foreign.difference {
-                Some(difference) if difference <= SAME => format!(
-                    "{name}: a strut of the library in place of {stiffness} and {damping} changes the outputs by {} at \
-                     most.",
-                    percent(difference)
-                ),
-                Some(difference) if difference.is_finite() => format!(
-                    "{name}: a strut of the library in place of {stiffness} and {damping} changes the outputs by {}. \
-                     Check the signs in acts_on and of {}, and that the two are this element's spring and damper and act \
-                     linearly.",
-                    percent(difference),
-                    it.deflection
-                ),
-                _ => format!(
-                    "{name}: with a strut of the library in place of {stiffness} and {damping}, the model cannot be run. \
-                     Check the signs in acts_on."
-                ),
+                Some(difference) if difference < UNSEEN => format!("{strut} does not change the outputs."),
+                Some(difference) if difference <= SAME => {
+                    format!("{strut} changes the outputs by {} at most.", percent(difference))
+                }
+                Some(difference) if difference <= MANY => {
+                    format!("{strut} changes the outputs by {}. {check}", percent(difference))
+                }
+                Some(difference) if difference.is_finite() => {
+                    format!("{strut} changes the outputs by more than {MANY} times their size. {check}")
+                }
+                _ => format!("{strut} makes a model that cannot be run. {check}"),
             });
         } else if !it.acts_on.is_empty() {
             notes.push(format!("{name}: the library's strut comes on top of what the FMU has there."));

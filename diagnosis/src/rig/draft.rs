@@ -12,7 +12,7 @@ use super::Rig;
 use super::file::{is_fmu, is_of_strut};
 use super::stand_in;
 
-use guess::{Guess, Strut};
+use guess::{Declared, Force, Guess, Strut};
 
 /// Difference of its outputs, relative to their size, up to which a model is the same with a strut of the library in the
 /// place of its own.
@@ -48,7 +48,7 @@ impl Draft {
         let model = relative(path, folder)?;
         let guess = declared.guess();
         let mut notes = Vec::new();
-        for strut in simpler(&guess) {
+        for strut in simpler(&declared, &guess) {
             let text = text::text(&model, &declared, &guess, strut.as_ref(), &notes);
             match confirmed(&text, &name, folder) {
                 Ok(()) => return Ok(Self { name, text }),
@@ -60,11 +60,19 @@ impl Draft {
 }
 
 /// What was guessed, and what remains of it where a part does not hold.
-fn simpler(guess: &Guess) -> Vec<Option<Strut>> {
+fn simpler(declared: &Declared, guess: &Guess) -> Vec<Option<Strut>> {
     let Some(strut) = guess.strut else { return vec![None] };
     let on_top = Strut { replaces: false, ..strut };
     let alone = Strut { acts_on: None, ..on_top };
     let mut all = vec![Some(strut), Some(on_top), Some(alone), None];
+    // A name of the library's strut cannot mean the FMU's own spring or damper.
+    let is_meant = |strut: &Strut| match strut.force {
+        Force::Rates(spring, damper) => {
+            strut.replaces || [spring, damper].iter().all(|it| !is_of_strut(&declared.parameters[*it].name))
+        }
+        Force::Output(_) => true,
+    };
+    all.retain(|it| it.as_ref().is_none_or(is_meant));
     all.dedup();
     all
 }

@@ -147,7 +147,9 @@ impl Kind {
         or(&mut self.nominal, nominal);
         or(&mut self.elements, elements);
         for (signal, others) in names {
-            self.names.entry(signal).or_default().extend(others);
+            let own = self.names.entry(signal).or_default();
+            let more: Vec<String> = others.into_iter().filter(|it| !own.contains(it)).collect();
+            own.extend(more);
         }
         self.rates.extend(rates);
         or(&mut self.shows, shows);

@@ -261,7 +261,7 @@ impl Kind {
     }
 
     /// The rig file of a model of the library, as it is written.
-    pub fn text(model: &str) -> Option<&'static str> {
+    pub fn published_text(model: &str) -> Option<&'static str> {
         let place = Self::published().iter().position(|it| it.model == model)?;
         FILES.get(place).copied()
     }

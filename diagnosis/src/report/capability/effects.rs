@@ -119,12 +119,12 @@ pub fn in_signals(rig: &Rig) -> Vec<Possible> {
         let faults = catalogue::distortions(signal, name);
         let faults =
             faults.filter(|it| signal == Signal::Output || !catalogue::is_replaced(plant, name, *it));
-        let mut named: Vec<String> = faults
-            .map(catalogue::distortion)
-            .map(|it| format!("{} {}", it.at(signal).id, it.called(signal)))
-            .collect();
+        let distortions = faults.map(catalogue::distortion);
+        let mut named: Vec<String> =
+            distortions.map(|it| format!("{} {}", it.at(signal).id, it.name)).collect();
+        named.dedup();
         if signal == Signal::Output {
-            named.push(format!("{} {}", RESPONSE.at(signal).id, RESPONSE.called(signal)));
+            named.push(format!("{} {}", RESPONSE.at(signal).id, RESPONSE.name));
         }
         named
     };
@@ -134,7 +134,8 @@ pub fn in_signals(rig: &Rig) -> Vec<Possible> {
     for declared in plant.outputs.iter().filter(|it| !rig.is_trivial(&it.name)) {
         add(&declared.name, of(Signal::Output, &declared.name));
     }
-    groups.into_iter().map(|(names, effects)| Possible { place: list(&names, "and"), effects }).collect()
+    let place = |names: &[String]| format!("signal {}", list(names, "and"));
+    groups.into_iter().map(|(names, effects)| Possible { place: place(&names), effects }).collect()
 }
 
 #[cfg(test)]

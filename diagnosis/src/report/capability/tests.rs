@@ -60,6 +60,8 @@ fn a_strut_that_changes_the_model_is_noted() {
     };
     assert!(note(1e-3).ends_with("changes the outputs by 0.1 % at most."), "{}", note(1e-3));
     assert!(note(0.4).contains("40 %. Check the signs in acts_on and of z"), "{}", note(0.4));
+    assert!(note(1e-9).ends_with("does not change the outputs."), "{}", note(1e-9));
+    assert!(note(280.0).contains("more than 10 times their size. Check"), "{}", note(280.0));
     assert!(note(f64::NAN).contains("cannot be run"), "{}", note(f64::NAN));
     let on_top = foreign("force = { output = \"f\" }\nacts_on = [\"F\"]");
     let notes = said(&on_top, &Foreign::default());

@@ -26,7 +26,7 @@ pub struct Declared {
 /// What the declarations suggest.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Guess {
-    /// Parameters that are never quite those of a data sheet: masses, spring rates and the like.
+    /// Parameters that are never quite those of a data sheet: masses, spring rates and the like, other than zero.
     pub nominal: Vec<usize>,
     /// The other parameters.
     pub others: Vec<usize>,
@@ -105,7 +105,9 @@ impl Declared {
         let uncertain = |index: &usize| {
             let declared = &self.parameters[*index];
             let is_known = UNCERTAIN.iter().any(|it| it.base == declared.unit.base);
-            (is_known || declared.unit.base == N_M_S) && !super::is_of_strut(&declared.name)
+            // Zero switches something off: nobody knows whether the rig has it.
+            let is_on = declared.start != 0.0;
+            is_on && (is_known || declared.unit.base == N_M_S) && !super::is_of_strut(&declared.name)
         };
         let (nominal, others) = (0..self.parameters.len()).partition(uncertain);
         let motions = self.motions();
@@ -404,6 +406,14 @@ mod tests {
         assert_eq!(road.guess().input_rates, [(2, 0)]);
         road.inputs.push(declared("x_r", unit::M, "another wheel's"));
         assert_eq!(road.guess().input_rates, []);
+    }
+
+    #[test]
+    fn a_mass_of_zero_is_not_fitted() {
+        let mut zero = quarter();
+        zero.parameters[1].start = 0.0;
+        let guess = zero.guess();
+        assert!(!guess.nominal.contains(&1) && guess.others.contains(&1));
     }
 
     #[test]

@@ -13,8 +13,8 @@ use super::text::{Page, quantity, quoted};
 /// If the library has no rig file of the model.
 pub fn draft(rig: &Rig) -> Result<Draft, String> {
     let plant = &rig.plant;
-    let own =
-        Kind::text(&rig.kind.model).ok_or_else(|| format!("there is no rig file of a {}", plant.name))?;
+    let own = Kind::published_text(&rig.kind.model)
+        .ok_or_else(|| format!("there is no rig file of a {}", plant.name))?;
     let mut page = Page::default();
     page.comment(&format!(
         "Rig file of {}, drafted by `diagnose new-rig`. The model is one of the library.",
