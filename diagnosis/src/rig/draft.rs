@@ -77,7 +77,7 @@ fn simpler(declared: &Declared, guess: &Guess) -> Vec<Option<Strut>> {
     all
 }
 
-/// Refuses a text that cannot be read, or with which the model computes something else than on its own: why.
+/// Refuses a text that cannot be read, or with which the model no longer computes what it does on its own: why.
 fn confirmed(text: &str, name: &str, folder: &Path) -> Result<(), String> {
     let rig = Rig::parse(text, name.to_owned(), folder)?;
     match stand_in::difference(&rig, folder)? {

@@ -149,6 +149,7 @@ mod tests {
         let text =
             format!("model = \"my.fmu\"\n[[elements]]\nelement = \"strut\"\ndeflection = \"z\"\n{element}");
         rig.kind = Kind::parse(&text).unwrap().into();
+        rig.plant.settings.clear();
         let of_strut = |name: &str| name.starts_with("strut.") || name.starts_with("hysteresis.");
         rig.plant
             .parameters
