@@ -310,7 +310,7 @@ const fn beyond(part: Part, beyond: Beyond) -> Part {
 }
 
 /// Every named effect that acts through parameters.
-fn all() -> impl Iterator<Item = &'static Effect> {
+pub fn all() -> impl Iterator<Item = &'static Effect> {
     [strut::EFFECTS, tire::EFFECTS, guided::EFFECTS, periphery::EFFECTS].into_iter().flatten()
 }
 

@@ -1,8 +1,10 @@
 //! The rigs that can be diagnosed: what each is made of, in the diagnosis's terms.
 
 mod check;
+mod draft;
 mod file;
 mod kind;
+mod stand_in;
 
 use std::sync::Arc;
 
@@ -13,7 +15,10 @@ use crate::catalogue;
 use crate::data::table::did_you_mean;
 use crate::plant::{Plant, models};
 
+pub use draft::{Draft, SAME};
+pub use file::is_fmu;
 pub use kind::{DrivenBy, ElementSignals, ForceOf, Given, Inverse, Kind, Missing, Opposed};
+pub use stand_in::difference;
 
 /// A rig to be diagnosed: a plant with the values of a parameter set.
 #[derive(Clone, Debug)]

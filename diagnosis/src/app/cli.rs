@@ -29,7 +29,20 @@ cubic, rate and limit.";
 const RIGS_EXAMPLES: &str = "\
 Examples:
   diagnose rigs                       the rigs with their models
-  diagnose rigs tum-quarter-vehicle   its signals, nominal parameters and effects";
+  diagnose rigs tum-quarter-vehicle   its signals, nominal parameters and effects
+  diagnose rigs my-rig.toml           the same of a rig file";
+
+const NEW_RIG_EXAMPLES: &str = "\
+Examples:
+  diagnose new-rig Quarter.fmu        quarter.toml: parameters to fit, a guess of the strut, all signals
+  diagnose new-rig tum-quarter-vehicle --out mine.toml
+                                      the library's rig, to be changed
+
+Guesses from names and units are marked GUESS in the file. Check them, then run `diagnose check FILE`.";
+
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  diagnose check quarter.toml         columns, places, effects and parameters, or everything that is wrong in the file";
 
 const COMPLETIONS_EXAMPLES: &str = "\
 Examples:
@@ -60,8 +73,25 @@ pub enum Command {
     /// Lists the rigs, or the signals, parameters and effects of one
     #[command(after_help = RIGS_EXAMPLES)]
     Rigs {
-        /// The rig, e.g. tum-quarter-vehicle
+        /// The rig, e.g. tum-quarter-vehicle, or a rig file: my-rig.toml
+        #[arg(value_name = "NAME|FILE")]
         name: Option<String>,
+    },
+    /// Drafts a rig file of an FMU or of a rig of the library
+    #[command(after_help = NEW_RIG_EXAMPLES)]
+    NewRig {
+        /// An FMU for FMI 2.0 model exchange: model.fmu; or a rig of the library (`diagnose rigs` lists them)
+        #[arg(value_name = "FMU|NAME")]
+        model: String,
+        /// The rig file, which must not exist yet [default: the model's name with .toml, in this folder]
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
+    /// Checks a rig file, and says what can be identified with it and from which columns
+    #[command(after_help = CHECK_EXAMPLES)]
+    Check {
+        /// The rig file: my-rig.toml
+        file: PathBuf,
     },
     /// Prints the catalogue of effects as a page in Markdown: laws, parameters, literature, experiments
     Effects,

@@ -1,13 +1,13 @@
 //! A process of its own for a diagnosis that runs another maker's FMU: what that does wrong ends the process, and is told.
 
 use std::env;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitCode, ExitStatus};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use crate::app::cli::Arguments;
-use crate::rig::Kind;
+use crate::app::cli::{Arguments, Command as Subcommand};
+use crate::rig::{Kind, is_fmu};
 
 /// Set in the process that runs the FMU.
 const INSIDE: &str = "STRUT_RUNS_FMU";
@@ -16,22 +16,39 @@ const GRACE: Duration = Duration::from_secs(60);
 
 /// Runs the command line in a process of its own if it takes another maker's FMU; none if it takes none.
 pub fn elsewhere(arguments: &Arguments) -> Option<ExitCode> {
-    let diagnosis = arguments.diagnosis.as_ref().filter(|_| arguments.command.is_none())?;
-    let file = diagnosis.rig.as_deref().filter(|it| it.ends_with(".toml"))?;
-    // What is wrong with the file is told where it is read.
-    let kind = Kind::parse(&std::fs::read_to_string(file).ok()?).ok()?;
-    if !kind.is_foreign() || env::var_os(INSIDE).is_some() {
+    let (fmu, limit) = foreign(arguments)?;
+    if env::var_os(INSIDE).is_some() {
         return None;
     }
-    let fmu = Path::new(file).with_file_name(&kind.model);
-    let limit = Duration::from_secs(diagnosis.time_limit).saturating_add(GRACE);
-    Some(match run(limit) {
+    Some(match run(limit.saturating_add(GRACE)) {
         Ok(status) => match told(status, &fmu) {
             None => ExitCode::from(u8::try_from(status.code().unwrap_or(1)).unwrap_or(1)),
             Some(text) => failed(&text),
         },
         Err(text) => failed(&text),
     })
+}
+
+/// The FMU that a command line runs, and how long that may take; none if it runs none.
+fn foreign(arguments: &Arguments) -> Option<(PathBuf, Duration)> {
+    let of_rig = |file: &Path| {
+        // What is wrong with the file is told where it is read.
+        let kind = Kind::parse(&std::fs::read_to_string(file).ok()?).ok()?;
+        kind.is_foreign().then(|| file.with_file_name(&kind.model))
+    };
+    let of_name = |name: &str| name.ends_with(".toml").then(|| of_rig(Path::new(name))).flatten();
+    let fmu = match &arguments.command {
+        Some(Subcommand::Check { file }) => of_rig(file),
+        Some(Subcommand::Rigs { name: Some(name) }) => of_name(name),
+        Some(Subcommand::NewRig { model, .. }) => is_fmu(Path::new(model)).then(|| PathBuf::from(model)),
+        Some(_) => None,
+        None => {
+            let diagnosis = arguments.diagnosis.as_ref()?;
+            return Some((of_name(diagnosis.rig.as_deref()?)?, Duration::from_secs(diagnosis.time_limit)));
+        }
+    };
+    // Without a diagnosis, an FMU is run for a second.
+    fmu.map(|fmu| (fmu, Duration::ZERO))
 }
 
 fn failed(text: &str) -> ExitCode {
@@ -59,8 +76,7 @@ fn ended(child: &mut Child, limit: Duration) -> Result<ExitStatus, String> {
                 let _ = child.kill();
                 let _ = child.wait();
                 return Err(format!(
-                    "the FMU does not return from a call: stopped after {} s, a minute after the time limit. \
-                     `build-fmu check` tells which call",
+                    "the FMU does not return from a call: stopped after {} s. `build-fmu check` tells which call",
                     limit.as_secs()
                 ));
             }

@@ -3,6 +3,7 @@
 pub mod cli;
 pub mod completions;
 mod guard;
+pub mod rig_file;
 pub mod run;
 pub mod study;
 pub mod virtual_rig;

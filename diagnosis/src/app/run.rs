@@ -11,10 +11,9 @@ use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::app::cli::{Arguments, Command, DiagnosisArguments, SimulateArguments};
-use crate::app::completions;
-use crate::app::guard;
 use crate::app::study::{self, Outcome, Study};
 use crate::app::virtual_rig::{self, Experiment};
+use crate::app::{completions, guard, rig_file};
 use crate::catalogue;
 use crate::data::Origin;
 use crate::data::map::Map;
@@ -45,8 +44,12 @@ pub fn execute(arguments: &Arguments) -> ExitCode {
             Ok(())
         }
         (Some(Command::Rigs { name: Some(name) }), _) => {
-            Rig::published(name).map(|rig| tell(&report::sheet(&rig)))
+            study::rig(Some(name), None).map(|rig| tell(&report::sheet(&rig)))
         }
+        (Some(Command::NewRig { model, out }), _) => {
+            rig_file::create(model, out.as_deref()).map(|text| tell(&text))
+        }
+        (Some(Command::Check { file }), _) => rig_file::check(file).map(|text| tell(&text)),
         (Some(Command::Effects), _) => {
             tell(&catalogue::page());
             Ok(())

@@ -34,6 +34,22 @@ pub enum Entry {
 impl Port {
     /// Every place in a rig with these records.
     pub fn all(rig: &Rig, record: &Dataset) -> Vec<Self> {
+        let mut ports = Self::of_model(rig, |input| matches!(record.inputs[input], Source::Measured(_)));
+        for (row, measured) in record.measured.iter().enumerate() {
+            let declared = &rig.plant.outputs[measured.output];
+            ports.push(Self {
+                place: declared.name.clone(),
+                unit: declared.unit.symbol,
+                element: None,
+                entry: Entry::Sensor(row),
+            });
+        }
+        ports
+    }
+
+    /// The places that are no sensors: additive constants, and the commands among the inputs that were measured, by their
+    /// indices.
+    pub fn of_model(rig: &Rig, is_measured: impl Fn(usize) -> bool) -> Vec<Self> {
         let plant = &rig.plant;
         let mut ports: Vec<Self> = Vec::new();
         for (index, declared) in plant.parameters.iter().enumerate().filter(|(_, it)| it.port) {
@@ -51,7 +67,7 @@ impl Port {
             });
         }
         for (index, declared) in plant.inputs.iter().enumerate() {
-            if matches!(record.inputs[index], Source::Measured(_)) && is_command(&declared.name) {
+            if is_measured(index) && is_command(&declared.name) {
                 let element = rig.kind.elements.iter().find(|it| it.element == Element::Actuator);
                 ports.push(Self {
                     place: declared.name.clone(),
@@ -60,15 +76,6 @@ impl Port {
                     entry: Entry::Input(index),
                 });
             }
-        }
-        for (row, measured) in record.measured.iter().enumerate() {
-            let declared = &plant.outputs[measured.output];
-            ports.push(Self {
-                place: declared.name.clone(),
-                unit: declared.unit.symbol,
-                element: None,
-                entry: Entry::Sensor(row),
-            });
         }
         ports
     }

@@ -3,11 +3,28 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use tempfile::NamedTempFile;
+
 /// Writes a file: another one in the same folder is written first, and takes the name when it is complete.
 ///
 /// # Errors
 /// What the system says.
 pub fn replace(path: &Path, text: &str) -> io::Result<()> {
+    written(path, text)?.persist(path).map_err(|failure| failure.error)?;
+    Ok(())
+}
+
+/// The same for a file that is not there yet.
+///
+/// # Errors
+/// What the system says, also if there is a file of the name.
+pub fn create(path: &Path, text: &str) -> io::Result<()> {
+    written(path, text)?.persist_noclobber(path).map_err(|failure| failure.error)?;
+    Ok(())
+}
+
+/// A complete file in the folder of a path.
+fn written(path: &Path, text: &str) -> io::Result<NamedTempFile> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     // A temporary file is its owner's alone; what is left here is for whoever may read the folder.
@@ -16,8 +33,7 @@ pub fn replace(path: &Path, text: &str) -> io::Result<()> {
     let mut file = builder.prefix(".incomplete").tempfile_in(folder)?;
     file.write_all(text.as_bytes())?;
     file.as_file().sync_all()?;
-    file.persist(path).map_err(|failure| failure.error)?;
-    Ok(())
+    Ok(file)
 }
 
 #[cfg(test)]
@@ -31,6 +47,16 @@ mod tests {
         replace(&path, "a longer text").unwrap();
         replace(&path, "short").unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "short");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_file_that_is_there_stays_as_it_is() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("rig.toml");
+        create(&path, "mine").unwrap();
+        assert_eq!(create(&path, "other").unwrap_err().kind(), io::ErrorKind::AlreadyExists);
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "mine");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 

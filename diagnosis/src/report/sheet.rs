@@ -6,6 +6,7 @@ use strut_model::{Declaration, ParameterSet};
 use strut_physics::PARAMETER_SETS;
 use unicode_width::UnicodeWidthStr;
 
+use super::capability::headline;
 use super::words::{digits, unit};
 use crate::catalogue;
 use crate::rig::Rig;
@@ -37,7 +38,7 @@ fn title(fmu: &str) -> String {
 /// their parameters.
 pub fn sheet(rig: &Rig) -> String {
     let plant = &rig.plant;
-    let mut sheet = format!("{}: a {}, in the FMU {}\n", rig.name, plant.name, rig.fmu);
+    let mut sheet = format!("{}\n", headline(rig));
     let shown = |it: &&Declaration| !rig.is_trivial(&it.name);
     let outputs = plant.outputs.iter().filter(shown);
     section(&mut sheet, "Inputs (a record needs at least one)", plant.inputs.iter(), |it| signal(rig, it));

@@ -12,8 +12,15 @@ use crate::plant::{self, Attachment, Foreign, Plant, models};
 use super::Rig;
 use super::kind::{ElementSignals, ForceOf, Given, Kind};
 
-/// What names of the parameters begin with that an attached strut has.
-const OF_STRUT: [&str; 2] = ["strut.", "hysteresis."];
+/// Whether a file is an FMU, by its ending.
+pub fn is_fmu(path: &Path) -> bool {
+    path.extension().and_then(OsStr::to_str).is_some_and(|it| it.eq_ignore_ascii_case("fmu"))
+}
+
+/// Whether a foreign model's parameter is one of the strut that is attached to it.
+pub(super) fn is_of_strut(name: &str) -> bool {
+    ["strut.", "hysteresis."].iter().any(|start| name.starts_with(start))
+}
 
 impl Rig {
     /// Reads a rig file. Paths in it are relative to its folder.
@@ -23,44 +30,50 @@ impl Rig {
     pub fn read(path: &Path) -> Result<Self, String> {
         let failed = |error: String| format!("`{}`: {error}", path.display());
         let text = fs::read_to_string(path).map_err(|error| failed(error.to_string()))?;
-        let kind = Kind::parse(&text).map_err(failed)?;
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Self::parse(&text, name, path.parent().unwrap_or(Path::new("."))).map_err(failed)
+    }
+
+    /// The rig of a rig file's text, by its name. Paths in it are relative to a folder.
+    ///
+    /// # Errors
+    /// If the text is no rig file, its model cannot be read, or it names what the model does not have.
+    pub fn parse(text: &str, name: String, folder: &Path) -> Result<Self, String> {
+        let kind = Kind::parse(text)?;
         // What a file does not say of a model of the library is as the library's own file has it.
         let own = Kind::published().iter().find(|it| it.model == kind.model);
         let kind = own.map_or_else(|| kind.clone(), |own| kind.clone().completed(own));
         let mut kind = kind;
         if kind.is_foreign() {
-            let model = path.parent().unwrap_or(Path::new("")).join(&kind.model);
-            let model = std::path::absolute(&model).map_err(|error| failed(error.to_string()))?;
+            let model = folder.join(&kind.model);
+            let model = std::path::absolute(&model).map_err(|error| error.to_string())?;
             kind.model = model.to_string_lossy().into_owned();
         }
-        let plant = kind.plant().map_err(failed)?;
+        let plant = kind.plant()?;
         let mistakes = kind.mistakes(&plant);
         if !mistakes.is_empty() {
-            return Err(failed(mistakes.join("\n  ")));
+            return Err(mistakes.join("\n  "));
         }
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let fmu = plant.name.clone();
         let values: Vec<(&str, Value)> =
             kind.values.iter().map(|(name, given)| (name.as_str(), given.value())).collect();
         let given = values.iter().map(|(name, value)| (*name, value));
-        let mut rig = Self::made((name, fmu), plant, kind.clone().into(), given).map_err(failed)?;
+        let mut rig = Self::made((name, fmu), plant, kind.clone().into(), given)?;
         for (name, given) in &kind.values {
             if let Given::Measured { value, deviation } = given {
-                let index = rig.plant.parameter(name).ok_or_else(|| {
-                    failed(format!("values, {name}: only a parameter may have a deviation"))
-                })?;
+                let index = rig
+                    .plant
+                    .parameter(name)
+                    .ok_or_else(|| format!("values, {name}: only a parameter may have a deviation"))?;
                 if !deviation.is_finite() || *deviation <= 0.0 {
-                    return Err(failed(format!(
-                        "values, {name}: the deviation has to be finite and positive"
-                    )));
+                    return Err(format!("values, {name}: the deviation has to be finite and positive"));
                 }
                 rig.known.push((index, *value, *deviation));
             }
         }
         if rig.kind.is_foreign() {
             // Who made the model said what its parameters are; of the library's strut nobody has said anything.
-            let own =
-                rig.plant.parameters.iter().map(|it| !OF_STRUT.iter().any(|of| it.name.starts_with(of)));
+            let own = rig.plant.parameters.iter().map(|it| !is_of_strut(&it.name));
             rig.stated.iter_mut().zip(own).for_each(|(stated, own)| *stated |= own);
         }
         Ok(rig)
@@ -80,10 +93,7 @@ impl Given {
 impl Kind {
     /// Whether the model is another maker's FMU.
     pub fn is_foreign(&self) -> bool {
-        Path::new(&self.model)
-            .extension()
-            .and_then(OsStr::to_str)
-            .is_some_and(|it| it.eq_ignore_ascii_case("fmu"))
+        is_fmu(Path::new(&self.model))
     }
 
     fn plant(&self) -> Result<Plant, String> {
@@ -97,7 +107,7 @@ impl Kind {
                 )
             });
         }
-        let is_own = |name: &&String| !OF_STRUT.iter().any(|of| name.starts_with(of));
+        let is_own = |name: &&String| !is_of_strut(name);
         let mut parameters: Vec<String> = self.nominal.iter().filter(is_own).cloned().collect();
         let given = self.values.keys().filter(is_own).filter(|name| !parameters.contains(name));
         parameters.extend(given.cloned().collect::<Vec<_>>());
@@ -150,7 +160,9 @@ impl Kind {
         or(&mut self.nominal, nominal);
         or(&mut self.elements, elements);
         for (signal, others) in names {
-            self.names.entry(signal).or_default().extend(others);
+            let own = self.names.entry(signal).or_default();
+            let more: Vec<String> = others.into_iter().filter(|it| !own.contains(it)).collect();
+            own.extend(more);
         }
         self.rates.extend(rates);
         or(&mut self.shows, shows);

@@ -263,6 +263,12 @@ impl Kind {
         &KINDS
     }
 
+    /// The rig file of a model of the library, as it is written.
+    pub fn published_text(model: &str) -> Option<&'static str> {
+        let place = Self::published().iter().position(|it| it.model == model)?;
+        FILES.get(place).copied()
+    }
+
     /// A signal's own name and the others that it has in records.
     pub fn called<'a>(&'a self, signal: &'a str) -> impl Iterator<Item = &'a str> {
         std::iter::once(signal).chain(self.aliases(signal))

@@ -1,0 +1,106 @@
+//! Whether a strut of the library does what it replaces in a model of another maker.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use crate::plant::{Between, Drive, Foreign, Plant};
+
+use super::Rig;
+
+/// Time between two samples in seconds.
+const STEP: f64 = 1e-3;
+/// Samples that are compared.
+const SAMPLES: usize = 501;
+/// Frequency of the first input in Hz; each further one has a higher one, so that none hides another.
+const FREQUENCY: f64 = 3.0;
+/// Difference of an output, in its unit, that is no more than rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Largest difference of an output between the model on its own and with a strut of the library in the place of its spring
+/// and damper, relative to how far the output moves; none if no strut replaces anything. Not a number where one of the
+/// two cannot be run. The rig file is in a folder.
+///
+/// # Errors
+/// If the model on its own cannot be read or prepared.
+pub fn difference(rig: &Rig, folder: &Path) -> Result<Option<f64>, String> {
+    let Some(replaced) = rig.kind.elements.iter().find_map(|it| it.replaces.as_ref()) else {
+        return Ok(None);
+    };
+    if !rig.kind.is_foreign() {
+        return Ok(None);
+    }
+    let mut parameters: Vec<String> = vec![replaced.stiffness.clone(), replaced.damping.clone()];
+    let own = rig.plant.parameters.iter().map(|it| &it.name).filter(|it| !super::file::is_of_strut(it));
+    parameters.extend(own.cloned());
+    let alone = Foreign { fmu: folder.join(&rig.kind.model), parameters, strut: None }.plant()?;
+    let value = |plant: &Plant, name: &str, own: f64| match (name, rig.plant.parameter(name)) {
+        // The two together are what is compared, so both have the values of the rig.
+        _ if name == replaced.stiffness => {
+            rig.plant.parameter("strut.stiffness").map_or(own, |it| rig.parameters[it])
+        }
+        _ if name == replaced.damping => {
+            rig.plant.parameter("strut.damping").map_or(own, |it| rig.parameters[it])
+        }
+        (_, Some(index)) => rig.parameters[index],
+        (_, None) => plant.parameter(name).map_or(own, |it| plant.parameters[it].start),
+    };
+    let values: Vec<f64> = alone.parameters.iter().map(|it| value(&alone, &it.name, it.start)).collect();
+    let drive = drive(rig);
+    let run = |plant: &Plant, parameters: &[f64]| -> Result<Vec<Vec<f64>>, String> {
+        let start: Vec<f64> = plant.states.iter().map(|it| it.start).collect();
+        Ok(plant.prepare(&plant.choices)?.outputs(parameters, &start, &drive))
+    };
+    let (own, with) = (run(&alone, &values)?, run(&rig.plant, &rig.parameters)?);
+    Ok(Some(own.iter().zip(&with).map(|(own, with)| apart(own, with)).fold(0.0, larger)))
+}
+
+/// All inputs at once, each by a sine of its usual size.
+fn drive(rig: &Rig) -> Drive {
+    let sine = |(place, declared): (usize, &strut_model::Declaration)| -> Vec<f64> {
+        let size = rig.excitation(declared).map_or(0.0, |(amplitude, _)| amplitude);
+        let turns = FREQUENCY * (1.0 + 0.3 * place as f64) * STEP;
+        (0..SAMPLES).map(|k| declared.start + size * (TAU * turns * k as f64).sin()).collect()
+    };
+    let inputs = rig.plant.inputs.iter().enumerate().map(sine).collect();
+    Drive { step: STEP, inputs, finer: 1, between: Between::Lines }
+}
+
+/// Root mean square of the difference over that of a signal's own motion; zero for signals that rest.
+fn apart(own: &[f64], with: &[f64]) -> f64 {
+    let mean = own.iter().sum::<f64>() / own.len().max(1) as f64;
+    let size = |values: &mut dyn Iterator<Item = f64>| values.map(|it| it * it).sum::<f64>().sqrt();
+    let difference = size(&mut own.iter().zip(with).map(|(own, with)| with - own));
+    let motion = size(&mut own.iter().map(|it| it - mean));
+    if difference <= ROUNDING { 0.0 } else { difference / motion }
+}
+
+/// The larger one, or not a number if one of them is none.
+fn larger(one: f64, other: f64) -> f64 {
+    if one.is_nan() || other.is_nan() { f64::NAN } else { one.max(other) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn signals_are_compared_by_how_far_they_move() {
+        let own = [5.0, 6.0, 5.0, 4.0];
+        assert_eq!(apart(&own, &own), 0.0);
+        assert!((apart(&own, &[5.0, 6.1, 5.0, 3.9]) - 0.1).abs() < 1e-12);
+        assert_eq!(apart(&[1.0, 1.0], &[1.0, 1.0]), 0.0);
+        assert!(apart(&own, &[f64::NAN; 4]).is_nan());
+    }
+
+    #[test]
+    fn what_cannot_be_run_is_not_the_same() {
+        assert!([0.1, f64::NAN, 0.3].into_iter().fold(0.0, larger).is_nan());
+        assert_eq!([0.1, 0.3].into_iter().fold(0.0, larger), 0.3);
+    }
+
+    #[test]
+    fn a_model_of_the_library_replaces_nothing() {
+        let rig = Rig::published("quarter-car").unwrap();
+        assert_eq!(difference(&rig, Path::new(".")), Ok(None));
+    }
+}
