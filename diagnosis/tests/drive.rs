@@ -1,13 +1,10 @@
 //! A positioning drive of which nothing was known.
 
-#[path = "common/drive.rs"]
-mod simulated;
-
 use std::fs;
 
 use serde_json::Value;
 
-use simulated::{DAMPING, FRICTION, MASS, diagnosed, record, sines, strokes};
+use crate::simulated::{DAMPING, FRICTION, MASS, diagnosed, record, sines, strokes};
 
 #[test]
 fn friction_is_found_in_a_drive_of_which_nothing_was_known() {

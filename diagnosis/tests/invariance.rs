@@ -1,14 +1,11 @@
 //! A verdict does not change with what says nothing of the rig: rate, length, redundant columns, threads.
 
-#[path = "common/drive.rs"]
-mod simulated;
-
 use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
 
-use simulated::{DAMPING, FRICTION, MASS, diagnosed, record, sines, strokes};
+use crate::simulated::{DAMPING, FRICTION, MASS, diagnosed, record, sines, strokes};
 
 /// Lines of a record, each changed; the first is the header.
 fn changed(record: &str, change: impl Fn(usize, &str) -> Option<String>) -> String {

@@ -1,7 +1,5 @@
 //! The search on records that the plant itself has made: what is hidden is found, what is not there is not claimed.
 
-mod common;
-
 use strut_diagnosis::catalogue::naming::name;
 use strut_diagnosis::dataset::recorded::{Dataset, Measured, Source, derivative};
 use strut_diagnosis::dataset::split::Split;
@@ -12,7 +10,7 @@ use strut_diagnosis::rig::Rig;
 use strut_diagnosis::screening::rms;
 use strut_diagnosis::signal::distortion::Fault;
 
-use common::noise;
+use crate::common::noise;
 
 const STEP: f64 = 2e-3;
 

@@ -1,0 +1,18 @@
+//! The diagnosis as a library and as a program.
+
+mod blind;
+mod certified;
+mod common;
+mod data_files;
+mod drive;
+mod experiment;
+mod invariance;
+mod nist;
+mod nist_sets;
+mod plants;
+mod plausibility;
+mod program;
+mod report;
+mod search;
+#[path = "common/drive.rs"]
+mod simulated;
