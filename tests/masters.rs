@@ -8,8 +8,9 @@ fn matrix(more: &[PathBuf]) -> String {
     strut::python("tests/masters/matrix.py", [&[strut::fmus().into()], &omsimulator[..], more].concat())
 }
 
+/// Every FMU in FMPy, libcosimpy and ecos, and some of each kind in others, too.
 #[test]
-fn some_of_each_kind_do_the_same_in_every_master() {
+fn every_fmu_does_the_same_in_three_masters() {
     print!("{}", matrix(&["--short".into()]));
 }
 

@@ -128,7 +128,7 @@ HEAD = """\
 Made by
 
 ```
-cargo test --test whole every_fmu_in_model_exchange -- --ignored
+scripts/long-tests model-exchange
 ```
 
 Inputs go in straight lines between samples of 1 ms, for 200 ms. The reference is co-simulation with the slopes of the inputs
