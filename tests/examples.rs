@@ -56,6 +56,7 @@ fn the_best_force_on_a_bump_is_found_with_exact_jacobians() {
 
 /// Ajala Fig. 8 on the FMUs; the bounds stand in `strut-physics`' own tests.
 #[test]
+#[ignore = "takes a minute: `scripts/long-tests examples`"]
 fn the_car_rides_as_in_figure_8() {
     let table = python_example("full_car");
     let rows: Vec<&[f64]> = table.chunks_exact(3).collect();
@@ -156,6 +157,7 @@ fn the_gallery_shows_what_the_systems_do() {
 }
 
 #[test]
+#[ignore = "takes a minute: `scripts/long-tests examples`"]
 fn the_notebook_runs_from_top_to_bottom() {
     let notebook = strut::root().join("examples/notebook/strut.ipynb");
     let out = strut::target().join("tested-pictures/strut.ipynb");

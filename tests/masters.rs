@@ -32,11 +32,6 @@ fn every_fmu_in_model_exchange_does_what_it_does_in_co_simulation() {
     print!("{}", strut::python("tests/masters/model_exchange.py", [strut::fmus(), "--page".as_ref(), &page]));
 }
 
-#[test]
-fn ecco_is_no_worse_than_a_fixed_step() {
-    print!("{}", strut::python("tests/masters/connected_ecco.py", [strut::fmus()]));
-}
-
 /// fmi-sim, installed from crates.io at first use.
 fn fmi_sim() -> PathBuf {
     let folder = strut::target().join("fmi-sim");

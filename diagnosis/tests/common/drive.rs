@@ -83,7 +83,7 @@ pub fn diagnosed(folder: &Path, threads: &str) -> Value {
     command.arg("--test").arg(folder.join("test.csv")).arg("--out").arg(folder.join("report"));
     let output = command.output().expect("the program runs");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let text = std::fs::read_to_string(folder.join("report/report.json")).expect("there is a report");
+    let text = fs::read_to_string(folder.join("report/report.json")).expect("there is a report");
     serde_json::from_str(&text).expect("the report is JSON")
 }
 
