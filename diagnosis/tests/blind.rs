@@ -45,12 +45,12 @@ macro_rules! named {
 }
 
 named! {
+    #[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]
     coulomb_friction: "single-01";
     #[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]
     play_in_a_damper_bush: "single-12";
     #[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]
     friction_and_a_nonlinear_spring: "pair-01-08";
-    #[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]
     friction_of_a_drive: "drive-16";
 }
 
