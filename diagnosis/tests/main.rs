@@ -6,6 +6,7 @@ mod common;
 mod data_files;
 mod drive;
 mod experiment;
+mod foreign;
 mod invariance;
 mod nist;
 mod nist_sets;
