@@ -20,6 +20,13 @@ fn diagnose() -> Command {
     command
 }
 
+/// The command that makes records of a virtual rig. Half of its usual length is enough for what is hidden here.
+fn simulate() -> Command {
+    let mut command = diagnose();
+    command.args(["simulate", "--duration", "10"]);
+    command
+}
+
 /// An empty folder of a test.
 fn folder(name: &str) -> PathBuf {
     let folder = strut::target().join("tested-diagnosis").join(name);
@@ -45,7 +52,7 @@ fn named(report: &Value) -> Vec<&str> {
 fn a_hidden_friction_is_found_and_the_extended_model_has_the_errors_that_are_told() {
     let folder = folder("hidden");
     let (records, out) = (folder.join("records"), folder.join("report"));
-    strut::run(diagnose().args(["simulate", "--hide", "strut.coulomb.force=60", "--out"]).arg(&records));
+    strut::run(simulate().args(["--hide", "strut.coulomb.force=60", "--out"]).arg(&records));
     let output = strut::run(
         diagnose()
             .args(["--rig", RIG, "--train"])
@@ -119,7 +126,7 @@ fn replayed(fmu: &Path) {
 fn a_sensor_s_gain_is_beside_the_extended_model() {
     let folder = folder("outside");
     let (records, out) = (folder.join("records"), folder.join("report"));
-    strut::run(diagnose().args(["simulate", "--out"]).arg(&records));
+    strut::run(simulate().arg("--out").arg(&records));
     for name in ["train.csv", "test.csv"] {
         let path = records.join(name);
         let text = fs::read_to_string(&path).expect("it was just made");
@@ -151,7 +158,7 @@ fn a_sensor_s_gain_is_beside_the_extended_model() {
 fn a_sensor_s_response_without_a_name_is_told_by_its_curve() {
     let folder = folder("response");
     let (records, out) = (folder.join("records"), folder.join("report"));
-    strut::run(diagnose().args(["simulate", "--out"]).arg(&records));
+    strut::run(simulate().arg("--out").arg(&records));
     for name in ["train.csv", "test.csv"] {
         let path = records.join(name);
         let text = fs::read_to_string(&path).expect("it was just made");

@@ -36,6 +36,7 @@ fn assert_contains(all: &[f64], some: &[f64]) {
 }
 
 #[test]
+#[ignore = "compiles the fmi crate for minutes: `scripts/long-tests examples`"]
 fn the_systems_from_python_and_from_rust_are_the_same() {
     let python = [python_example("quanser_lqr"), python_example("tum_active")].concat();
     let pictures = strut::target().join("tested-pictures");
@@ -44,6 +45,7 @@ fn the_systems_from_python_and_from_rust_are_the_same() {
 }
 
 #[test]
+#[ignore = "takes a minute: `scripts/long-tests examples`"]
 fn the_best_force_on_a_bump_is_found_with_exact_jacobians() {
     let text = strut::python("examples/optimal_control.py", [strut::fmus().join("TumQuarterVehicle.fmu")]);
     let [planned, apart, found, without] = numbers(&text)[..] else { panic!("not four numbers: {text}") };
@@ -54,6 +56,7 @@ fn the_best_force_on_a_bump_is_found_with_exact_jacobians() {
 
 /// Ajala Fig. 8 on the FMUs; the bounds stand in `strut-physics`' own tests.
 #[test]
+#[ignore = "takes a minute: `scripts/long-tests examples`"]
 fn the_car_rides_as_in_figure_8() {
     let table = python_example("full_car");
     let rows: Vec<&[f64]> = table.chunks_exact(3).collect();
@@ -73,11 +76,17 @@ fn a_model_of_ones_own_becomes_an_fmu_by_one_command() {
     assert!(source.lines().count() <= 40, "README says that 40 lines are enough");
     let out = strut::target().join("tested-own-model");
     let manifest = strut::root().join("examples/own-model/Cargo.toml");
-    let mut build = strut::build_fmu();
+    let build_fmu = || {
+        let mut command = strut::build_fmu();
+        // What it depends on is compiled there already.
+        command.env("CARGO_TARGET_DIR", strut::target());
+        command
+    };
+    let mut build = build_fmu();
     build.args(["--fmi", "2", "--fmi", "3", "--manifest-path"]).arg(&manifest).arg("--out").arg(&out);
     strut::run(&mut build);
     let told = |command: &[&str]| {
-        let output = strut::run(strut::build_fmu().args(command).arg("--manifest-path").arg(&manifest));
+        let output = strut::run(build_fmu().args(command).arg("--manifest-path").arg(&manifest));
         // Whatever the lines are wrapped at.
         String::from_utf8_lossy(&output.stdout).split_whitespace().collect::<Vec<_>>().join(" ")
     };
@@ -98,6 +107,7 @@ fn a_model_of_ones_own_becomes_an_fmu_by_one_command() {
 /// The page of published numbers is what its command makes; a number that does not come out, or a claim that does not
 /// hold, is an error of the command.
 #[test]
+#[ignore = "takes a minute: `scripts/long-tests examples`"]
 fn the_reproduction_page_can_be_made_again() {
     let out = strut::target().join("tested-reproduction");
     let arguments = ["--fmus".as_ref(), strut::fmus().as_os_str(), "--out".as_ref(), out.as_os_str()];
@@ -110,6 +120,7 @@ fn the_reproduction_page_can_be_made_again() {
 /// The page is what its command makes, but for the times; a method that is not within 1 % where it has to be is an error
 /// of the command. Python and Rust come to the same errors and take the same number of steps.
 #[test]
+#[ignore = "compiles the fmi crate for minutes: `scripts/long-tests examples`"]
 fn coupled_hard_the_methods_do_what_the_page_says() {
     let out = strut::target().join("tested-hard-coupling");
     let arguments = ["--fmus".as_ref(), strut::fmus().as_os_str(), "--out".as_ref(), out.as_os_str()];
@@ -146,6 +157,7 @@ fn the_gallery_shows_what_the_systems_do() {
 }
 
 #[test]
+#[ignore = "takes a minute: `scripts/long-tests examples`"]
 fn the_notebook_runs_from_top_to_bottom() {
     let notebook = strut::root().join("examples/notebook/strut.ipynb");
     let out = strut::target().join("tested-pictures/strut.ipynb");

@@ -2,16 +2,15 @@
 
 use std::path::PathBuf;
 
-/// The matrix with all masters that are quick to install.
+/// The matrix, in the masters that the tests' Python brings and in those that are named.
 fn matrix(more: &[PathBuf]) -> String {
-    let job = strut::program_with_fmi("job");
-    let usual = [strut::fmus().into(), "--cofmupy".into(), strut::cofmupy(), "--fmi-crate".into(), job];
     let omsimulator = strut::omsimulator().map_or_else(Vec::new, |it| vec!["--omsimulator".into(), it]);
-    strut::python("tests/masters/matrix.py", [&usual, &omsimulator[..], more].concat())
+    strut::python("tests/masters/matrix.py", [&[strut::fmus().into()], &omsimulator[..], more].concat())
 }
 
+/// Every FMU in FMPy, libcosimpy and ecos, and some of each kind in others, too.
 #[test]
-fn some_of_each_kind_do_the_same_in_every_master() {
+fn every_fmu_does_the_same_in_three_masters() {
     print!("{}", matrix(&["--short".into()]));
 }
 
@@ -27,15 +26,10 @@ fn some_of_each_kind_do_in_model_exchange_what_they_do_in_co_simulation() {
 }
 
 #[test]
-#[ignore = "takes minutes; writes tests/masters/model-exchange.md"]
+#[ignore = "takes minutes; writes tests/masters/model-exchange.md: `scripts/long-tests model-exchange`"]
 fn every_fmu_in_model_exchange_does_what_it_does_in_co_simulation() {
     let page = strut::root().join("tests/masters/model-exchange.md");
     print!("{}", strut::python("tests/masters/model_exchange.py", [strut::fmus(), "--page".as_ref(), &page]));
-}
-
-#[test]
-fn ecco_is_no_worse_than_a_fixed_step() {
-    print!("{}", strut::python("tests/masters/connected_ecco.py", [strut::fmus()]));
 }
 
 /// fmi-sim, installed from crates.io at first use.
@@ -49,14 +43,11 @@ fn fmi_sim() -> PathBuf {
 }
 
 #[test]
-#[ignore = "builds fmi-sim for some minutes: `.ci/run` does, on a machine of its own"]
-fn some_of_each_kind_do_the_same_in_fmi_sim_too() {
-    print!("{}", matrix(&["--short".into(), "--fmi-sim".into(), fmi_sim()]));
-}
-
-#[test]
-#[ignore = "takes a quarter of an hour; writes tests/masters/README.md"]
+#[ignore = "builds fmi-sim and the fmi crate for minutes; writes tests/masters/README.md: `scripts/long-tests masters`"]
 fn every_fmu_and_system_does_the_same_in_every_master() {
     let page = strut::root().join("tests/masters/README.md");
-    print!("{}", matrix(&["--fmi-sim".into(), fmi_sim(), "--page".into(), page]));
+    let job = strut::program_with_fmi("job");
+    let crates = ["--fmi-sim".into(), fmi_sim(), "--fmi-crate".into(), job];
+    let pythons = ["--cofmupy".into(), strut::cofmupy()];
+    print!("{}", matrix(&[&crates[..], &pythons, &["--page".into(), page]].concat()));
 }

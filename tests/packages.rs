@@ -7,6 +7,7 @@ use std::process::Command;
 
 /// A copy of the project in another folder, built into another one, gives the same bytes.
 #[test]
+#[ignore = "compiles all of a package anew: `scripts/long-tests packages`"]
 fn a_package_does_not_depend_on_where_it_was_built() {
     const NAME: &str = "QuarterCar";
     let ours = fs::read(strut::fmus().join(NAME).with_extension("fmu")).expect("it is built");
@@ -15,6 +16,7 @@ fn a_package_does_not_depend_on_where_it_was_built() {
 
 /// Nor does one for Windows, whose linker writes more about itself than Linux' does.
 #[test]
+#[ignore = "compiles all of a package anew: `scripts/long-tests packages`"]
 fn a_package_for_windows_does_not_depend_on_where_it_was_built() {
     const NAME: &str = "LinearMotor";
     const TARGET: [&str; 2] = ["--target", "x86_64-pc-windows-gnu"];

@@ -48,12 +48,13 @@ impl Platform {
 }
 
 #[test]
+#[ignore = "compiles two packages three times: `scripts/long-tests platforms-of-two`"]
 fn every_platform_in_one_file_gives_the_same_bits() {
     print!("{}", played(&FMUS, "tested-platforms"));
 }
 
 #[test]
-#[ignore = "takes a quarter of an hour: every model is compiled three times, and every FMU is played six times"]
+#[ignore = "takes a quarter of an hour: every model is compiled three times, and every FMU is played six times: `scripts/long-tests platforms`"]
 fn every_fmu_gives_the_same_bits_on_every_platform() {
     print!("{}", played(&[], "tested-every-platform"));
 }

@@ -65,6 +65,7 @@ fn factors_of_connections_are_honoured_as_the_examples_tell() {
 }
 
 #[test]
+#[ignore = "takes a minute: `scripts/long-tests examples`"]
 fn the_coupling_error_falls_with_the_step() {
     print!("{}", strut::python("tests/masters/connected_convergence.py", [strut::fmus()]));
 }

@@ -12,6 +12,12 @@ use cargo_metadata::{CrateType, Metadata, MetadataCommand, Package as Described,
 use crate::cargo;
 use crate::failure::{Failure, Result};
 
+/// What a packager is made of, beside the model and what others have published.
+const OWN: [&str; 5] =
+    ["build-fmu", "strut-binary", "strut-check", "strut-model-description", "strut-related"];
+/// How far it is optimised.
+const QUICKLY: u8 = 0;
+
 /// A crate with a model.
 #[derive(Debug)]
 pub struct Package {
@@ -137,13 +143,16 @@ impl Package {
         ))
     }
 
-    /// The profiles of Strut's workspace: what is compiled in others is compiled again.
+    /// The profiles of Strut's workspace: what is compiled in others is compiled again. That holds for the packager's own
+    /// crates in any case, and optimising them would take longer than they run.
     fn profiles(&self) -> String {
         let manifest = self.strut_root().and_then(|root| fs::read_to_string(root.join("Cargo.toml")).ok());
         let manifest = manifest.and_then(|text| text.parse::<toml::Table>().ok());
         let mut manifest = manifest.unwrap_or_default();
         manifest.retain(|key, _| key == "profile");
-        manifest.to_string()
+        let level = |profile, name| format!("[profile.{profile}.package.{name}]\nopt-level = {QUICKLY}\n");
+        let own = OWN.iter().flat_map(|name| ["dev", "release"].map(|profile| level(profile, name)));
+        manifest.to_string() + &own.collect::<String>()
     }
 
     fn program(&self, library: &str) -> String {

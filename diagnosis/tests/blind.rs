@@ -35,8 +35,9 @@ fn named(name: &str) {
 }
 
 macro_rules! named {
-    ($($test:ident: $case:literal;)*) => {$(
+    ($($(#[$attribute:meta])* $test:ident: $case:literal;)*) => {$(
         #[test]
+        $(#[$attribute])*
         fn $test() {
             named($case);
         }
@@ -44,8 +45,11 @@ macro_rules! named {
 }
 
 named! {
+    #[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]
     coulomb_friction: "single-01";
+    #[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]
     play_in_a_damper_bush: "single-12";
+    #[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]
     friction_and_a_nonlinear_spring: "pair-01-08";
     friction_of_a_drive: "drive-16";
 }
@@ -57,12 +61,21 @@ fn nothing_is_claimed_where_nothing_is_hidden() {
     assert_eq!(score.outcome, Outcome::Correct, "{score:?}");
 }
 
-/// What is in no catalogue gets no name, and is found in its place with what it depends on: an inertial coupling, an absorber, drop-outs.
+/// What is in no catalogue gets no name, and is found in its place with what it depends on.
+fn gets_no_name(name: &str) {
+    let score = diagnosed(name);
+    assert!(matches!(score.outcome, Outcome::Correct | Outcome::Unnamed), "{score:?}");
+    assert_eq!((score.location_right, score.variable_right), (Some(true), Some(true)), "{score:?}");
+}
+
 #[test]
+fn an_inertial_coupling_gets_no_name() {
+    gets_no_name("unnamed-U7");
+}
+
+/// An absorber and drop-outs.
+#[test]
+#[ignore = "further diagnoses: `scripts/long-tests diagnosis`"]
 fn what_is_in_no_catalogue_gets_no_name() {
-    for name in ["unnamed-U7", "unnamed-U9", "unnamed-U10", "mass-U16"] {
-        let score = diagnosed(name);
-        assert!(matches!(score.outcome, Outcome::Correct | Outcome::Unnamed), "{score:?}");
-        assert_eq!((score.location_right, score.variable_right), (Some(true), Some(true)), "{score:?}");
-    }
+    ["unnamed-U9", "unnamed-U10", "mass-U16"].into_iter().for_each(gets_no_name);
 }

@@ -1,10 +1,8 @@
 //! The least-squares solver on NIST's nonlinear regressions: six digits of values and standard errors, from both
 //! starts.
 
-mod nist;
-
+use crate::nist::{self, Set};
 use nalgebra::{DMatrix, DVector};
-use nist::Set;
 use num_dual::Dual64;
 use strut_diagnosis::estimation::lsq::{Linear, Problem, Stop, minimise};
 

@@ -1,21 +1,12 @@
 //! A positioning drive of which nothing was known.
 
-#[path = "common/drive.rs"]
-mod simulated;
-
-use std::fs;
-
 use serde_json::Value;
 
-use simulated::{DAMPING, FRICTION, MASS, diagnosed, record, sines, strokes};
+use crate::simulated::{DAMPING, FRICTION, MASS, plain};
 
 #[test]
 fn friction_is_found_in_a_drive_of_which_nothing_was_known() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name);
-    fs::write(path("train.csv"), record(strokes, 20.0)).unwrap();
-    fs::write(path("test.csv"), record(sines, 12.0)).unwrap();
-    let report = diagnosed(folder.path(), "2");
+    let report = plain();
     let list = |key: &str| report[key].as_array().unwrap().clone();
     let mut named: Vec<String> =
         list("effects").iter().map(|it| it["id"].as_str().unwrap().to_owned()).collect();

@@ -1,7 +1,5 @@
 //! The experiment that separates rivals: on it the right model wins, on another excitation of the same size it may not.
 
-mod common;
-
 use strut_diagnosis::catalogue::naming::name;
 use strut_diagnosis::data;
 use strut_diagnosis::dataset::recorded::{Dataset, Measured, Source, derivative};
@@ -15,7 +13,7 @@ use strut_diagnosis::experiment::{Excitation, Limits, Rival, Shape, TABLE, Trial
 use strut_diagnosis::plant::{Between, Drive};
 use strut_diagnosis::rig::Rig;
 
-use common::noise;
+use crate::common::noise;
 
 const STEP: f64 = 2.5e-3;
 /// Standard deviation of the force's noise in N.

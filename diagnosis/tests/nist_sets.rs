@@ -1,8 +1,6 @@
 //! The reference data sets are read as they are meant, and their models are written as they are printed.
 
-mod nist;
-
-use nist::Set;
+use crate::nist::{self, Set};
 use num_dual::Dual64;
 
 /// The residuals at the certified solution, and their derivatives by each parameter.

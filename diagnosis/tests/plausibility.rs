@@ -111,6 +111,7 @@ fn no_effect_is_taken_for_a_wrong_column() {
 /// Effects that another program has hidden, with noise and small effects that no model knows: none looks like a wrong column, and
 /// each record is a witness of its own.
 #[test]
+#[ignore = "makes long records: `scripts/long-tests diagnosis`"]
 fn nothing_in_the_blind_benchmark_is_taken_for_a_wrong_column() {
     let wanted = ["pair-01-08", "dyno-01", "servo-28", "drive-16", "unnamed-U10"];
     let cases: Vec<_> =

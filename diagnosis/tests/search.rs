@@ -1,7 +1,5 @@
 //! The search on records that the plant itself has made: what is hidden is found, what is not there is not claimed.
 
-mod common;
-
 use strut_diagnosis::catalogue::naming::name;
 use strut_diagnosis::dataset::recorded::{Dataset, Measured, Source, derivative};
 use strut_diagnosis::dataset::split::Split;
@@ -12,7 +10,7 @@ use strut_diagnosis::rig::Rig;
 use strut_diagnosis::screening::rms;
 use strut_diagnosis::signal::distortion::Fault;
 
-use common::noise;
+use crate::common::noise;
 
 const STEP: f64 = 2e-3;
 
@@ -133,6 +131,7 @@ fn where_nothing_is_hidden_nothing_is_claimed() {
 }
 
 #[test]
+#[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]
 fn friction_is_found_by_name_and_size() {
     let (terms, values) = found(&[("strut.coulomb.force", 60.0)]);
     assert_eq!(terms, ["01 strut"]);
@@ -152,6 +151,7 @@ fn two_causes_are_told_from_a_wrong_mass() {
 
 /// A quadratic and a cubic part of opposite signs: neither ratio between them is given.
 #[test]
+#[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]
 fn a_spring_that_is_curved_both_ways_is_found() {
     let (terms, values) = found(&[("strut.spring.quadratic", -1.5e5), ("strut.spring.cubic", 2e7)]);
     assert_eq!(terms, ["08 strut"]);
@@ -161,6 +161,7 @@ fn a_spring_that_is_curved_both_ways_is_found() {
 
 /// A delay of the actuator is not told as all sensors being late and the road early.
 #[test]
+#[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]
 fn one_late_actuator_is_simpler_than_every_sensor_being_late() {
     let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
     let late = |seed: u64| {
@@ -182,6 +183,7 @@ fn one_late_actuator_is_simpler_than_every_sensor_being_late() {
 /// A weighed mass is believed, whatever the errors of thousands of samples would make of it: where the records contradict it,
 /// something else is to blame. So it is where it is nowhere near the data sheet's.
 #[test]
+#[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]
 fn what_was_weighed_is_believed() {
     let mut rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
     let mass = rig.plant.parameter("sprung_mass").unwrap();
@@ -202,6 +204,7 @@ fn what_was_weighed_is_believed() {
 
 /// Where the road does most, the model fits roughly with the force the wrong way round; friction, too, would be taken for it.
 #[test]
+#[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]
 fn a_small_input_is_turned_over_before_anything_is_claimed() {
     let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
     let force = rig.plant.input("actuator.force").unwrap();

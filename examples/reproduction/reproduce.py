@@ -22,7 +22,7 @@ import tum  # noqa: E402
 
 HEAD = """# Reproduction
 
-Every published number and what the figures claim, read off the FMUs. `cargo test` makes this page again and compares it.
+Every published number and what the figures claim, read off the FMUs. `scripts/long-tests examples` makes this page again and compares it.
 
 ```
 python examples/reproduction/reproduce.py

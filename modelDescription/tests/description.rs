@@ -1,12 +1,10 @@
 //! The written description, read back by an XML reader that shares no code with the writer.
 
-mod model;
-
 use roxmltree::{Document, Node};
 use strut_model::{Causality, Initial, Interface, Model, Variability, VariableKind};
 use strut_model_description::{Header, write};
 
-use model::{Delay, Wagon};
+use crate::model::{Delay, Wagon};
 
 fn described<M: Model>() -> (Interface, String) {
     let interface = Interface::of::<M>(None, None).unwrap();

@@ -1,14 +1,12 @@
 //! The description of FMI 3.0, read back by an XML reader that shares no code with the writer.
 
-mod model;
-
 use std::collections::BTreeMap;
 
 use roxmltree::{Document, Node};
 use strut_model::{Interface, Model};
 use strut_model_description::{Header, write_fmi3, write_terminals};
 
-use model::{Mast, Wagon};
+use crate::model::{Mast, Wagon};
 
 fn described<M: Model>() -> (Interface, String) {
     let interface = Interface::of::<M>(None, None).unwrap();

@@ -4,6 +4,7 @@ import doctest
 import os
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 import strut
@@ -21,8 +22,30 @@ def elsewhere(tmp_path, monkeypatch):
         monkeypatch.delenv(name, raising=False)
 
 
+@pytest.fixture(scope="session", autouse=True)
+def diagnosed_once():
+    """Pages, docstrings and tests diagnose the same records: that is done once."""
+    made, diagnose = {}, strut.diagnose
+
+    def key(it):
+        return it.to_csv() if isinstance(it, pd.DataFrame) else repr(it)
+
+    def shared(train, test, *arguments, **options):
+        if not all(isinstance(it, pd.DataFrame) for it in (train, test)):
+            return diagnose(train, test, *arguments, **options)
+        asked = {name: it for name, it in options.items() if name != "progress"}
+        what = tuple(map(key, (train, test, arguments, sorted(asked.items()))))
+        if what not in made:
+            made[what] = diagnose(train, test, *arguments, **options)
+        return made[what]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(strut, "diagnose", shared)
+        yield
+
+
 @pytest.fixture(scope="session")
-def records():
+def records(diagnosed_once):
     """Records of a virtual rig with a friction of 60 N hidden in its strut."""
     return strut.virtual_records(RIG, {"strut.coulomb.force": 60.0}, length=10.0)
 

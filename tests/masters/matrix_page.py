@@ -8,12 +8,12 @@ HEAD = """\
 Made by
 
 ```
-cargo test --test whole every_fmu_and_system -- --ignored
+scripts/long-tests masters
 ```
 
 which builds the FMUs, makes the Python environments and installs fmi-sim from crates.io; the runs themselves took {minutes}
-on two busy cores. `cargo test` runs a part of it: some FMUs of each kind and three systems, all masters but fmi-sim, whose
-building alone takes minutes; with `CI=true`, `.ci/run` builds that, too. `tests/masters/matrix.py --help` tells how to run it on FMUs of your own.
+on two busy cores. `cargo test` runs a part of it: every FMU of FMI 2.0 in FMPy, libcosimpy and ecos; some of each kind, of
+both versions, and three systems in fmutool and fmucontainer, too. `tests/masters/matrix.py --help` tells how to run it on FMUs of your own.
 
 **The reference** is our own master (`examples/jacobi.py`), which calls the bare functions of FMI through FMPy's bindings.
 Where a master exchanges values at other instants, the same scheme is written down in a few lines (`matrix_jobs.py`,

@@ -1,8 +1,10 @@
 //! A positioning drive in closed loop, from a simulation of its own: friction that sticks, a set point that stops.
 
 use std::fmt::Write;
+use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::sync::LazyLock;
 
 use serde_json::Value;
 
@@ -81,6 +83,17 @@ pub fn diagnosed(folder: &Path, threads: &str) -> Value {
     command.arg("--test").arg(folder.join("test.csv")).arg("--out").arg(folder.join("report"));
     let output = command.output().expect("the program runs");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let text = std::fs::read_to_string(folder.join("report/report.json")).expect("there is a report");
+    let text = fs::read_to_string(folder.join("report/report.json")).expect("there is a report");
     serde_json::from_str(&text).expect("the report is JSON")
+}
+
+/// The report of the drive's records as they are, by three threads: what several tests ask of.
+pub fn plain() -> &'static Value {
+    static REPORT: LazyLock<Value> = LazyLock::new(|| {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("train.csv"), record(strokes, 20.0)).unwrap();
+        fs::write(folder.path().join("test.csv"), record(sines, 12.0)).unwrap();
+        diagnosed(folder.path(), "3")
+    });
+    &REPORT
 }

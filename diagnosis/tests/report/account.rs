@@ -3,7 +3,7 @@
 use strut_diagnosis::report;
 use strut_diagnosis::report::findings::Verdict;
 
-use crate::samples::sample;
+use super::samples::sample;
 
 #[test]
 fn every_signal_has_a_bar_whose_parts_are_named_once() {

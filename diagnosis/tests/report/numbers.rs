@@ -3,8 +3,8 @@
 use proptest::prelude::*;
 use strut_diagnosis::report::findings::{Findings, Verdict};
 
-use crate::check;
-use crate::samples::sample;
+use super::check;
+use super::samples::sample;
 
 fn number() -> impl Strategy<Value = f64> {
     prop_oneof![

@@ -8,7 +8,7 @@ use strut_diagnosis::report::findings::{
     Curve, DataProblem, Disagreement, Evidence, FORMAT, Findings, Pictures, RecordValue, Signal, Verdict,
 };
 
-use crate::simulation::{self, Comparison, balances, binned, comparisons, missing};
+use super::simulation::{self, Comparison, balances, binned, comparisons, missing};
 use parts::{account, base, candidates, deciding, friction, parameter, unmodelled};
 
 pub const VERDICTS: [Verdict; 9] = [

@@ -1,10 +1,8 @@
 //! Every function in every state, and calls at random.
 
-mod common;
-
 use std::ptr;
 
-use common::{models::*, *};
+use crate::common::{models::*, *};
 use proptest::prelude::*;
 use strut_fmi::{
     fmi2::{

@@ -1,10 +1,8 @@
 //! What the host is told, when and how.
 
-mod common;
-
 use std::{ffi::CString, fs, ptr};
 
-use common::{models::*, *};
+use crate::common::{models::*, *};
 use strut_fmi::{
     fmi2::{functions as f, state_table::FREE_INSTANCE, types::*},
     shared,

@@ -1,10 +1,8 @@
 //! Going back, going on elsewhere, and starting afresh: always bit for bit.
 
-mod common;
-
 use std::ptr;
 
-use common::{models::*, *};
+use crate::common::{models::*, *};
 use proptest::prelude::*;
 use strut_fmi::fmi2::types::*;
 use strut_model::Model;

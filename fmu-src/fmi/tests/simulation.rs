@@ -1,10 +1,8 @@
 //! What comes out: steps, derivatives, events.
 
-mod common;
-
 use std::ptr;
 
-use common::{models::*, *};
+use crate::common::{models::*, *};
 use strut_fmi::fmi2::types::*;
 use strut_model::{Interface, Model};
 

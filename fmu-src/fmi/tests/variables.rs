@@ -1,10 +1,8 @@
 //! Reading and writing variables of every type, and what is refused.
 
-mod common;
-
 use std::{ffi::CStr, ptr, thread};
 
-use common::{models::*, *};
+use crate::common::{models::*, *};
 use strut_fmi::fmi2::types::*;
 
 #[test]

@@ -1,8 +1,6 @@
 //! Every method on every kind of problem, against exact or reference solutions.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use strut_integrators::{Integrator, Method, Settings, System};
 
 /// End time and end state of a problem in the reference file.

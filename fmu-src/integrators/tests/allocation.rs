@@ -1,8 +1,6 @@
 //! Integration allocates no memory: it is called from real-time loops.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use strut_integrators::{IntegrationError, Method};
 
 #[test]

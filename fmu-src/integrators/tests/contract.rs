@@ -1,8 +1,6 @@
 //! What an integrator promises to its caller, whatever the method.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use strut_integrators::{Integrator, Method, Settings, SolverStats};
 
 /// Evaluations that a step costs.

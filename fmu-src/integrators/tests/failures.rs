@@ -1,8 +1,6 @@
 //! What is refused, what fails, and that neither leaves traces.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use strut_integrators::{IntegrationError, Integrator, InvalidSettings, Method, Settings, SolverStats};
 
 /// After an error the state is as it was, and the integrator as good as before.

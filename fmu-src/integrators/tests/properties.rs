@@ -1,8 +1,6 @@
 //! Properties that hold for any linear system, any subdivision of time and any moment of saving.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use proptest::prelude::*;
 use strut_integrators::Method;
 

@@ -1,8 +1,6 @@
 //! Simulations of small models whose solutions are known in closed form.
 
-mod models;
-
-use models::{Counter, Oscillator, read, reference, set, started};
+use crate::models::{Counter, Oscillator, read, reference, set, started};
 use strut_model::{
     Access, Causality, Initial, Interface, Method, ParameterSet, Simulation, Value, Variability,
 };

@@ -1,8 +1,6 @@
 //! A saved state continues bit for bit, also elsewhere; a damaged one is refused or harmless.
 
-mod models;
-
-use models::{Counter, Oscillator, read, set, started};
+use crate::models::{Counter, Oscillator, read, set, started};
 use proptest::prelude::*;
 use strut_model::{Access, Simulation, Snapshot, Value};
 

@@ -3,9 +3,7 @@
 //! A case says itself what it is: which model, its parameters and settings, its inputs and how near it is to
 //! be followed. Nothing here knows any model but by name.
 
-mod common;
-
-use common::{Case, Named, cases};
+use crate::common::{Case, Named, cases};
 use strut_model::{Value, VariableKind};
 
 /// The model as the case has it, initialised.

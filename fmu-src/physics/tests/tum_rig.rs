@@ -1,8 +1,6 @@
 //! The whole TUM rig as its system connects it: the motor that moves the road plate, sensors, estimator, controller.
 
-mod common;
-
-use common::system::{Record, System};
+use crate::common::system::{Record, System};
 
 /// What a run is to show.
 const SIGNALS: [&str; 10] = [

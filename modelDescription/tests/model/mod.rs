@@ -1,8 +1,6 @@
 //! Small models: one with everything that a description of FMI 2.0 can say, one with almost nothing, one with what FMI 3.0 says
 //! more.
 
-#![allow(dead_code, reason = "each test uses its own part")]
-
 use strut_model::{About, Choice, Experiment, Instant, Model, Real, Settings, Variables, bundles};
 
 /// Rolls.

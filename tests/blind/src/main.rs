@@ -42,11 +42,17 @@ enum Command {
         /// Only cases whose name contains one of these
         #[arg(long = "only")]
         only: Vec<String>,
+        /// A part of the list: `2/6` is every sixth case from the second on
+        #[arg(long, value_parser = part)]
+        part: Option<(usize, usize)>,
         #[command(flatten)]
         list: Selection,
         /// Where to: each case gets a folder there
         #[arg(long)]
         out: PathBuf,
+        /// An earlier page: a case that is wrong now and is not listed there as wrong is an error
+        #[arg(long)]
+        no_worse_than: Option<PathBuf>,
         /// The page with figures and confusion matrix
         #[arg(long)]
         page: PathBuf,
@@ -117,7 +123,7 @@ fn execute(command: Command) -> Result<(), String> {
                 println!("{}", files::write(&generate(case)?, &out)?.display());
             }
         }
-        Command::Run { program, only, list, out, page, arguments } => {
+        Command::Run { program, only, part, list, out, no_worse_than, page, arguments } => {
             let wanted =
                 |case: &&Case| only.is_empty() || only.iter().any(|part| case.name.contains(part.as_str()));
             let others =
@@ -125,7 +131,8 @@ fn execute(command: Command) -> Result<(), String> {
             let (all, run) = (list.cases(), Run { program, arguments, out });
             let mut scores = vec![];
             let mut failed = vec![];
-            for case in all.iter().filter(wanted) {
+            let (first, step) = part.unwrap_or((1, 1));
+            for case in all.iter().filter(wanted).skip(first - 1).step_by(step) {
                 match run.case(case) {
                     Ok(score) => {
                         eprintln!("{}: {:?}, called {}", score.case, score.outcome, score.first);
@@ -137,13 +144,23 @@ fn execute(command: Command) -> Result<(), String> {
                     }
                 }
             }
-            let parts: Vec<String> = only.iter().map(|part| format!(" --only {part}")).collect();
+            let mut parts: Vec<String> = only.iter().map(|part| format!(" --only {part}")).collect();
+            parts.extend(part.map(|(first, step)| format!(" --part {first}/{step}")));
             let name = run.program.file_stem().unwrap_or_default().to_string_lossy();
             let command = format!("blind run --program {name}{list}{}{others}", parts.concat());
             std::fs::write(&page, run::page(&command, &scores))
                 .map_err(|error| format!("{} cannot be written: {error}", page.display()))?;
             if !failed.is_empty() {
                 return Err(format!("no report of {}", failed.join(", ")));
+            }
+            if let Some(earlier) = no_worse_than {
+                let text = std::fs::read_to_string(&earlier)
+                    .map_err(|error| format!("{} cannot be read: {error}", earlier.display()))?;
+                let worse: Vec<&str> =
+                    run::worse(&scores, &text).iter().map(|score| score.case.as_str()).collect();
+                if !worse.is_empty() {
+                    return Err(format!("wrong, and right in {}: {}", earlier.display(), worse.join(", ")));
+                }
             }
         }
         Command::Score { folders } => {
@@ -158,6 +175,15 @@ fn execute(command: Command) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// `2/6`: the number of a part and the number of parts.
+fn part(text: &str) -> Result<(usize, usize), String> {
+    let numbers =
+        text.split_once('/').and_then(|(part, parts)| Some((part.parse().ok()?, parts.parse().ok()?)));
+    numbers
+        .filter(|(part, parts)| (1..=*parts).contains(part))
+        .ok_or_else(|| "write the number of the part and the number of parts, as in 2/6".into())
 }
 
 fn find<'a>(all: &'a [Case], wanted: &str) -> Result<&'a Case, String> {
@@ -182,6 +208,8 @@ mod tests {
         assert!(list.cases().iter().any(|case| case.name == "single-01-1002"));
         let Ok(Command::List { list }) = parsed("blind list") else { panic!("a list") };
         assert_eq!((list.to_string().as_str(), list.cases().len()), ("", cases::compact().len()));
+        assert_eq!((part("2/6"), part("6/6")), (Ok((2, 6)), Ok((6, 6))));
+        assert!(["0/6", "7/6", "2", "a/6"].iter().all(|text| part(text).is_err()));
         assert!(parsed("blind list --seed 1001").is_err(), "of the compact list there is one");
     }
 }

@@ -58,22 +58,35 @@ fn records(data: &Path, kind: &str) -> Result<Vec<PathBuf>, String> {
     Ok(paths)
 }
 
+/// The heading of the page's list of wrong cases.
+const WRONG: &str = "## Not as it should be";
+
+/// The hidden effect is named, or an unknown one is found in its place without a name.
+pub fn is_right(score: &Score) -> bool {
+    matches!(score.outcome, Outcome::Correct | Outcome::OneOfTwo)
+        || score.out_of_catalogue && score.outcome == Outcome::Unnamed && score.location_right == Some(true)
+}
+
+/// The wrong cases that an earlier page does not list as wrong.
+pub fn worse<'a>(scores: &'a [Score], page: &str) -> Vec<&'a Score> {
+    let (_, list) = page.split_once(WRONG).unwrap_or_default();
+    let known = |score: &Score| list.lines().any(|row| row.starts_with(&format!("| {} |", score.case)));
+    scores.iter().filter(|score| !is_right(score) && !known(score)).collect()
+}
+
 /// The page: figures, confusion matrix, figures by condition and plant, and every case that did not come out as it
 /// should.
 pub fn page(command: &str, scores: &[Score]) -> String {
     let mut text = format!(
-        "# Results of the blind benchmark\n\n{} cases, by\n\n```\n{command}\n```\n\n{}\n{}\n## Not as it should be\n\n\
+        "# Results of the blind benchmark\n\n{} cases, by\n\n```\n{command}\n```\n\n{}\n{}\n{WRONG}\n\n\
          | case | outcome | there | called first |\n|---|---|---|---|\n",
         scores.len(),
         markdown(scores),
         breakdown(scores)
     );
-    for it in scores.iter().filter(|it| !matches!(it.outcome, Outcome::Correct | Outcome::OneOfTwo)) {
-        let asked = it.out_of_catalogue && it.outcome == Outcome::Unnamed && it.location_right == Some(true);
-        if !asked {
-            writeln!(text, "| {} | {:?} | {} | {} |", it.case, it.outcome, it.truth, it.first)
-                .expect("a string takes everything");
-        }
+    for it in scores.iter().filter(|it| !is_right(it)) {
+        writeln!(text, "| {} | {:?} | {} | {} |", it.case, it.outcome, it.truth, it.first)
+            .expect("a string takes everything");
     }
     text
 }
@@ -81,7 +94,7 @@ pub fn page(command: &str, scores: &[Score]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Hidden;
+    use crate::case::{Hidden, Plant};
 
     #[cfg(unix)]
     #[test]
@@ -104,5 +117,45 @@ mod tests {
         assert!(page("blind run", &[score]).contains("| case | Missed | 01 | - |"));
         let error = run.case(&Case { name: "other".into(), ..case }).unwrap_err();
         assert!(error.contains("cannot be run"), "{error}");
+    }
+
+    fn scored(case: &str, outcome: Outcome) -> Score {
+        Score {
+            case: case.into(),
+            plant: Plant::LinearQuarter,
+            condition: String::new(),
+            truth: "01".into(),
+            first: "02".into(),
+            outcome,
+            beside_clutter: outcome,
+            effects: 1,
+            out_of_catalogue: false,
+            clutter: false,
+            full_size: true,
+            first_right: None,
+            location_right: Some(true),
+            variable_right: None,
+            frequency_right: None,
+            sensor_or_plant: None,
+            covered: (0, 0),
+            base_covered: (0, 0),
+            gained: None,
+            seconds: 1.0,
+        }
+    }
+
+    #[test]
+    fn what_has_become_wrong_is_told_from_what_was_wrong() {
+        let page = page("blind run", &[scored("a", Outcome::WrongName), scored("b", Outcome::Correct)]);
+        let unnamed = Score { out_of_catalogue: true, ..scored("d", Outcome::Unnamed) };
+        let now = [
+            scored("a", Outcome::Missed),
+            scored("b", Outcome::Missed),
+            scored("c", Outcome::OneOfTwo),
+            unnamed.clone(),
+            Score { location_right: Some(false), ..unnamed },
+        ];
+        let worse: Vec<_> = worse(&now, &page).into_iter().map(|it| (&it.case, it.location_right)).collect();
+        assert_eq!(worse, [(&now[1].case, Some(true)), (&now[4].case, Some(false))]);
     }
 }

@@ -1,7 +1,5 @@
 //! A host that calls the functions as a C program would.
 
-#![allow(dead_code, reason = "each test uses its own part")]
-
 pub mod models;
 
 use std::{

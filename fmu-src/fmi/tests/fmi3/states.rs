@@ -11,7 +11,8 @@ use strut_fmi::{
     shared::{self, Function, Kind, Phase, State},
 };
 
-use crate::{common::models::Decay, host::Host, reference};
+use super::{host::Host, reference};
+use crate::common::models::Decay;
 
 /// Calls a function with arguments that are right.
 fn call(host: &Host<Decay>, function: &Function) -> Status {

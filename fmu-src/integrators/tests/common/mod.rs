@@ -1,8 +1,5 @@
 //! The systems that the tests integrate.
 
-// Each test file uses its own part of these.
-#![allow(dead_code)]
-
 use strut_integrators::{Array, Integrator, Method, Settings, Square, System};
 
 /// The derivative by state and by time, from rows.

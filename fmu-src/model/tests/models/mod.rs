@@ -1,7 +1,5 @@
 //! Small models whose solutions are known in closed form, and how the tests read and set them.
 
-#![allow(dead_code, reason = "each test program uses a part")]
-
 use strut_model::{
     About, Access, Choice, Error, Experiment, Instant, Interface, Model, NoSettings, Real, Settings,
     Simulation, Variables, noise,

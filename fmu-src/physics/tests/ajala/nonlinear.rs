@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use strut_model::Value;
 
-use crate::STEP;
-use crate::response::{Complex, part};
-use crate::system::System;
+use super::STEP;
+use super::response::{Complex, part};
+use super::system::System;
 
 /// Frequency in Hz and amplitude of what is wanted in newtons, and of the deflection in metres: a body that rolls and
 /// heaves, a wheel that hops. No two are the same, so that the force tells them apart.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::system::System;
+use super::system::System;
 
 /// Length of a period of the excitation in seconds: lines are 0.1 Hz apart.
 const PERIOD: f64 = 10.0;

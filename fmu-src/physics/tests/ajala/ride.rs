@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-use crate::STEP;
-use crate::system::System;
+use super::STEP;
+use super::system::System;
 
 const ACCELERATIONS: [&str; 3] =
     ["car.heave.acceleration", "car.roll.acceleration", "car.pitch.acceleration"];

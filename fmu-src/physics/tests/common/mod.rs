@@ -1,5 +1,4 @@
 //! Reads the reference cases and drives a simulation by names.
-#![allow(dead_code, reason = "each test program uses a part")]
 
 pub mod system;
 

@@ -1,7 +1,5 @@
 //! What Ajala claims, measured on the models and the systems as they are shipped: Fig. 2b, 4, 6 and 8.
 
-#[path = "../common/mod.rs"]
-mod common;
 mod nonlinear;
 mod response;
 mod ride;
@@ -10,7 +8,7 @@ mod system;
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-use common::Named;
+use crate::common::Named;
 use response::{Complex, Response};
 use strut_model::{ParameterSet, Value};
 use strut_physics::PARAMETER_SETS;

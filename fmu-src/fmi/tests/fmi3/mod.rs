@@ -1,14 +1,12 @@
 //! FMI 3.0, where it is not as FMI 2.0.
 
-#[path = "../common/mod.rs"]
-mod common;
 mod host;
 mod states;
 
 use std::ptr;
 
-use common::models::*;
-use host::Host;
+use self::host::Host;
+use crate::common::{self, models::*};
 use strut_fmi::fmi3::types::*;
 use strut_model::{Interface, Model};
 

@@ -1,0 +1,19 @@
+//! The diagnosis as a library and as a program.
+
+mod blind;
+mod certified;
+mod common;
+mod data_files;
+mod drive;
+mod experiment;
+mod foreign;
+mod invariance;
+mod nist;
+mod nist_sets;
+mod plants;
+mod plausibility;
+mod program;
+mod report;
+mod search;
+#[path = "common/drive.rs"]
+mod simulated;
