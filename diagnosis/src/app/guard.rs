@@ -1,15 +1,18 @@
 //! A process of its own for a diagnosis that runs another maker's FMU: what that does wrong ends the process, and is told.
 
 use std::env;
+use std::fs::OpenOptions;
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, ExitCode, ExitStatus};
+use std::process::{Child, Command, ExitCode, ExitStatus, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use crate::app::cli::{Arguments, Command as Subcommand};
 use crate::rig::{Kind, is_fmu};
 
-/// Set in the process that runs the FMU.
+/// In the process that runs the FMU: the file that its output goes to. Its own standard output is the FMU's, of which some
+/// print there.
 const INSIDE: &str = "STRUT_RUNS_FMU";
 /// How much longer than the time limit the process may live: the report and the page are written afterwards.
 const GRACE: Duration = Duration::from_secs(60);
@@ -60,9 +63,23 @@ fn failed(text: &str) -> ExitCode {
 fn run(limit: Duration) -> Result<ExitStatus, String> {
     let started = |error: std::io::Error| format!("cannot start a process for the FMU: {error}");
     let program = env::current_exe().map_err(started)?;
-    let mut child =
-        Command::new(program).args(env::args_os().skip(1)).env(INSIDE, "1").spawn().map_err(started)?;
-    ended(&mut child, limit)
+    let told = tempfile::NamedTempFile::new().map_err(started)?;
+    let mut command = Command::new(program);
+    command.args(env::args_os().skip(1)).env(INSIDE, told.path()).stdout(Stdio::null());
+    let end = command.spawn().map_err(started).and_then(|mut child| ended(&mut child, limit));
+    // Whoever closed the pipe has read enough; what was not written has its error in the other process.
+    let _ = std::io::copy(&mut told.as_file(), &mut std::io::stdout());
+    end
+}
+
+/// Prints to the standard output of the process that the user has started.
+pub fn tell(text: &str) {
+    let bytes = text.as_bytes();
+    // Whoever closed the pipe has read enough.
+    let _ = match env::var_os(INSIDE) {
+        Some(path) => OpenOptions::new().append(true).open(path).and_then(|mut file| file.write_all(bytes)),
+        None => std::io::stdout().write_all(bytes),
+    };
 }
 
 fn ended(child: &mut Child, limit: Duration) -> Result<ExitStatus, String> {

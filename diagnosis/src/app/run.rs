@@ -1,7 +1,6 @@
 //! From the command line to the report.
 
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Once;
@@ -11,6 +10,7 @@ use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::app::cli::{Arguments, Command, DiagnosisArguments, SimulateArguments};
+use crate::app::guard::tell;
 use crate::app::study::{self, Outcome, Study};
 use crate::app::virtual_rig::{self, Experiment};
 use crate::app::{completions, guard, rig_file};
@@ -68,11 +68,6 @@ pub fn execute(arguments: &Arguments) -> ExitCode {
             ExitCode::FAILURE
         }
     }
-}
-
-/// Prints; whoever closed the pipe has read enough.
-fn tell(text: &str) {
-    let _ = std::io::stdout().write_all(text.as_bytes());
 }
 
 fn run(arguments: &DiagnosisArguments) -> Result<(), String> {

@@ -42,8 +42,7 @@ impl Rig {
         let kind = Kind::parse(text)?;
         // What a file does not say of a model of the library is as the library's own file has it.
         let own = Kind::published().iter().find(|it| it.model == kind.model);
-        let kind = own.map_or_else(|| kind.clone(), |own| kind.clone().completed(own));
-        let mut kind = kind;
+        let mut kind = own.map_or_else(|| kind.clone(), |own| kind.clone().completed(own));
         if kind.is_foreign() {
             let model = folder.join(&kind.model);
             let model = std::path::absolute(&model).map_err(|error| error.to_string())?;

@@ -32,7 +32,8 @@ pub fn difference(rig: &Rig, folder: &Path) -> Result<Option<f64>, String> {
     let mut parameters: Vec<String> = vec![replaced.stiffness.clone(), replaced.damping.clone()];
     let own = rig.plant.parameters.iter().map(|it| &it.name).filter(|it| !super::file::is_of_strut(it));
     parameters.extend(own.cloned());
-    let alone = Foreign { fmu: folder.join(&rig.kind.model), parameters, strut: None }.plant()?;
+    let alone =
+        Foreign { fmu: folder.join(&rig.kind.model), parameters, locals: Vec::new(), strut: None }.plant()?;
     let value = |plant: &Plant, name: &str, own: f64| match (name, rig.plant.parameter(name)) {
         // The two together are what is compared, so both have the values of the rig.
         _ if name == replaced.stiffness => {

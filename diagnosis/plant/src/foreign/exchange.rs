@@ -82,13 +82,21 @@ impl Fmu {
         let (inputs, of_inputs) = declared(&description, description.variables.iter().filter(has("input")));
         let shown = |it: &&Variable| has("output")(it) || (has("local")(it) && locals.contains(&it.name));
         let (outputs, of_outputs) = declared(&description, description.variables.iter().filter(shown));
-        let of = |name: &&str| {
-            let own = |it: &&Variable| it.name == **name && has("parameter")(it);
-            description.variables.iter().find(own).ok_or_else(|| (*name).to_owned())
+        let states = state_variables(&description).map_err(failed)?;
+        // A rig file gives start values of states, too.
+        let is_state = |name: &&str| states.iter().any(|it| it.name == *name);
+        let mut absent = Vec::new();
+        let mut of = |name: &'_ str| {
+            let own = |it: &&Variable| it.name == name && has("parameter")(it);
+            let found = description.variables.iter().find(own);
+            if found.is_none() {
+                absent.push(name.to_owned());
+            }
+            found
         };
-        let names: Vec<&str> = parameters.iter().map(String::as_str).collect();
-        let found: Vec<_> = names.iter().chain(zero).map(of).collect();
-        let absent: Vec<&str> = found.iter().filter_map(|it| it.as_ref().err()).map(String::as_str).collect();
+        let own = parameters.iter().map(String::as_str).filter(|name| !is_state(name));
+        let own: Vec<&Variable> = own.filter_map(&mut of).collect();
+        let taken: Vec<&Variable> = zero.iter().copied().filter_map(&mut of).collect();
         if !absent.is_empty() {
             let all = description.variables.iter().filter(has("parameter"));
             let all: Vec<&str> = all.map(|it| it.name.as_str()).take(40).collect();
@@ -98,11 +106,8 @@ impl Fmu {
                 all.join(", ")
             )));
         }
-        let found: Vec<&Variable> = found.into_iter().flatten().collect();
-        let (own, taken) = found.split_at(parameters.len());
-        let (parameters, of_parameters) = declared(&description, own.iter().copied());
-        let (replaced, of_replaced) = declared(&description, taken.iter().copied());
-        let states = state_variables(&description).map_err(failed)?;
+        let (parameters, of_parameters) = declared(&description, own.into_iter());
+        let (replaced, of_replaced) = declared(&description, taken.into_iter());
         let (states, of_states) = declared(&description, states.into_iter());
         let guid = description.guid.clone().unwrap_or_default();
         let me = |it: &&strut_check::import::Interface| it.kind == Kind::ModelExchange;

@@ -26,7 +26,7 @@ pub fn declared(file: &Path) -> Result<Declared, String> {
     let mut package = Package::open(file).map_err(failed)?;
     let (description, _) = description(&mut package).map_err(failed)?;
     let parameters = names(&description, "parameter");
-    let plant = Foreign { fmu: file.to_owned(), parameters, strut: None }.plant()?;
+    let plant = Foreign { fmu: file.to_owned(), parameters, locals: Vec::new(), strut: None }.plant()?;
     Ok(Declared {
         depends: names(&description, "output").iter().map(|name| dependencies(&description, name)).collect(),
         moved: moved(&plant)?,

@@ -296,7 +296,7 @@ fn element(page: &mut Page, declared: &Declared, guess: &Guess, strut: &Strut) {
             ));
         }
         None if guess.forces.is_empty() => {
-            page.comment("acts_on: no input in N moves this deflection other than at once.")
+            page.comment("acts_on: no input in N moves this deflection other than at once.");
         }
         None => page.comment("acts_on = [\"…\"], see below"),
     }
