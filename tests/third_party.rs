@@ -111,3 +111,30 @@ fn the_errors_found_in_their_fmus_are_those_that_they_have() {
         assert_eq!(errors, expected.iter().copied().collect(), "{name}: {findings:#?}");
     }
 }
+
+/// What the diagnosis says of a record that scipy has made for their mass on a spring.
+fn diagnosed(friction: &str) -> serde_json::Value {
+    let folder = theirs().join(format!("friction-{friction}"));
+    std::fs::create_dir_all(&folder).expect("the target folder can be written");
+    let arguments = [folder.as_os_str(), friction.as_ref()];
+    strut::python("examples/third-party/damper_records.py", arguments);
+    let report = folder.join("report");
+    let mut diagnose = std::process::Command::new(strut::program("diagnose"));
+    diagnose.arg("--rig").arg(theirs().join("damper-rig.toml"));
+    diagnose.arg("--train").arg(folder.join("damper-train.csv"));
+    diagnose.arg("--test").arg(folder.join("damper-test.csv")).arg("--out").arg(&report);
+    print!("{}", String::from_utf8_lossy(&strut::run(&mut diagnose).stdout));
+    let text = std::fs::read_to_string(report.join("report.json")).expect("there is a report");
+    serde_json::from_str(&text).expect("the report is JSON")
+}
+
+#[test]
+fn friction_in_a_record_is_found_beside_their_fmu() {
+    let report = diagnosed("8");
+    let [effect] = &report["effects"].as_array().unwrap()[..] else { panic!("{}", report["effects"]) };
+    assert_eq!((&effect["id"], &effect["element"]), (&"01".into(), &"strut".into()));
+    let force = effect["parameters"][0]["value"].as_f64().unwrap();
+    assert!((force / 8.0 - 1.0).abs() < 0.02, "{force}");
+    let none = diagnosed("0");
+    assert_eq!(none["effects"].as_array().map(Vec::len), Some(0), "{}", none["effects"]);
+}

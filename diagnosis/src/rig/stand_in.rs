@@ -3,6 +3,8 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
+use strut_model::Declaration;
+
 use crate::plant::{Between, Drive, Foreign, Plant};
 
 use super::Rig;
@@ -48,16 +50,23 @@ pub fn difference(rig: &Rig, folder: &Path) -> Result<Option<f64>, String> {
     let values: Vec<f64> = alone.parameters.iter().map(|it| value(&alone, &it.name, it.start)).collect();
     let drive = drive(rig);
     let run = |plant: &Plant, parameters: &[f64]| -> Result<Vec<Vec<f64>>, String> {
-        let start: Vec<f64> = plant.states.iter().map(|it| it.start).collect();
+        // From where the rig starts, which may be where its spring rests.
+        let of = |state: &Declaration| rig.plant.state(&state.name).map_or(state.start, |it| rig.start[it]);
+        let start: Vec<f64> = plant.states.iter().map(of).collect();
         Ok(plant.prepare(&plant.choices)?.outputs(parameters, &start, &drive))
     };
     let (own, with) = (run(&alone, &values)?, run(&rig.plant, &rig.parameters)?);
-    Ok(Some(own.iter().zip(&with).map(|(own, with)| apart(own, with)).fold(0.0, larger)))
+    let both = alone
+        .outputs
+        .iter()
+        .zip(&own)
+        .filter_map(|(it, own)| Some((own, &with[rig.plant.output(&it.name)?])));
+    Ok(Some(both.map(|(own, with)| apart(own, with)).fold(0.0, larger)))
 }
 
 /// All inputs at once, each by a sine of its usual size.
 fn drive(rig: &Rig) -> Drive {
-    let sine = |(place, declared): (usize, &strut_model::Declaration)| -> Vec<f64> {
+    let sine = |(place, declared): (usize, &Declaration)| -> Vec<f64> {
         let size = rig.excitation(declared).map_or(0.0, |(amplitude, _)| amplitude);
         let turns = FREQUENCY * (1.0 + 0.3 * place as f64) * STEP;
         (0..SAMPLES).map(|k| declared.start + size * (TAU * turns * k as f64).sin()).collect()

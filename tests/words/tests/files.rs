@@ -13,8 +13,10 @@ const SHOWN: &[&str] = &[
     "build-fmu/src/cli.rs",
     "command/src",
     "diagnosis/src/app/cli.rs",
+    "diagnosis/src/report/capability",
     "diagnosis/src/report/page",
     "diagnosis/src/report/words",
+    "diagnosis/src/rig/draft/text.rs",
     "python/strut",
 ];
 
