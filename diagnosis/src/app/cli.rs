@@ -183,8 +183,8 @@ pub struct DiagnosisArguments {
 /// A virtual rig.
 #[derive(Args, Debug)]
 pub struct SimulateArguments {
-    /// The rig; `diagnose rigs` lists them
-    #[arg(long, value_name = "NAME", default_value = "tum-linear-measured-quarter-car")]
+    /// The rig (`diagnose rigs` lists them), or a rig file
+    #[arg(long, value_name = "NAME|FILE", default_value = "tum-linear-measured-quarter-car")]
     pub rig: String,
 
     /// A parameter that differs from the rig's, or the distortion of a sensor, in SI units; several times for several

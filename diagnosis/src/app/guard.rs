@@ -43,6 +43,7 @@ fn foreign(arguments: &Arguments) -> Option<(PathBuf, Duration)> {
     let fmu = match &arguments.command {
         Some(Subcommand::Check { file }) => of_rig(file),
         Some(Subcommand::Rigs { name: Some(name) }) => of_name(name),
+        Some(Subcommand::Simulate(simulated)) => of_name(&simulated.rig),
         Some(Subcommand::NewRig { model, .. }) => is_fmu(Path::new(model)).then(|| PathBuf::from(model)),
         Some(_) => None,
         None => {

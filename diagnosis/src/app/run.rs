@@ -168,7 +168,7 @@ fn command() -> String {
 }
 
 fn simulate(arguments: &SimulateArguments) -> Result<(), String> {
-    let rig = Rig::published(&arguments.rig)?;
+    let rig = study::rig(Some(&arguments.rig), None)?;
     let hidden = arguments.hide.iter().map(|text| virtual_rig::hidden(&rig, text));
     let hidden = hidden.collect::<Result<Vec<_>, _>>().map_err(|error| format!("--hide {error}"))?;
     if !arguments.noise.is_finite() || arguments.noise < 0.0 {
