@@ -23,7 +23,6 @@ use crate::report;
 use crate::report::extend::Packing;
 use crate::report::file::replace;
 use crate::report::findings::Verdict;
-use crate::rig::Rig;
 
 /// Does what the command line says; failures are told on stderr.
 ///
