@@ -5,7 +5,7 @@ use crate::case::{Hidden, Sensors};
 use crate::catalogue::{Entry, Place};
 
 fn short(effects: Vec<Hidden>) -> Case {
-    Case { duration: 4.0, ..Case::standard("test", effects, 11) }
+    Case { duration: 6.0, ..Case::standard("test", effects, 11) }
 }
 
 fn worst_pull(table: &Table) -> f64 {
