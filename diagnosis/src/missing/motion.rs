@@ -65,7 +65,7 @@ pub fn motions(
     let deflection = plant.output(&element.deflection)?;
     let velocity = element.velocity.as_ref().and_then(|name| plant.output(name));
     let motion = |(window, signals): (&Window, &Signals)| Motion {
-        deflection: signals[deflection].clone(),
+        deflection: element.deflected(&signals[deflection]),
         velocity: velocity
             .map_or_else(|| derivative(&signals[deflection], window.step), |it| signals[it].clone()),
     };

@@ -224,6 +224,13 @@ pub struct Missing {
     pub over: Vec<Element>,
 }
 
+impl ElementSignals {
+    /// Its deflection from where the spring carries nothing, from the output's signal.
+    pub fn deflected(&self, output: &[f64]) -> Vec<f64> {
+        output.iter().map(|it| it - self.rest).collect()
+    }
+}
+
 impl ForceOf {
     /// The signal that is the force, if there is one.
     pub fn signal(&self) -> Option<&str> {

@@ -31,7 +31,7 @@ pub fn typical(
         rms(&driven).max(1e-12)
     };
     let of = |element: &ElementSignals| {
-        let positions = signal(&element.deflection);
+        let positions: Vec<_> = signal(&element.deflection).iter().map(|it| element.deflected(it)).collect();
         let velocities = match &element.velocity {
             Some(name) => signal(name),
             None => {

@@ -47,7 +47,7 @@ impl Diagnosis<'_> {
             self.baseline.train.iter().zip(&self.found.base.train).zip(outputs)
         {
             let row = record.measured.iter().position(|it| it.output == output)?;
-            let x = &outputs[position];
+            let x = &signals.deflected(&outputs[position]);
             let v = derivative(x, record.step);
             let (variable, rate) =
                 if over_velocity { (v.clone(), derivative(&v, record.step)) } else { (x.clone(), v) };
