@@ -7,9 +7,8 @@ use std::path::Path;
 
 use strut_model::Declaration;
 use textwrap::{Options, WordSplitter};
-use unicode_width::UnicodeWidthStr;
 
-use super::words::{digits, list, number, percent, unit};
+use super::words::{columns, digits, list, number, percent, unit};
 use crate::catalogue::{self, Effect};
 use crate::missing::ports::{Entry, Port};
 use crate::rig::{Rig, SAME};
@@ -145,8 +144,8 @@ fn places(text: &mut Text, rig: &Rig) {
     let outputs = plant.outputs.iter().filter(|it| !rig.is_trivial(&it.name));
     let sensors = outputs.map(|it| [it.name.clone(), format!("[{}]", it.unit.symbol), "a sensor".to_owned()]);
     text.rows(of_model.chain(sensors));
-    let has_constant = Port::of_model(rig, |_| false).is_empty();
-    if has_constant {
+    let no_constant = Port::of_model(rig, |_| false).is_empty();
+    if no_constant {
         text.paragraph("  ", "No place is in the model itself: a missing force is seen in the sensors only.");
     }
     let no_command = plant.inputs.iter().all(|it| !catalogue::naming::is_command(&it.name));
@@ -317,15 +316,7 @@ impl Text {
 
     /// Rows of three cells, the first two in columns.
     fn rows(&mut self, rows: impl Iterator<Item = [String; 3]>) {
-        let rows: Vec<[String; 3]> = rows.map(|row| row.map(|cell| visible(&cell))).collect();
-        let width = |cell: usize| rows.iter().map(|row| row[cell].width()).max().unwrap_or(0);
-        let (first, second) = (width(0), width(1));
-        for [name, middle, about] in &rows {
-            let pad = |cell: &str, to: usize| " ".repeat(to - cell.width());
-            let line = format!("  {name}{}  {middle}{}  {about}", pad(name, first), pad(middle, second));
-            self.0 += line.trim_end();
-            self.0.push('\n');
-        }
+        self.0 += &columns("  ", rows.map(|row| row.map(|cell| visible(&cell))));
     }
 }
 

@@ -7,7 +7,7 @@ use strut_physics::PARAMETER_SETS;
 use unicode_width::UnicodeWidthStr;
 
 use super::capability::headline;
-use super::words::{digits, unit};
+use super::words::{columns, digits, unit};
 use crate::catalogue;
 use crate::rig::Rig;
 use crate::signal::distortion::Fault;
@@ -46,7 +46,7 @@ pub fn sheet(rig: &Rig) -> String {
     section(&mut sheet, "Nominal parameters", rig.base().into_iter(), |index| {
         let declared = &plant.parameters[index];
         let value = format!("{} {}", digits(rig.parameters[index], DIGITS), unit(declared.unit.symbol));
-        (declared.name.clone(), value.trim_end().into(), declared.doc.clone())
+        [declared.name.clone(), value.trim_end().into(), declared.doc.clone()]
     });
     let mut effects: BTreeMap<(&str, &str), Vec<&str>> = BTreeMap::new();
     for effect in catalogue::effects(plant) {
@@ -54,7 +54,7 @@ pub fn sheet(rig: &Rig) -> String {
     }
     let title = "Effects of the catalogue by number; every sensor may have a distortion, too";
     section(&mut sheet, title, effects.into_iter(), |((id, name), elements)| {
-        (id.into(), elements.join(", "), name.into())
+        [id.into(), elements.join(", "), name.into()]
     });
     let title = "Parameters of these effects, for `diagnose simulate --hide NAME=VALUE`";
     let mut parameters: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
@@ -68,11 +68,11 @@ pub fn sheet(rig: &Rig) -> String {
     }
     section(&mut sheet, title, parameters.into_iter(), |(name, effects)| {
         let declared = &plant.parameters[plant.parameter(name).expect("the effect is in the plant")];
-        (
+        [
             name.into(),
             format!("[{}]", declared.unit.symbol),
             format!("{}; effect {}", declared.doc, effects.join(", ")),
-        )
+        ]
     });
     sheet += "\nDistortions of every signal above, for --hide SIGNAL.DISTORTION=VALUE:\n  ";
     sheet += &Fault::NAMED.map(Fault::name).join(", ");
@@ -81,11 +81,11 @@ pub fn sheet(rig: &Rig) -> String {
 }
 
 /// Name, unit and description.
-fn signal(rig: &Rig, it: &Declaration) -> (String, String, String) {
+fn signal(rig: &Rig, it: &Declaration) -> [String; 3] {
     let others = rig.kind.aliases(&it.name).filter(|name| *name != it.name);
     let others: Vec<String> = others.map(|it| format!("`{it}`")).collect();
     let also = if others.is_empty() { String::new() } else { format!("; also {}", others.join(", ")) };
-    (it.name.clone(), format!("[{}]", it.unit.symbol), format!("{}{also}", it.doc))
+    [it.name.clone(), format!("[{}]", it.unit.symbol), format!("{}{also}", it.doc)]
 }
 
 /// A title, and below it a row of three cells for each item, the first two in columns.
@@ -93,16 +93,9 @@ fn section<T>(
     sheet: &mut String,
     title: &str,
     items: impl Iterator<Item = T>,
-    cells: impl Fn(T) -> (String, String, String),
+    cells: impl Fn(T) -> [String; 3],
 ) {
-    let rows: Vec<_> = items.map(cells).collect();
-    let width = |of: fn(&(String, String, String)) -> &String| rows.iter().map(|row| of(row).width()).max();
-    let (first, second) = (width(|row| &row.0).unwrap_or(0), width(|row| &row.1).unwrap_or(0));
-    *sheet += &format!("\n{title}:\n");
-    for (name, middle, text) in &rows {
-        let pad = |cell: &str, to: usize| " ".repeat(to - cell.width());
-        *sheet += &format!("  {name}{}  {middle}{}  {text}\n", pad(name, first), pad(middle, second));
-    }
+    *sheet += &format!("\n{title}:\n{}", columns("  ", items.map(cells)));
 }
 
 #[cfg(test)]

@@ -6,6 +6,8 @@ mod open;
 mod places;
 mod verdict;
 
+use unicode_width::UnicodeWidthStr;
+
 pub use experiment::{chance, experiment, pair, source};
 pub use numbers::{digits, fit, interval, labelled, number, percent, quantity, trimmed, unit, value};
 pub use open::{open_signal, open_signals};
@@ -19,6 +21,19 @@ pub fn list(items: &[String], last: &str) -> String {
         [one] => one.clone(),
         [rest @ .., end] => format!("{} {last} {end}", rest.join(", ")),
     }
+}
+
+/// Lines of three cells behind an indent, the first two in columns.
+pub fn columns(indent: &str, rows: impl Iterator<Item = [String; 3]>) -> String {
+    let rows: Vec<[String; 3]> = rows.collect();
+    let width = |cell: usize| rows.iter().map(|row| row[cell].width()).max().unwrap_or(0);
+    let (first, second) = (width(0), width(1));
+    let pad = |cell: &str, to: usize| " ".repeat(to - cell.width());
+    let line = |[name, middle, text]: &[String; 3]| {
+        let line = format!("{indent}{name}{}  {middle}{}  {text}", pad(name, first), pad(middle, second));
+        format!("{}\n", line.trim_end())
+    };
+    rows.iter().map(line).collect()
 }
 
 /// The text with a capital at its start.

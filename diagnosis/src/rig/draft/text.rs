@@ -4,7 +4,8 @@ use strut_model::Declaration;
 use textwrap::{Options, WordSplitter};
 use unicode_width::UnicodeWidthStr;
 
-use crate::report::words::{list, trimmed, unit};
+use crate::plant::is_of_strut;
+use crate::report::words::{columns, list, trimmed, unit};
 
 use super::guess::{Declared, Force, Guess, Motion, Strut};
 use super::names::Place;
@@ -46,15 +47,7 @@ impl Page {
 
     /// Rows of three cells in comments, the first two in columns.
     pub fn rows(&mut self, rows: impl Iterator<Item = [String; 3]>) {
-        let rows: Vec<[String; 3]> = rows.collect();
-        let width = |cell: usize| rows.iter().map(|row| row[cell].width()).max().unwrap_or(0);
-        let (first, second) = (width(0), width(1));
-        for [name, middle, text] in &rows {
-            let pad = |cell: &str, to: usize| " ".repeat(to - cell.width());
-            let line =
-                format!("#   {name}{}  {middle}{}  {}", pad(name, first), pad(middle, second), plain(text));
-            self.lines(line.trim_end());
-        }
+        self.0 += &columns("#   ", rows.map(|[name, middle, text]| [name, middle, plain(&text)]));
     }
 
     /// The whole text.
@@ -140,7 +133,7 @@ fn nominal(page: &mut Page, declared: &Declared, guess: &Guess, strut: Option<&S
     }
     page.blank();
     let (reserved, others): (Vec<usize>, Vec<usize>) =
-        guess.others.iter().partition(|it| super::is_of_strut(&declared.parameters[**it].name));
+        guess.others.iter().partition(|it| is_of_strut(&declared.parameters[**it].name));
     let row = |index: &usize| {
         let it = &declared.parameters[*index];
         [
@@ -177,7 +170,7 @@ fn keys(page: &mut Page, declared: &Declared, guess: &Guess) {
     page.comment(
         "Longest segment that is simulated in one go, in s. A model that drifts needs a shorter one.",
     );
-    page.comment("section = 60.0");
+    page.comment("segment = 60.0");
     page.blank();
     page.comment(
         "Values that differ from the FMU's own, and measured parameters with their standard deviation.",
