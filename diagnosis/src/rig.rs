@@ -20,6 +20,9 @@ pub use file::is_fmu;
 pub use kind::{DrivenBy, ElementSignals, ForceOf, Given, Inverse, Kind, Missing, Opposed};
 pub use stand_in::difference;
 
+/// Longest segment of a model that does not drift, in seconds.
+const MINUTE: f64 = 60.0;
+
 /// A rig to be diagnosed: a plant with the values of a parameter set.
 #[derive(Clone, Debug)]
 pub struct Rig {
@@ -200,9 +203,9 @@ impl Rig {
         Ok(())
     }
 
-    /// Longest section that is simulated in one go, in seconds.
-    pub fn section(&self) -> f64 {
-        self.driven().and_then(|by| by.section).unwrap_or(self.kind.section)
+    /// Longest segment that is simulated in one go, in seconds.
+    pub fn segment(&self) -> f64 {
+        self.driven().and_then(|by| by.segment).or(self.kind.segment).unwrap_or(MINUTE)
     }
 
     /// Whether an output follows from the inputs alone.

@@ -179,7 +179,7 @@ fn import(rig: &Rig, origin: &Origin, map: &Map) -> Result<Imported, String> {
         });
         return Ok(Imported { recorded: None, problems });
     }
-    let sections = sections(&uniform.segments, uniform.step, rig.section());
+    let sections = sections(&uniform.segments, uniform.step, rig.segment());
     Ok(Imported {
         recorded: Some(Dataset {
             name,

@@ -36,7 +36,7 @@ impl Split {
     /// The same in shorter stretches, each with states of its own at the start; none if the rig's models keep to long ones.
     pub fn in_parts(&self, rig: &Rig) -> Option<Self> {
         let cut = |records: &[Dataset]| records.iter().map(in_parts).collect::<Vec<_>>();
-        let drifts = rig.section() <= DRIFTING;
+        let drifts = rig.segment() <= DRIFTING;
         drifts.then(|| Self {
             train: cut(&self.train),
             test: cut(&self.test),

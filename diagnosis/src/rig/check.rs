@@ -1,4 +1,4 @@
-//! Whether a rig file speaks of what its model has: all that is wrong, in one go.
+//! The names in a rig file against its model: every mistake at once.
 
 use strut_model::Declaration;
 
@@ -37,11 +37,11 @@ impl Kind {
         }
         self.drives.iter().for_each(|by| names.driven(by));
         self.excitation.iter().for_each(|it| names.input("excitation", &it.input));
-        for (where_, section) in std::iter::once(("section", self.section))
-            .chain(self.drives.iter().filter_map(|by| Some(("drives, section", by.section?))))
-        {
-            if section.is_nan() || section <= 0.0 {
-                names.wrong(format!("{where_}: {section} s is no duration"));
+        let own = self.segment.map(|it| ("segment", it));
+        let of_drives = self.drives.iter().filter_map(|by| Some(("drives, segment", by.segment?)));
+        for (key, segment) in own.into_iter().chain(of_drives) {
+            if segment.is_nan() || segment <= 0.0 {
+                names.wrong(format!("{key}: {segment} s is no duration"));
             }
         }
         names.mistakes
@@ -127,8 +127,11 @@ fn named(declared: &[Declaration]) -> impl Iterator<Item = &str> + Clone {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
     use crate::plant::models;
+    use crate::rig::Rig;
 
     #[test]
     fn the_library_s_rig_files_speak_of_what_their_models_have() {
@@ -143,7 +146,7 @@ mod tests {
         let text = r#"
             model = "QuarterCar"
             nominal = ["sprung_mas"]
-            section = 0.0
+            segment = 0.0
             [names]
             "road.hight" = ["road"]
             [shows]
@@ -170,12 +173,23 @@ mod tests {
             "shows: QuarterCar has no state `wheel.speed`",
             "missing, over: there is no element `tire`",
             "excitation: QuarterCar has no input `voltage`",
-            "section: 0 s is no duration",
+            "segment: 0 s is no duration",
         ];
         assert_eq!(told.len(), expected.len(), "{told:#?}");
         for (told, expected) in told.iter().zip(expected) {
             assert!(told.starts_with(expected), "{told}");
         }
+    }
+
+    #[test]
+    fn what_a_file_leaves_out_is_as_in_the_library_s_file() {
+        let folder = Path::new(".");
+        let rig = |text: &str| Rig::parse(text, "mine".into(), folder).unwrap();
+        let own = Rig::published("linear-drive").unwrap();
+        let plain = rig("model = \"LinearDrive\"");
+        assert_eq!((plain.segment(), plain.base()), (own.segment(), own.base()));
+        assert!(own.segment() < 60.0);
+        assert_eq!(rig("model = \"LinearDrive\"\nsegment = 3.0").segment(), 3.0);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use std::path::Path;
 use strut_model::Value;
 
 use crate::catalogue::Element;
-use crate::plant::{self, Attachment, Foreign, Plant, models};
+use crate::plant::{self, Attachment, Foreign, Plant, is_of_strut, models};
 
 use super::Rig;
 use super::kind::{ElementSignals, ForceOf, Given, Kind};
@@ -15,11 +15,6 @@ use super::kind::{ElementSignals, ForceOf, Given, Kind};
 /// Whether a file is an FMU, by its ending.
 pub fn is_fmu(path: &Path) -> bool {
     path.extension().and_then(OsStr::to_str).is_some_and(|it| it.eq_ignore_ascii_case("fmu"))
-}
-
-/// Whether a foreign model's parameter is one of the strut that is attached to it.
-pub(super) fn is_of_strut(name: &str) -> bool {
-    ["strut.", "hysteresis."].iter().any(|start| name.starts_with(start))
 }
 
 impl Rig {
@@ -148,7 +143,7 @@ impl Kind {
             missing,
             drives,
             excitation,
-            section: _,
+            segment,
         } = other.clone();
         fn or<T: IntoIterator + Clone>(own: &mut T, other: T) {
             if own.clone().into_iter().next().is_none() {
@@ -163,10 +158,13 @@ impl Kind {
             let more: Vec<String> = others.into_iter().filter(|it| !own.contains(it)).collect();
             own.extend(more);
         }
-        self.rates.extend(rates);
+        for (rate, of) in rates {
+            self.rates.entry(rate).or_insert(of);
+        }
         or(&mut self.shows, shows);
         or(&mut self.follows_inputs, follows_inputs);
         self.opposed = self.opposed.or(opposed);
+        self.segment = self.segment.or(segment);
         or(&mut self.missing, missing);
         or(&mut self.drives, drives);
         or(&mut self.excitation, excitation);

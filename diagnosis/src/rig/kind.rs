@@ -39,10 +39,10 @@ pub struct Kind {
     /// What the force that the model misses is made of.
     #[serde(default)]
     pub missing: Vec<Missing>,
-    /// Longest section that is simulated in one go, in seconds: it bounds the memory, and how far a plant that
+    /// Longest segment that is simulated in one go, in seconds: it bounds the memory, and how far a plant that
     /// integrates its input may drift.
-    #[serde(default = "minute")]
-    pub section: f64,
+    /// A minute unless it is given.
+    pub segment: Option<f64>,
     /// Ways in which it can be driven; empty if there is one only.
     #[serde(default)]
     pub drives: Vec<DrivenBy>,
@@ -72,11 +72,6 @@ pub enum Given {
         /// Its standard deviation.
         deviation: f64,
     },
-}
-
-/// Section of a plant that does not drift, in seconds.
-fn minute() -> f64 {
-    60.0
 }
 
 /// A signal that is recorded with the sense of a column, opposite to the model's, if the column is there.
@@ -110,8 +105,8 @@ pub struct DrivenBy {
     pub follows_inputs: Vec<String>,
     /// What it takes for the inverse: the motion drives the model, and the force is compared.
     pub inverse: Option<Inverse>,
-    /// Longest section then, in seconds, if it is not the model's.
-    pub section: Option<f64>,
+    /// Longest segment then, in seconds, if it is not the model's.
+    pub segment: Option<f64>,
 }
 
 /// The inverse of a drive.
