@@ -11,9 +11,9 @@ use super::Drive;
 use super::jet::Scalar;
 
 /// Longest step of the integration in seconds, whatever the record's sampling.
-const LONGEST_STEP: f64 = 4e-3;
+pub(super) const LONGEST_STEP: f64 = 4e-3;
 /// Largest product of the step and the fastest rate of change; the method is stable up to 2.78.
-const STABLE: f64 = 1.2;
+pub(super) const STABLE: f64 = 1.2;
 /// The same of the step and the largest slope of a delay's states, 12 over the delay: a sixteenth of the delay is a step.
 const WELL_BELOW: f64 = 0.75;
 /// How far what friction and bushes remember is displaced to look for contact, SI: beyond any backlash.
@@ -21,7 +21,7 @@ const DISPLACED: f64 = 0.1;
 /// The same of what follows behind a backlash, whatever its unit: beyond the band its rate has one slope.
 const BEYOND_BANDS: f64 = 1e9;
 /// Steps between two samples beyond which a model is too stiff for this method.
-const MOST_STEPS: f64 = 60.0;
+pub(super) const MOST_STEPS: f64 = 60.0;
 
 /// Difference of a step's stages that tells nothing of stiffness, in shares of a state's largest value so far.
 const NEGLIGIBLE: f64 = 1e-9;

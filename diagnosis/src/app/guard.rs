@@ -1,4 +1,4 @@
-//! A process of its own for a diagnosis that runs another maker's FMU: what that does wrong ends the process, and is told.
+//! A separate process for another maker's FMU: a crash ends that process only, and becomes a message.
 
 use std::env;
 use std::fs::OpenOptions;
@@ -35,7 +35,7 @@ pub fn elsewhere(arguments: &Arguments) -> Option<ExitCode> {
 /// The FMU that a command line runs, and how long that may take; none if it runs none.
 fn foreign(arguments: &Arguments) -> Option<(PathBuf, Duration)> {
     let of_rig = |file: &Path| {
-        // What is wrong with the file is told where it is read.
+        // The reader of the file reports its mistakes.
         let kind = Kind::parse(&std::fs::read_to_string(file).ok()?).ok()?;
         kind.is_foreign().then(|| file.with_file_name(&kind.model))
     };

@@ -51,11 +51,10 @@ fn free(path: &Path) -> Result<(), String> {
 /// If the file or its model cannot be read, or the file names what the model does not have: all of it.
 pub fn check(path: &Path) -> Result<String, String> {
     let rig = Rig::read(path)?;
-    let folder = path.parent().unwrap_or(Path::new("."));
     let failed = |error: String| format!("`{}`: {error}", path.display());
     let foreign = Foreign {
-        unnamed: rig.unnamed_parameters(folder).map_err(failed)?,
-        difference: difference(&rig, folder).map_err(failed)?,
+        unnamed: rig.unnamed_parameters().map_err(failed)?,
+        difference: difference(&rig).map_err(failed)?,
     };
     capability(&rig, &foreign).map_err(failed)
 }

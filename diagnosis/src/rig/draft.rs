@@ -9,8 +9,9 @@ mod text;
 use std::path::{Component, Path, PathBuf};
 
 use super::Rig;
-use super::file::{is_fmu, is_of_strut};
+use super::file::is_fmu;
 use super::stand_in;
+use crate::plant::is_of_strut;
 
 use guess::{Declared, Force, Guess, Strut};
 
@@ -80,7 +81,7 @@ fn simpler(declared: &Declared, guess: &Guess) -> Vec<Option<Strut>> {
 /// Refuses a text that cannot be read, or with which the model no longer computes what it does on its own: why.
 fn confirmed(text: &str, name: &str, folder: &Path) -> Result<(), String> {
     let rig = Rig::parse(text, name.to_owned(), folder)?;
-    match stand_in::difference(&rig, folder)? {
+    match stand_in::difference(&rig)? {
         Some(difference) if difference.is_nan() || difference > SAME => {
             let replaced = rig.kind.elements.iter().find_map(|it| it.replaces.as_ref());
             let replaced =

@@ -1,11 +1,10 @@
 //! Whether a strut of the library does what it replaces in a model of another maker.
 
 use std::f64::consts::TAU;
-use std::path::Path;
 
 use strut_model::Declaration;
 
-use crate::plant::{Between, Drive, Foreign, Plant};
+use crate::plant::{Between, Drive, Foreign, Plant, is_of_strut};
 
 use super::Rig;
 
@@ -20,11 +19,11 @@ const ROUNDING: f64 = 1e-9;
 
 /// Largest difference of an output between the model on its own and with a strut of the library in the place of its spring
 /// and damper, relative to how far the output moves; none if no strut replaces anything. Not a number where one of the
-/// two cannot be run. The rig file is in a folder.
+/// two cannot be run.
 ///
 /// # Errors
 /// If the model on its own cannot be read or prepared.
-pub fn difference(rig: &Rig, folder: &Path) -> Result<Option<f64>, String> {
+pub fn difference(rig: &Rig) -> Result<Option<f64>, String> {
     let Some(replaced) = rig.kind.elements.iter().find_map(|it| it.replaces.as_ref()) else {
         return Ok(None);
     };
@@ -32,22 +31,23 @@ pub fn difference(rig: &Rig, folder: &Path) -> Result<Option<f64>, String> {
         return Ok(None);
     }
     let mut parameters: Vec<String> = vec![replaced.stiffness.clone(), replaced.damping.clone()];
-    let own = rig.plant.parameters.iter().map(|it| &it.name).filter(|it| !super::file::is_of_strut(it));
+    let own = rig.plant.parameters.iter().map(|it| &it.name).filter(|it| !is_of_strut(it));
     parameters.extend(own.cloned());
     let alone =
-        Foreign { fmu: folder.join(&rig.kind.model), parameters, locals: Vec::new(), strut: None }.plant()?;
-    let value = |plant: &Plant, name: &str, own: f64| match (name, rig.plant.parameter(name)) {
-        // The two together are what is compared, so both have the values of the rig.
-        _ if name == replaced.stiffness => {
-            rig.plant.parameter("strut.stiffness").map_or(own, |it| rig.parameters[it])
-        }
-        _ if name == replaced.damping => {
-            rig.plant.parameter("strut.damping").map_or(own, |it| rig.parameters[it])
-        }
-        (_, Some(index)) => rig.parameters[index],
-        (_, None) => plant.parameter(name).map_or(own, |it| plant.parameters[it].start),
-    };
-    let values: Vec<f64> = alone.parameters.iter().map(|it| value(&alone, &it.name, it.start)).collect();
+        Foreign { fmu: (&rig.kind.model).into(), parameters, locals: Vec::new(), strut: None }.plant()?;
+    // Both have the values of the rig.
+    let values: Vec<f64> = alone
+        .parameters
+        .iter()
+        .map(|it| {
+            let name = match &it.name {
+                name if *name == replaced.stiffness => "strut.stiffness",
+                name if *name == replaced.damping => "strut.damping",
+                name => name,
+            };
+            rig.plant.parameter(name).map_or(it.start, |index| rig.parameters[index])
+        })
+        .collect();
     let drive = drive(rig);
     let run = |plant: &Plant, parameters: &[f64]| -> Result<Vec<Vec<f64>>, String> {
         // From where the rig starts, which may be where its spring rests.
@@ -111,6 +111,6 @@ mod tests {
     #[test]
     fn a_model_of_the_library_replaces_nothing() {
         let rig = Rig::published("quarter-car").unwrap();
-        assert_eq!(difference(&rig, Path::new(".")), Ok(None));
+        assert_eq!(difference(&rig), Ok(None));
     }
 }

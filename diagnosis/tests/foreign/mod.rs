@@ -1,4 +1,4 @@
-//! The FMU of another maker: effects that another program has hidden are found with it, and what it does wrong is told.
+//! The FMU of another maker: hidden effects are found beside it, and its failures become messages.
 
 use std::fs::{self, File};
 use std::io::Write;

@@ -2,7 +2,8 @@
 
 use strut_integrators::Array;
 
-use crate::{Real, unit::Unit};
+use crate::Real;
+use crate::unit::{ANY, Unit};
 
 /// What is declared about a real variable.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +30,25 @@ pub struct Declaration {
     pub port: bool,
     /// Position from zero in the array that it is an element of, and the array's length.
     pub element: Option<(usize, usize)>,
+}
+
+impl Declaration {
+    /// A declaration of which only the name is known.
+    pub fn named(name: &str) -> Self {
+        Self {
+            name: name.into(),
+            doc: String::new(),
+            unit: ANY,
+            start: 0.0,
+            min: None,
+            max: None,
+            nominal: None,
+            fixed: false,
+            output: false,
+            port: false,
+            element: None,
+        }
+    }
 }
 
 /// Collects declarations and prefixes the names of groups.

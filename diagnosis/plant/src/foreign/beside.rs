@@ -43,6 +43,11 @@ const OF_ITS_OWN: [&str; 7] = [
     "hysteresis.mount.",
 ];
 
+/// Whether a parameter is one of the strut beside a model, and not the model's own.
+pub fn is_of_strut(name: &str) -> bool {
+    ["strut.", "hysteresis."].iter().any(|start| name.starts_with(start))
+}
+
 /// An attached strut.
 #[derive(Clone, Debug)]
 pub struct Beside {
@@ -88,7 +93,7 @@ impl Beside {
             };
             (plain[*index], declared.start) = (replaced, replaced);
         }
-        own.retain(|(_, it)| it.name.starts_with("strut.") || it.name.starts_with("hysteresis."));
+        own.retain(|(_, it)| is_of_strut(&it.name));
         if at.replaces.is_none() {
             own.retain(|(_, it)| !OF_ITS_OWN.iter().any(|group| it.name.starts_with(group)));
         }
@@ -122,7 +127,7 @@ impl Beside {
         self.model.check(&parameters, &derived)
     }
 
-    /// Adds its force to the inputs of a model that has been placed, and computes the rates of what it remembers.
+    /// Adds its force to the inputs of a placed model, and computes the rates of its memory.
     pub fn act(
         &self,
         set: &Set,

@@ -41,6 +41,11 @@ pub(super) struct Changed<'a> {
 }
 
 impl Changed<'_> {
+    /// Nothing yet.
+    fn none(parameters: &[f64], start: &[f64]) -> Self {
+        Self { parameters: parameters.to_vec(), start: start.to_vec(), inputs: &[], by: 0.0 }
+    }
+
     pub fn input(&self, drive: &Drive, index: usize, sample: usize, share: f64) -> f64 {
         let own = drive.value(&drive.inputs[index], sample, share);
         let change = self.inputs.iter().find(|(input, _)| *input == index);
@@ -103,14 +108,11 @@ impl Differences {
         for sample in 0..drive.len() {
             if let Some(walk) = &mut walk {
                 let input = |i: usize| changed.input(drive, i, sample, 0.0);
-                walk.look(
-                    sample as f64 * drive.step,
-                    &state,
-                    (&input, drive.inputs.len()),
-                    &mut rates,
-                    Some(&mut outputs),
-                );
-                walk.settle(&mut state);
+                let (time, inputs) = (sample as f64 * drive.step, drive.inputs.len());
+                walk.look(time, &state, (&input, inputs), &mut rates, Some(&mut outputs));
+                if walk.settle(&mut state) {
+                    walk.look(time, &state, (&input, inputs), &mut rates, None);
+                }
                 if sample + 1 < drive.len() {
                     let input = |i: usize, share: f64| changed.input(drive, i, sample, share);
                     walk.advance((sample, steps), drive, &mut state, &rates, &input);
@@ -135,7 +137,7 @@ impl Differences {
     }
 
     fn changed<'a>(parameters: &[f64], start: &[f64], seed: &'a Seed, by: f64) -> Changed<'a> {
-        let mut changed = Changed { parameters: parameters.to_vec(), start: start.to_vec(), inputs: &[], by };
+        let mut changed = Changed { by, ..Changed::none(parameters, start) };
         match seed {
             Seed::Parameter(index) => changed.parameters[*index] += by,
             Seed::State(index) => changed.start[*index] += by,
@@ -182,9 +184,7 @@ fn share(base: &Signals, moved: &Signals) -> f64 {
 
 impl Dynamics for Differences {
     fn outputs(&self, parameters: &[f64], start: &[f64], drive: &Drive) -> Signals {
-        let changed =
-            Changed { parameters: parameters.to_vec(), start: start.to_vec(), inputs: &[], by: 0.0 };
-        self.run(&changed, drive, None).0
+        self.run(&Changed::none(parameters, start), drive, None).0
     }
 
     fn linearised(
@@ -195,9 +195,7 @@ impl Dynamics for Differences {
         seeds: &[Seed],
         wanted: &[usize],
     ) -> Linearised {
-        let changed =
-            Changed { parameters: parameters.to_vec(), start: start.to_vec(), inputs: &[], by: 0.0 };
-        let base = self.run(&changed, drive, None);
+        let base = self.run(&Changed::none(parameters, start), drive, None);
         let only = |signals: &Signals| wanted.iter().map(|output| signals[*output].clone()).collect();
         let of = |seed: &Seed| only(&self.slopes((parameters, start), drive, seed, &base));
         let slopes = seeds.par_iter().map(of).collect();
@@ -214,7 +212,7 @@ impl Dynamics for Differences {
     ) {
         let changes: Vec<f64> = seeds.iter().map(|seed| self.change(seed, parameters, start).1).collect();
         let none = vec![0.0; start.len()];
-        let plain = Changed { parameters: parameters.to_vec(), start: none.clone(), inputs: &[], by: 0.0 };
+        let plain = Changed::none(parameters, &none);
         let changed =
             seeds.iter().zip(&changes).map(|(seed, by)| Self::changed(parameters, &none, seed, *by));
         let Some(mut lanes) = Lanes::new(self, std::iter::once(plain).chain(changed), drive) else { return };

@@ -8,8 +8,8 @@ use strut_check::import::{
 use strut_model::Declaration;
 use tempfile::TempDir;
 
+use super::Foreign;
 use super::units::{Conversion, coherent};
-use super::{Foreign, plain};
 
 /// A loaded FMU.
 pub struct Fmu {
@@ -292,8 +292,8 @@ impl Session {
         if self.failed { f64::NAN } else { access.conversions[index].si(value[0]) }
     }
 
-    /// Takes what was reached as a step's end and handles events there; the states may jump.
-    pub fn settle(&mut self, states: &mut [f64]) {
+    /// Completes a step and handles an event there; whether there was one, so that states and rates may have jumped.
+    pub fn settle(&mut self, states: &mut [f64]) -> bool {
         let (fmu, instance) = (&*self.fmu, self.instance);
         let mut event = false;
         if !fmu.silent {
@@ -319,6 +319,7 @@ impl Session {
                 *state = conversion.si(*value);
             }
         }
+        event
     }
 }
 
@@ -381,7 +382,7 @@ fn declared<'a>(
             min: si(variable.min),
             max: si(variable.max),
             nominal: variable.nominal.map(|it| conversion.si_rate(it).abs()),
-            ..plain(&variable.name)
+            ..Declaration::named(&variable.name)
         });
         access.references.extend(variable.reference);
         access.conversions.push(conversion);

@@ -13,15 +13,13 @@ mod walk;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use strut_model::{Declaration, unit};
-
 use crate::{Dynamics, Plant};
 
 use beside::Beside;
 use differences::Differences;
 use exchange::Fmu;
 
-pub use beside::{Attachment, Replaced};
+pub use beside::{Attachment, Replaced, is_of_strut};
 
 /// What a predictor is made of.
 #[derive(Clone, Debug)]
@@ -68,22 +66,5 @@ impl Foreign {
             choices: Vec::new(),
             prepare,
         })
-    }
-}
-
-/// A declaration of what nobody told more of than its name.
-fn plain(name: &str) -> Declaration {
-    Declaration {
-        name: name.into(),
-        doc: String::new(),
-        unit: unit::ANY,
-        start: 0.0,
-        min: None,
-        max: None,
-        nominal: None,
-        fixed: false,
-        output: false,
-        port: false,
-        element: None,
     }
 }

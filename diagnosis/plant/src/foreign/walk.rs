@@ -3,16 +3,10 @@
 use nalgebra::DMatrix;
 
 use crate::Drive;
+use crate::pace::{LONGEST_STEP, MOST_STEPS, STABLE};
 
 use super::beside::{Beside, Set};
 use super::exchange::Session;
-
-/// Longest step of the integration in seconds, whatever the record's sampling.
-const LONGEST_STEP: f64 = 4e-3;
-/// Largest product of the step and the fastest rate of change; the method is stable up to 2.78.
-const STABLE: f64 = 1.2;
-/// Steps between two samples beyond which a model is too stiff for this method.
-const MOST_STEPS: f64 = 60.0;
 
 /// An instance with an element beside it.
 pub struct Walk<'a> {
@@ -41,7 +35,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Rates at a time, with so many inputs, and the outputs if they are wanted.
+    /// Rates at a time with a number of inputs, and the outputs on request.
     pub fn look(
         &mut self,
         time: f64,
@@ -64,7 +58,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Goes from a sample to the next in so many steps; `first` are the rates there, `input` an input at a share of the way.
+    /// Goes from a sample to the next in a number of steps; `first` are the rates there, `input` an input at a share of the way.
     pub fn advance(
         &mut self,
         (sample, steps): (usize, usize),
@@ -104,9 +98,10 @@ impl<'a> Walk<'a> {
         (self.slopes, self.middle) = (slopes, middle);
     }
 
-    /// Takes a sample that was reached as the end of a step.
-    pub fn settle(&mut self, state: &mut [f64]) {
-        self.session.settle(&mut state[..self.own]);
+    /// Takes a sample that was reached as the end of a step; whether there was an event, so that states and rates may have
+    /// jumped.
+    pub fn settle(&mut self, state: &mut [f64]) -> bool {
+        self.session.settle(&mut state[..self.own])
     }
 
     /// Steps between two samples that the fastest mode about a state asks for.

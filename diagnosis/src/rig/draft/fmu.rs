@@ -6,10 +6,9 @@ use std::path::Path;
 use strut_check::import::{Description, Package, Variable, description};
 use strut_model::unit;
 
-use crate::plant::{Between, Drive, Foreign, Plant};
+use crate::plant::{Between, Drive, Foreign, Plant, is_of_strut};
 
 use super::guess::Declared;
-use super::is_of_strut;
 use crate::rig::Rig;
 
 /// A force in N whose effect is far from rounding and far from breaking anything.
@@ -37,17 +36,16 @@ pub fn declared(file: &Path) -> Result<Declared, String> {
 }
 
 impl Rig {
-    /// Real parameters of a foreign model that its rig file does not name; none of a model of the library. The rig file is
-    /// in a folder.
+    /// Real parameters of a foreign model that its rig file does not name; none of a model of the library.
     ///
     /// # Errors
     /// If the FMU cannot be read.
-    pub fn unnamed_parameters(&self, folder: &Path) -> Result<Vec<String>, String> {
+    pub fn unnamed_parameters(&self) -> Result<Vec<String>, String> {
         if !self.kind.is_foreign() {
             return Ok(Vec::new());
         }
         let (description, _) =
-            Package::open(&folder.join(&self.kind.model)).and_then(|mut it| description(&mut it))?;
+            Package::open(Path::new(&self.kind.model)).and_then(|mut it| description(&mut it))?;
         let replaced = self.kind.elements.iter().filter_map(|it| it.replaces.as_ref());
         let replaced: Vec<&String> = replaced.flat_map(|it| [&it.stiffness, &it.damping]).collect();
         let mut all = names(&description, "parameter");

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use strut_model::Declaration;
 use strut_model::unit::{self, Base, Unit};
 
+use crate::plant::is_of_strut;
+
 use super::names::{Place, Quantity, go_together, place};
 
 /// What a model of another maker declares, in base units of the SI.
@@ -107,7 +109,7 @@ impl Declared {
             let is_known = UNCERTAIN.iter().any(|it| it.base == declared.unit.base);
             // Zero switches something off: nobody knows whether the rig has it.
             let is_on = declared.start != 0.0;
-            is_on && (is_known || declared.unit.base == N_M_S) && !super::is_of_strut(&declared.name)
+            is_on && (is_known || declared.unit.base == N_M_S) && !is_of_strut(&declared.name)
         };
         let (nominal, others) = (0..self.parameters.len()).partition(uncertain);
         let motions = self.motions();
@@ -279,19 +281,7 @@ mod tests {
     use super::*;
 
     fn declared(name: &str, unit: Unit, doc: &str) -> Declaration {
-        Declaration {
-            name: name.into(),
-            doc: doc.into(),
-            unit,
-            start: 1.0,
-            min: None,
-            max: None,
-            nominal: None,
-            fixed: false,
-            output: false,
-            port: false,
-            element: None,
-        }
+        Declaration { doc: doc.into(), unit, start: 1.0, ..Declaration::named(name) }
     }
 
     /// A quarter car of another maker: a force moves its ends apart.
