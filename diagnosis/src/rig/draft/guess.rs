@@ -115,10 +115,7 @@ impl Declared {
         let motions = self.motions();
         let motion = the_strut(&motions);
         let forces = motion.map_or_else(Vec::new, |motion| self.forces(&motion));
-        let of_unit = |unit: Unit| -> Vec<usize> {
-            (0..self.parameters.len()).filter(|it| self.parameters[*it].unit.base == unit.base).collect()
-        };
-        let rates = [of_unit(unit::N_PER_M), of_unit(unit::N_S_PER_M)];
+        let rates = [unit::N_PER_M, unit::N_S_PER_M].map(|unit| of_unit(&self.parameters, unit));
         let pair = self.pair(&rates);
         let force = pair.map(|(spring, damper)| Force::Rates(spring, damper)).or_else(|| self.force());
         let acts_on = match forces[..] {
@@ -145,37 +142,21 @@ impl Declared {
 
     /// Every output in m with the outputs in m/s whose names go with it.
     fn motions(&self) -> Vec<Motion> {
-        let of =
-            |unit: Unit| (0..self.outputs.len()).filter(move |it| self.outputs[*it].unit.base == unit.base);
-        let name = |output: usize| self.outputs[output].name.as_str();
-        let mut motions = Vec::new();
-        for deflection in of(unit::M) {
-            let fits = |velocity: &usize| {
-                go_together((Quantity::Position, name(deflection)), (Quantity::Velocity, name(*velocity)))
-            };
-            for velocity in of(unit::M_PER_S).filter(fits) {
-                let place = place(name(deflection), &self.outputs[deflection].doc);
-                motions.push(Motion { deflection, velocity, place });
-            }
-        }
-        motions
+        let outputs = &self.outputs;
+        let motion = |(deflection, velocity): (usize, usize)| {
+            let place = place(&outputs[deflection].name, &outputs[deflection].doc);
+            Motion { deflection, velocity, place }
+        };
+        pairs(outputs).into_iter().map(motion).collect()
     }
 
     /// Every input in m/s with the only input in m whose name goes with it.
     fn input_rates(&self) -> Vec<(usize, usize)> {
-        let of =
-            |unit: Unit| (0..self.inputs.len()).filter(move |it| self.inputs[*it].unit.base == unit.base);
-        let name = |input: usize| self.inputs[input].name.as_str();
-        let mut rates = Vec::new();
-        for rate in of(unit::M_PER_S) {
-            let fits = |motion: &usize| {
-                go_together((Quantity::Position, name(*motion)), (Quantity::Velocity, name(rate)))
-            };
-            let mut motions = of(unit::M).filter(fits);
-            if let (Some(motion), None) = (motions.next(), motions.next()) {
-                rates.push((rate, motion));
-            }
-        }
+        let all = pairs(&self.inputs);
+        let is_only = |rate: usize| all.iter().filter(|(_, other)| *other == rate).count() == 1;
+        let mut rates: Vec<(usize, usize)> =
+            all.iter().filter(|(_, rate)| is_only(*rate)).map(|(motion, rate)| (*rate, *motion)).collect();
+        rates.sort_unstable();
         rates
     }
 
@@ -264,6 +245,26 @@ impl Declared {
     fn dependencies(&self, output: usize) -> Option<&[String]> {
         self.depends.get(output)?.as_deref()
     }
+}
+
+/// Variables of a unit, by their places in a list.
+fn of_unit(declared: &[Declaration], unit: Unit) -> Vec<usize> {
+    (0..declared.len()).filter(|it| declared[*it].unit.base == unit.base).collect()
+}
+
+/// Positions in m and velocities in m/s whose names go together, by their places in a list.
+fn pairs(declared: &[Declaration]) -> Vec<(usize, usize)> {
+    let velocities = of_unit(declared, unit::M_PER_S);
+    let go = |position: usize, velocity: usize| {
+        let name = |index: usize| declared[index].name.as_str();
+        go_together((Quantity::Position, name(position)), (Quantity::Velocity, name(velocity)))
+    };
+    let mut pairs = Vec::new();
+    for position in of_unit(declared, unit::M) {
+        let fitting = velocities.iter().filter(|velocity| go(position, **velocity));
+        pairs.extend(fitting.map(|velocity| (position, *velocity)));
+    }
+    pairs
 }
 
 /// The only motion that is called a strut's; without any, the only one that is not called another part's.
