@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde_json::Value;
-use zip::ZipArchive;
 
 const RIG: &str = "tum-linear-measured-quarter-car";
 
@@ -88,31 +87,12 @@ fn replayed(fmu: &Path) {
         done.contains("replay of `validation`") && done.contains("the 6 stated errors come out"),
         "{done}"
     );
-    let mut archive = ZipArchive::new(fs::File::open(fmu).expect("it was just made")).expect("a zip archive");
-    let files: Vec<(String, Vec<u8>)> = (0..archive.len())
-        .map(|index| {
-            let mut file = archive.by_index(index).expect("an entry");
-            let mut contents = Vec::new();
-            std::io::Read::read_to_end(&mut file, &mut contents).expect("readable");
-            (file.name().expect("UTF-8").into_owned(), contents)
-        })
-        .collect();
-    assert!(files.iter().any(|(name, _)| name.ends_with("fmi-ls-ref/report.json")));
+    assert!(crate::tables::files(fmu).iter().any(|(name, _)| name.ends_with("fmi-ls-ref/report.json")));
     let altered = fmu.with_file_name("altered.fmu");
-    for (file, column, share) in
-        [("validation-out.csv", "body.acceleration", 1.01), ("validation-in.csv", "road.position", 1.01)]
+    for (file, column) in
+        [("validation-out.csv", "body.acceleration"), ("validation-in.csv", "road.position")]
     {
-        let changed = files.iter().map(|(name, contents)| {
-            let own = name.ends_with(file);
-            let text = || scaled(std::str::from_utf8(contents).expect("CSV"), column, share).into_bytes();
-            (name.as_str(), if own { text() } else { contents.clone() })
-        });
-        let changed: Vec<(&str, Vec<u8>)> = changed.collect();
-        assert!(changed.iter().zip(&files).any(|(one, other)| one.1 != other.1), "{file}");
-        let deflated = zip::CompressionMethod::Deflated;
-        let bytes =
-            crate::subject::archive(changed.iter().map(|(name, bytes)| (*name, bytes.as_slice(), deflated)));
-        fs::write(&altered, bytes).expect("it is ours");
+        crate::tables::scaled_in(fmu, file, column, 1.01, &altered);
         let (code, answers) = check(&altered);
         let problems = crate::subject::problems(&answers[0]);
         assert_eq!(code, 1);
@@ -130,7 +110,7 @@ fn a_sensor_s_gain_is_beside_the_extended_model() {
     for name in ["train.csv", "test.csv"] {
         let path = records.join(name);
         let text = fs::read_to_string(&path).expect("it was just made");
-        fs::write(&path, scaled(&text, "body.acceleration", 1.2)).expect("it is ours");
+        fs::write(&path, crate::tables::scaled(&text, "body.acceleration", 1.2)).expect("it is ours");
     }
     let mut command = diagnose();
     command.args(["--rig", RIG, "--effects", "23,34", "--train"]).arg(records.join("train.csv"));
@@ -187,28 +167,9 @@ fn a_sensor_s_response_without_a_name_is_told_by_its_curve() {
     looked_at(&out.join("report.html"));
 }
 
-/// A table with another function of one of its columns.
-fn with_column(text: &str, name: &str, change: impl Fn(&[f64]) -> Vec<f64>) -> String {
-    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
-    let column = rows[0].iter().position(|title| title.starts_with(name)).expect(name);
-    let values: Vec<f64> = rows[1..].iter().map(|row| row[column].parse().expect("a number")).collect();
-    let changed = change(&values);
-    let row = |(row, value): (&Vec<&str>, &f64)| {
-        let value = value.to_string();
-        let cells =
-            row.iter().enumerate().map(|(index, cell)| if index == column { value.as_str() } else { *cell });
-        cells.collect::<Vec<_>>().join(",") + "\n"
-    };
-    rows[0].join(",") + "\n" + &rows[1..].iter().zip(&changed).map(row).collect::<String>()
-}
-
-fn scaled(text: &str, name: &str, factor: f64) -> String {
-    with_column(text, name, |values| values.iter().map(|value| factor * value).collect())
-}
-
 /// A column as of a first-order high-pass with a time constant in s, at 1 kHz.
 fn high_passed(text: &str, name: &str, time_constant: f64) -> String {
-    with_column(text, name, |values| {
+    crate::tables::with_column(text, name, |values| {
         let mut slow = 0.0;
         let pass = |value: &f64| {
             slow += (value - slow) * (1e-3 / time_constant);

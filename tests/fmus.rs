@@ -60,18 +60,35 @@ fn some_references_can_be_made_again() {
     assert_eq!(made_again.count(), some.len(), "{told}");
 }
 
-/// The experiment that each FMU brings along comes out as it states.
+/// The experiment that each FMU brings along comes out as it states, in both versions; and not if another result is stated.
 #[test]
 fn replay() {
-    let fmus =
-        strut::fmus().read_dir().expect("the folder exists").map(|entry| entry.expect("readable").path());
-    let files: Vec<PathBuf> = fmus.filter(|path| path.extension() == Some("fmu".as_ref())).collect();
-    let (_, answers) = crate::subject::check(&files, &["--no-fmpy", "--replay"]);
-    for answer in answers.as_array().expect("an answer each") {
-        let name =
-            Path::new(answer["file"].as_str().expect("a name")).file_stem().expect("a stem").to_owned();
-        let (problems, done) = (crate::subject::problems(answer), answer["report"]["done"].to_string());
-        assert_eq!(problems, Vec::<String>::new(), "{}", name.display());
-        assert!(done.contains("replay of `default-experiment`"), "{}: {done}", name.display());
+    for folder in [strut::fmus().to_owned(), strut::fmus().join("fmi3")] {
+        let fmus = folder.read_dir().expect("the folder exists").map(|entry| entry.expect("readable").path());
+        let mut files: Vec<PathBuf> = fmus.filter(|path| path.extension() == Some("fmu".as_ref())).collect();
+        let altered = tempfile::tempdir().expect("a folder");
+        let fmu = folder.join("TumQuarterVehicle.fmu");
+        files.push(altered.path().join("altered.fmu"));
+        crate::tables::scaled_in(
+            &fmu,
+            "default-experiment-out.csv",
+            "tire.deflection",
+            1.01,
+            &files[files.len() - 1],
+        );
+        let (_, answers) = crate::subject::check(&files, &["--no-fmpy", "--replay"]);
+        let (altered, sound) = answers.as_array().expect("an answer each").split_last().expect("several");
+        for answer in sound {
+            let name =
+                Path::new(answer["file"].as_str().expect("a name")).file_stem().expect("a stem").to_owned();
+            let (problems, done) = (crate::subject::problems(answer), answer["report"]["done"].to_string());
+            assert_eq!(problems, Vec::<String>::new(), "{}", name.display());
+            assert!(done.contains("replay of `default-experiment`"), "{}: {done}", name.display());
+        }
+        let problems = crate::subject::problems(altered);
+        assert!(
+            matches!(&problems[..], [it] if it.starts_with("related.replay.agreement: ")),
+            "{problems:?}"
+        );
     }
 }

@@ -20,4 +20,6 @@ mod ssp;
 #[path = "check/subject.rs"]
 mod subject;
 mod systems;
+#[path = "check/tables.rs"]
+mod tables;
 mod third_party;

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Output;
 
-use super::{RIG, diagnose, folder, report, with_column};
+use super::{RIG, diagnose, folder, report};
+use crate::tables::with_column;
 
 /// What a record is to be like to be refused, and what the refusal has to say.
 struct Refused {

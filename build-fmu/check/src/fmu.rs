@@ -26,9 +26,10 @@ pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Re
     report.about = about(&description);
     if description.is_of_another_version() {
         let version = &description.version;
-        report.skipped.push(format!("the rules for FMI 2.0 and running it: this is FMI {version}"));
-        related::check(package, &description, &mut report)?;
-        return if fmpy::validate(file, fmpy::What::Fmu, &options.fmpy, &mut report)? {
+        report.skipped.push(format!("the rules for FMI 2.0: this is FMI {version}"));
+        let experiments = related::check(package, &description, &mut report)?;
+        let asked = run(&description, package, &experiments, options, &mut report)?;
+        return if fmpy::validate(file, fmpy::What::Fmu, &options.fmpy, &mut report)? || asked {
             Ok(report)
         } else {
             Err(format!(
@@ -54,27 +55,39 @@ pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Re
     }
     let experiments = related::check(package, &description, &mut report)?;
     report.tell();
+    run(&description, package, &experiments, options, &mut report)?;
+    fmpy::validate(file, fmpy::What::Fmu, &options.fmpy, &mut report)?;
+    Ok(report)
+}
+
+/// Runs what is to be run. Returns whether it was asked for beyond the rules.
+fn run(
+    description: &Description,
+    package: &mut Package,
+    experiments: &[related::Prepared],
+    options: &Options,
+    report: &mut Report,
+) -> Result<bool, String> {
     if options.replay && experiments.is_empty() {
         report.skipped.push("replay: there is no experiment in it that can be run (FMI-LS-REF)".into());
     }
-    let experiments = if options.replay { &experiments[..] } else { &[] };
-    if options.run {
-        let failed = |error: std::io::Error| format!("there is no folder to unpack to: {error}");
-        let folder = tempfile::tempdir().map_err(failed)?;
-        let (plain, odd) = (folder.path().join("fmu"), folder.path().join("100 % Räder (Kopie)"));
-        for path in [&plain, &odd] {
-            std::fs::create_dir(path).map_err(failed)?;
-            package.unpack(path)?;
-        }
-        let unpacked = behaviour::Unpacked { plain: &plain, odd: &odd };
-        let probe = probe::Probe { program: options.program.clone(), timeout: options.timeout };
-        let further = behaviour::Further { signs: options.signs, experiments };
-        behaviour::run(&description, &unpacked, &probe, &further, &mut report)?;
-    } else {
+    let experiments = if options.replay { experiments } else { &[] };
+    if !options.run {
         report.skipped.push("running it: not wanted".into());
+        return Ok(false);
     }
-    fmpy::validate(file, fmpy::What::Fmu, &options.fmpy, &mut report)?;
-    Ok(report)
+    let failed = |error: std::io::Error| format!("there is no folder to unpack to: {error}");
+    let folder = tempfile::tempdir().map_err(failed)?;
+    let (plain, odd) = (folder.path().join("fmu"), folder.path().join("100 % Räder (Kopie)"));
+    for path in [&plain, &odd] {
+        std::fs::create_dir(path).map_err(failed)?;
+        package.unpack(path)?;
+    }
+    let unpacked = behaviour::Unpacked { plain: &plain, odd: &odd };
+    let probe = probe::Probe { program: options.program.clone(), timeout: options.timeout };
+    let further = behaviour::Further { signs: options.signs, experiments };
+    behaviour::run(description, &unpacked, &probe, &further, report)?;
+    Ok(options.signs || !experiments.is_empty())
 }
 
 /// The description of an FMU, with findings on its encoding and schema.
@@ -119,8 +132,8 @@ fn about(description: &Description) -> Vec<String> {
     let of = |causality: &str| description.variables.iter().filter(|it| it.causality == causality).count();
     let mut about =
         vec![format!("FMI {} {}", description.version, kinds.join(" and ")).trim_end().to_owned()];
-    // Other versions declare their variables in other ways.
-    if !description.is_of_another_version() {
+    // FMI 1.0 declares its variables in another way.
+    if description.runs_as().is_some() {
         about.push(format!("{}, {}", count(of("input"), "input"), count(of("output"), "output")));
     }
     about

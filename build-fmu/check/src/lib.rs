@@ -35,9 +35,9 @@ use std::time::Duration;
 /// What else it takes to run somebody's FMU: its archive, its description and its library.
 pub mod import {
     pub use crate::behaviour::uri;
-    pub use crate::description::{Description, Interface, Kind, Unknown, Variable};
+    pub use crate::description::{Description, Interface, Kind, Unknown, Variable, Version};
     pub use crate::fmu::description;
-    pub use crate::libraries::{HOST, path as library_path};
+    pub use crate::libraries::{host, path as library_path};
     pub use crate::package::Package;
     pub use crate::probe::{Instance, Library, Status};
     pub use crate::unit::Unit;

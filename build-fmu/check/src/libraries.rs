@@ -4,26 +4,31 @@ use std::collections::BTreeMap;
 
 use strut_binary::{Binary, Glibc};
 
-use crate::description::{Description, Kind};
+use crate::description::{Description, Kind, Version};
 use crate::finding::{Finding, names};
 use crate::functions;
 use crate::package::Package;
 use crate::rules::{fmi, practice};
 
-/// The folder of `binaries/` for the machine that this runs on; none if FMI has no name for it.
-pub const HOST: Option<&str> = if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
-    Some("linux64")
+/// The folder of `binaries/` for the machine that this runs on, in FMI 2.0 and 3.0; none if FMI has no name for it.
+const HOST: Option<[&str; 2]> = if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
+    Some(["linux64", "x86_64-linux"])
 } else if cfg!(all(target_os = "linux", target_arch = "aarch64")) {
-    Some("aarch64-linux")
+    Some(["aarch64-linux", "aarch64-linux"])
 } else if cfg!(all(target_os = "windows", target_arch = "x86_64")) {
-    Some("win64")
+    Some(["win64", "x86_64-windows"])
 } else if cfg!(all(target_os = "macos", target_arch = "x86_64")) {
-    Some("darwin64")
+    Some(["darwin64", "x86_64-darwin"])
 } else if cfg!(all(target_os = "macos", target_arch = "aarch64")) {
-    Some("aarch64-darwin")
+    Some(["aarch64-darwin", "aarch64-darwin"])
 } else {
     None
 };
+
+/// The folder of `binaries/` for the machine that this runs on; none if FMI has no name for it.
+pub fn host(version: Version) -> Option<&'static str> {
+    HOST.map(|[two, three]| if version == Version::Two { two } else { three })
+}
 
 /// Version of glibc that every Linux since 2012 has (CentOS 7): what many tools still run on.
 const OLD_ENOUGH: Glibc = Glibc { major: 2, minor: 17 };

@@ -20,7 +20,7 @@ impl Bench<'_> {
             .unzip();
         let mut acts = self.subject.fresh(self.unpacked.plain);
         acts.extend(self.subject.begin());
-        acts.push(plain("fmi2ExitInitializationMode"));
+        acts.push(plain("ExitInitializationMode"));
         acts.push((Act::Reals(references), false));
         let run = self.obey(acts)?;
         let Some(outcome) = run.answers.outcomes.last().filter(|outcome| outcome.is_fine()) else {

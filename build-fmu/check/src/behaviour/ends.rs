@@ -13,7 +13,7 @@ impl Bench<'_> {
         let mut acts = subject.fresh(self.unpacked.plain);
         acts.extend(subject.initialize());
         acts.extend(subject.steps(0..2, 1.0));
-        acts.push(plain("fmi2Terminate"));
+        acts.push(plain("Terminate"));
         acts.extend(subject.reads());
         acts.push((Act::Free, true));
         let run = self.obey(acts)?;
@@ -55,7 +55,7 @@ impl Bench<'_> {
         acts.extend(subject.steps(HALF..HALF + 2, 1.0));
         acts.push((Act::Restore(0), true));
         acts.extend(subject.reads());
-        acts.extend([(Act::FreeState(0), true), plain("fmi2Terminate"), (Act::Free, true)]);
+        acts.extend([(Act::FreeState(0), true), plain("Terminate"), (Act::Free, true)]);
         let run = self.obey(acts)?;
         if !self.ran(fmi::STATE_AGAIN, "a run with a state that is saved over another", &run, report) {
             soften(report);

@@ -37,7 +37,7 @@ impl Bench<'_> {
         acts.extend(self.subject.initialize());
         acts.extend(self.subject.steps(0..HALF, -3.0));
         let before = self.subject.width() * HALF;
-        acts.push(plain("fmi2Reset"));
+        acts.push(plain("Reset"));
         acts.extend(self.subject.initialize());
         acts.extend(self.subject.reads());
         acts.extend(self.subject.steps(0..STEPS, 1.0));
@@ -83,7 +83,7 @@ impl Bench<'_> {
         } else {
             acts.push((Act::FreeState(0), true));
         }
-        acts.extend([plain("fmi2Terminate"), (Act::Free, true)]);
+        acts.extend([plain("Terminate"), (Act::Free, true)]);
         let run = self.obey(acts)?;
         if !self.ran(fmi::STATE_LATER, "a run with a saved state", &run, report) {
             return Ok(());

@@ -12,10 +12,10 @@ pub use signs::Response;
 use subject::{STEPS, Subject, read};
 pub use subject::{plain, uri};
 
-use crate::description::{Description, Kind};
+use crate::description::{Description, Kind, Version};
 use crate::finding::{Finding, Report};
 use crate::libraries;
-use crate::probe::{ABSENT, Act, Ending, Probe, RESTLESS, Run};
+use crate::probe::{ABSENT, Act, Ending, Probe, Run};
 use crate::related::{self, Prepared};
 use crate::rules::{Rule, fmi, practice};
 
@@ -46,10 +46,15 @@ pub fn run(
     further: &Further,
     report: &mut Report,
 ) -> Result<(), String> {
+    let Some(version) = description.runs_as() else {
+        let other = &description.version;
+        report.skipped.push(format!("running it: libraries of FMI {other} are not known here"));
+        return Ok(());
+    };
     let mut first = true;
     for kind in [Kind::CoSimulation, Kind::ModelExchange] {
         let Some(interface) = description.interface(kind) else { continue };
-        let Some(host) = libraries::HOST else {
+        let Some(host) = libraries::host(version) else {
             report.skipped.push("running it: FMI has no name for this machine's platform".into());
             return Ok(());
         };
@@ -58,9 +63,12 @@ pub fn run(
             report.skipped.push(format!("running it: there is no `{library}` for this machine"));
             return Ok(());
         }
-        let subject = Subject::new(description, interface, library);
+        let subject = Subject::new(description, version, interface, library);
         let bench = Bench { subject, unpacked, probe };
-        bench.check(first, report)?;
+        // The rules are those of FMI 2.0.
+        if version == Version::Two {
+            bench.check(first, report)?;
+        }
         if further.signs {
             bench.signs(report)?;
         }
@@ -173,7 +181,7 @@ impl Bench<'_> {
         acts.extend(self.subject.initialize());
         acts.extend(self.subject.reads());
         acts.extend(self.subject.steps(0..STEPS, 1.0));
-        acts.extend([plain("fmi2Terminate"), (Act::Free, true)]);
+        acts.extend([plain("Terminate"), (Act::Free, true)]);
         acts
     }
 
@@ -190,7 +198,7 @@ impl Bench<'_> {
                 )
             }
             (Ending::Answered, Some((act, ABSENT))) => {
-                format!("{} is missing in the library", act.function())
+                format!("{} is missing in the library", act.function(self.subject.version))
             }
             (Ending::Answered, Some((act, status))) => {
                 let time = match act {
@@ -199,9 +207,9 @@ impl Bench<'_> {
                 };
                 let returns = match act {
                     Act::Instantiate { .. } => "returns null".into(),
-                    _ => format!("returns {}", status_name(status)),
+                    _ => format!("returns {}", self.subject.status(status)),
                 };
-                format!("{}{time} {returns} during {what}", act.function())
+                format!("{}{time} {returns} during {what}", act.function(self.subject.version))
             }
             (Ending::Answered, None) => return true,
         };
@@ -211,18 +219,5 @@ impl Bench<'_> {
         }
         report.findings.push(finding);
         false
-    }
-}
-
-fn status_name(status: i32) -> &'static str {
-    match status {
-        0 => "fmi2OK",
-        1 => "fmi2Warning",
-        2 => "fmi2Discard",
-        3 => "fmi2Error",
-        4 => "fmi2Fatal",
-        5 => "fmi2Pending",
-        RESTLESS => "without ever coming to rest: it asks for another event iteration a hundred times",
-        _ => "a status that FMI does not know",
     }
 }

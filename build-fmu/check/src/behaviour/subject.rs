@@ -1,9 +1,9 @@
 //! An FMU on the test bench: what is set, what is read, and in which steps.
 
-use std::path::{Path, PathBuf};
+use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
-use crate::description::{Description, Interface, Kind, Variable};
-use crate::probe::{Act, Orders, Outcome, Run};
+use crate::description::{Description, Interface, Kind, Variable, Version};
+use crate::probe::{Act, Orders, Outcome, RESTLESS, Run};
 
 /// How many steps a run has.
 pub const STEPS: usize = 40;
@@ -18,6 +18,8 @@ pub struct Subject<'a> {
     pub interface: &'a Interface,
     /// Path of the library below the FMU's folder.
     pub library: String,
+    /// The version of its interface.
+    pub version: Version,
     inputs: Vec<(u32, f64, f64, f64, f64)>,
     reads: Vec<Act>,
     start: f64,
@@ -38,7 +40,12 @@ pub fn reals<'a>(
 
 impl<'a> Subject<'a> {
     /// What is to be done with an interface.
-    pub fn new(description: &'a Description, interface: &'a Interface, library: String) -> Self {
+    pub fn new(
+        description: &'a Description,
+        version: Version,
+        interface: &'a Interface,
+        library: String,
+    ) -> Self {
         let moved =
             |variable: &Variable| variable.causality == "input" && variable.variability == "continuous";
         let inputs = reals(description, &moved)
@@ -88,23 +95,23 @@ impl<'a> Subject<'a> {
             // Explicit Euler steps, short enough for anything.
             step = 1e-6 * if length > 0.0 { length } else { 1.0 };
         }
-        Self { description, interface, library, inputs, reads, start, step }
+        Self { description, interface, library, version, inputs, reads, start, step }
     }
 
     /// Acts for the library of an unpacked FMU.
     pub fn orders(&self, folder: &Path, acts: Acts) -> Orders {
         let library: PathBuf = folder.join(&self.library);
-        Orders { library, acts }
+        Orders { library, version: self.version, acts }
     }
 
     /// Makes an instance.
     pub fn instantiate(&self, folder: &Path, guid: &str, logging: bool) -> (Act, bool) {
-        let act = Act::Instantiate {
-            kind: self.interface.kind,
-            guid: guid.into(),
-            resources: uri(&folder.join("resources")),
-            logging,
+        let resources = folder.join("resources");
+        let resources = match self.version {
+            Version::Two => uri(&resources),
+            Version::Three => format!("{}{MAIN_SEPARATOR}", resources.display()),
         };
+        let act = Act::Instantiate { kind: self.interface.kind, guid: guid.into(), resources, logging };
         (act, true)
     }
 
@@ -121,16 +128,16 @@ impl<'a> Subject<'a> {
             stop: experiment.stop.filter(|stop| *stop > self.start),
             tolerance: experiment.tolerance.filter(|tolerance| *tolerance > 0.0),
         };
-        vec![(set_up, true), plain("fmi2EnterInitializationMode")]
+        vec![(set_up, true), plain("EnterInitializationMode")]
     }
 
     /// Up to the first step.
     pub fn initialize(&self) -> Acts {
         let mut acts = self.begin();
-        acts.push(plain("fmi2ExitInitializationMode"));
+        acts.push(plain("ExitInitializationMode"));
         if self.interface.kind == Kind::ModelExchange {
             acts.push((Act::DiscreteStates, true));
-            acts.push(plain("fmi2EnterContinuousTimeMode"));
+            acts.push(plain("EnterContinuousTimeMode"));
         }
         acts
     }
@@ -178,6 +185,19 @@ impl<'a> Subject<'a> {
     /// Reads the outputs.
     pub fn reads(&self) -> Acts {
         self.reads.iter().map(|act| (act.clone(), true)).collect()
+    }
+
+    /// The name of a status.
+    pub fn status(&self, status: i32) -> String {
+        const NAMES: [&str; 6] = ["OK", "Warning", "Discard", "Error", "Fatal", "Pending"];
+        if status == RESTLESS {
+            return "without ever coming to rest: it asks for another event iteration a hundred times"
+                .to_owned();
+        }
+        match usize::try_from(status).ok().and_then(|index| NAMES.get(index)) {
+            Some(name) => format!("{}{name}", self.version.prefix()),
+            None => "a status that FMI does not know".to_owned(),
+        }
     }
 
     /// How many acts read the outputs once.

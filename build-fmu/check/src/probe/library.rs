@@ -1,5 +1,5 @@
 //! A library of FMI 2.0 behind functions without `unsafe`: here, in [`exchange`](super::exchange), in
-//! [`memory`] and in [`logger`] is all of it.
+//! [`three`](super::three), in [`memory`] and in [`logger`] is all of it.
 //!
 //! What the library does with its memory is beyond anyone's control. That is why it is loaded in a process
 //! of its own.
@@ -36,6 +36,34 @@ struct Callbacks {
 /// An error with what the system says of it.
 fn words(error: &libloading::Error) -> String {
     std::error::Error::source(error).map_or_else(|| error.to_string(), |source| format!("{error}: {source}"))
+}
+
+/// Loads a library's file.
+///
+/// # Errors
+/// If the system cannot: in its words.
+pub(super) fn open(path: &Path) -> Result<libloading::Library, String> {
+    // SAFETY: its initialisers run, whatever they do: this process is there for that.
+    #[cfg(unix)]
+    let library = unsafe {
+        use libloading::os::unix;
+        // All symbols at once, as importers load it.
+        unix::Library::open(Some(path), unix::RTLD_NOW | unix::RTLD_LOCAL).map(libloading::Library::from)
+    };
+    // SAFETY: as above.
+    #[cfg(not(unix))]
+    let library = unsafe { libloading::Library::new(path) };
+    library.map_err(|error| words(&error))
+}
+
+/// A library's word on a version or platform; none if the function is not there or says nothing.
+pub(super) fn word(library: &libloading::Library, function: &str) -> Option<String> {
+    // SAFETY: all functions of this kind have no arguments and return a C string that is never freed.
+    unsafe {
+        let function = library.get::<unsafe extern "C" fn() -> *const c_char>(function).ok()?;
+        let text = function();
+        (!text.is_null()).then(|| CStr::from_ptr(text).to_string_lossy().into_owned())
+    }
 }
 
 /// A loaded library.
@@ -83,16 +111,7 @@ impl Library {
     /// # Errors
     /// If the system cannot: in its words.
     pub fn load(path: &Path) -> Result<Self, String> {
-        // SAFETY: its initialisers run, whatever they do: this process is there for that.
-        #[cfg(unix)]
-        let library = unsafe {
-            use libloading::os::unix;
-            // All symbols at once, as importers load it.
-            unix::Library::open(Some(path), unix::RTLD_NOW | unix::RTLD_LOCAL).map(libloading::Library::from)
-        };
-        // SAFETY: as above.
-        #[cfg(not(unix))]
-        let library = unsafe { libloading::Library::new(path) };
+        let library = open(path)?;
         let callbacks = Box::new(Callbacks {
             logger: logger::log,
             allocate: memory::allocate,
@@ -100,19 +119,13 @@ impl Library {
             step_finished: None,
             environment: null_mut(),
         });
-        let library = library.map_err(|error| words(&error))?;
         let exchange = Functions::of(&library);
         Ok(Self { library, callbacks, exchange })
     }
 
     /// The library's word on a version or platform; none if the function is not there or says nothing.
     pub fn word(&self, function: &str) -> Option<String> {
-        // SAFETY: both functions of this kind have no arguments and return a C string that is never freed.
-        unsafe {
-            let function = self.library.get::<unsafe extern "C" fn() -> *const c_char>(function).ok()?;
-            let text = function();
-            (!text.is_null()).then(|| CStr::from_ptr(text).to_string_lossy().into_owned())
-        }
+        word(&self.library, function)
     }
 
     /// Makes an instance; none if the library refuses, or has no such function.

@@ -44,9 +44,23 @@ pub unsafe extern "C" fn log(
     category: *const c_char,
     message: *const c_char,
 ) {
+    keep(name.is_null(), status, category, message);
+}
+
+/// The logger of FMI 3.0, which has no instance's name.
+pub unsafe extern "C" fn log_of_three(
+    _environment: *mut c_void,
+    status: Status,
+    category: *const c_char,
+    message: *const c_char,
+) {
+    keep(false, status, category, message);
+}
+
+fn keep(is_nameless: bool, status: Status, category: *const c_char, message: *const c_char) {
     let Ok(mut log) = LOG.lock() else { return };
     log.null_category |= category.is_null();
-    log.null_text |= message.is_null() || name.is_null();
+    log.null_text |= message.is_null() || is_nameless;
     // SAFETY: both are C strings while the logger runs, by the standard.
     let text = |text: *const c_char| (!text.is_null()).then(|| unsafe { CStr::from_ptr(text) });
     if let Some(category) = text(category).filter(|_| log.categories.len() < 20) {

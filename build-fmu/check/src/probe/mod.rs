@@ -1,10 +1,12 @@
 //! What another process does with a library, act by act, and what came of it.
 
+mod act;
 mod exchange;
 mod library;
 mod logger;
 mod memory;
 mod process;
+mod three;
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -14,65 +16,21 @@ use std::process::ExitCode;
 
 use serde::{Deserialize, Serialize};
 
-use crate::description::Kind;
+use crate::description::{Kind, Version};
+pub use act::Act;
 use library::Saved;
 pub use library::{ABSENT, Instance, Library, Status};
 pub use logger::Log;
 pub use memory::Memory;
 pub use process::{Ending, Probe, Run};
 
-/// One thing to do. Instances and states have numbers.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub enum Act {
-    /// Makes an instance.
-    Instantiate { kind: Kind, guid: String, resources: String, logging: bool },
-    /// `fmi2SetupExperiment`.
-    SetUp { start: f64, stop: Option<f64>, tolerance: Option<f64> },
-    /// A function without further arguments.
-    Plain(String),
-    /// Frees the instance.
-    Free,
-    /// Goes on with the instance of a number.
-    Use(usize),
-    /// Reads reals.
-    Reals(Vec<u32>),
-    /// Reads integers (false) or Booleans (true).
-    Integers(Vec<u32>, bool),
-    /// Reads texts.
-    Texts(Vec<u32>),
-    /// Sets reals.
-    SetReals(Vec<u32>, Vec<f64>),
-    /// `fmi2DoStep`.
-    Step(f64, f64),
-    /// Frees a null pointer in place of an instance.
-    FreeNothing,
-    /// Saves the state under a number, over the one that it has.
-    Save(usize),
-    /// Restores it.
-    Restore(usize),
-    /// Frees it; the integer is 1 if its pointer is null then.
-    FreeState(usize),
-    /// Turns it into bytes and these into the state of another number.
-    Serialize(usize, usize),
-    /// Directional derivative of some unknowns towards a known.
-    Directional(Vec<u32>, u32),
-    /// `fmi2SetRealInputDerivatives`: the first derivatives of inputs.
-    InputDerivatives(Vec<u32>, Vec<f64>),
-    /// `fmi2GetRealOutputDerivatives` of an order.
-    OutputDerivatives(Vec<u32>, i32),
-    /// `fmi2GetNominalsOfContinuousStates` of that many states.
-    Nominals(usize),
-    /// Makes discrete states new until they stay.
-    DiscreteStates,
-    /// An explicit Euler step of that many states and event indicators, with events.
-    Euler { states: usize, indicators: usize, time: f64, size: f64 },
-}
-
 /// What to do with which library.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Orders {
     /// The library.
     pub library: PathBuf,
+    /// The version of its interface.
+    pub version: Version,
     /// What to do; the first failure of an act that must succeed ends it.
     pub acts: Vec<(Act, bool)>,
 }
@@ -172,60 +130,48 @@ impl Calling {
 fn obey(orders: &Orders, folder: &Path) -> Answers {
     let mut calling = Calling::new(folder);
     calling.tell("its initialisation");
-    let library = match Library::load(&orders.library) {
-        Ok(library) => library,
-        Err(error) => return Answers { unloadable: Some(error), ..Answers::default() },
+    let obeyed = match orders.version {
+        Version::Two => Library::load(&orders.library).map(|library| {
+            let told = Answers {
+                version: library.word("fmi2GetVersion"),
+                types: library.word("fmi2GetTypesPlatform"),
+                ..Answers::default()
+            };
+            let mut stage =
+                Stage { library: &library, instances: Vec::new(), current: 0, states: BTreeMap::new() };
+            Answers { outcomes: outcomes(orders, &mut calling, |act| stage.perform(act)), ..told }
+        }),
+        Version::Three => three::Stage::load(&orders.library).map(|mut stage| {
+            let outcomes = outcomes(orders, &mut calling, |act| stage.perform(act));
+            Answers { version: stage.version(), outcomes, ..Answers::default() }
+        }),
     };
-    let mut answers = Answers {
-        version: library.word("fmi2GetVersion"),
-        types: library.word("fmi2GetTypesPlatform"),
-        ..Answers::default()
-    };
-    let mut stage = Stage { library: &library, instances: Vec::new(), current: 0, states: BTreeMap::new() };
-    for (act, must) in &orders.acts {
-        // Each call is reported, so that the parent sees progress.
-        calling.tell(act.function());
-        let outcome = stage.perform(act);
-        let ends = outcome.status == 4 || (*must && !outcome.is_fine());
-        answers.outcomes.push(outcome);
-        if ends {
-            break;
-        }
-    }
+    let mut answers =
+        obeyed.unwrap_or_else(|error| Answers { unloadable: Some(error), ..Answers::default() });
     answers.log = logger::logged();
     answers.memory = memory::memory();
     calling.tell("the end of the process");
     answers
 }
 
-impl Act {
-    /// The function that it calls, for messages.
-    pub fn function(&self) -> &str {
-        match self {
-            Self::Instantiate { .. } => "fmi2Instantiate",
-            Self::SetUp { .. } => "fmi2SetupExperiment",
-            Self::Plain(name) => name,
-            Self::Free => "fmi2FreeInstance",
-            Self::FreeNothing => "fmi2FreeInstance with a null pointer",
-            Self::Use(_) => "nothing",
-            Self::Reals(_) => "fmi2GetReal",
-            Self::Integers(_, false) => "fmi2GetInteger",
-            Self::Integers(_, true) => "fmi2GetBoolean",
-            Self::Texts(_) => "fmi2GetString",
-            Self::SetReals(..) => "fmi2SetReal",
-            Self::Step(..) => "fmi2DoStep",
-            Self::Save(_) => "fmi2GetFMUstate",
-            Self::Restore(_) => "fmi2SetFMUstate",
-            Self::FreeState(_) => "fmi2FreeFMUstate",
-            Self::Serialize(..) => "fmi2SerializeFMUstate and fmi2DeSerializeFMUstate",
-            Self::Directional(..) => "fmi2GetDirectionalDerivative",
-            Self::InputDerivatives(..) => "fmi2SetRealInputDerivatives",
-            Self::OutputDerivatives(..) => "fmi2GetRealOutputDerivatives",
-            Self::Nominals(_) => "fmi2GetNominalsOfContinuousStates",
-            Self::DiscreteStates => "fmi2NewDiscreteStates",
-            Self::Euler { .. } => "the functions of a step of model exchange",
+/// What each act comes to, up to the first failure.
+fn outcomes(
+    orders: &Orders,
+    calling: &mut Calling,
+    mut perform: impl FnMut(&Act) -> Outcome,
+) -> Vec<Outcome> {
+    let mut outcomes = Vec::new();
+    for (act, must) in &orders.acts {
+        // Each call is reported, so that the parent sees progress.
+        calling.tell(&act.function(orders.version));
+        let outcome = perform(act);
+        let ends = outcome.status == 4 || (*must && !outcome.is_fine());
+        outcomes.push(outcome);
+        if ends {
+            break;
         }
     }
+    outcomes
 }
 
 struct Stage<'a> {
@@ -258,7 +204,7 @@ impl Stage<'_> {
         outcome.status = match act {
             Act::Instantiate { .. } | Act::Use(_) => 0,
             Act::SetUp { start, stop, tolerance } => library.set_up(instance, *start, *stop, *tolerance),
-            Act::Plain(name) => library.plain(name, instance),
+            Act::Plain(_) => library.plain(&act.function(Version::Two), instance),
             Act::Free => {
                 library.free(instance);
                 0
@@ -317,7 +263,7 @@ impl Stage<'_> {
             }
             Act::Nominals(states) => {
                 reals = vec![0.0; *states];
-                library.array(act.function(), instance, &mut reals)
+                library.array(&act.function(Version::Two), instance, &mut reals)
             }
             Act::DiscreteStates => discrete_states(library, instance),
             Act::Euler { states, indicators, time, size } => {

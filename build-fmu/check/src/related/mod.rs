@@ -120,8 +120,8 @@ fn one(
         report.findings.push(Finding::warning(related::FILE, message).at(manifest));
         return Ok(Vec::new());
     };
-    // Which variables there are is known of FMI 2.0 alone.
-    if description.is_of_another_version() {
+    // Which variables there are is not known of FMI 1.0.
+    if description.runs_as().is_none() {
         return Ok(Vec::new());
     }
     match (file.role.main(), file.media.as_str()) {

@@ -127,9 +127,9 @@ fn acts(bench: &Bench, prepared: &Prepared, grid: Grid) -> Vec<(Act, bool)> {
     }
     let stop = Some(grid.time(grid.steps));
     acts.push((Act::SetUp { start: grid.start, stop, tolerance: experiment.tolerance }, true));
-    acts.push(plain("fmi2EnterInitializationMode"));
+    acts.push(plain("EnterInitializationMode"));
     acts.extend((!inputs.is_empty()).then(|| set(grid.start)));
-    acts.push(plain("fmi2ExitInitializationMode"));
+    acts.push(plain("ExitInitializationMode"));
     let read = || (!outputs.is_empty()).then(|| (Act::Reals(outputs.clone()), true));
     acts.extend(read());
     for index in 0..grid.steps {

@@ -3,7 +3,8 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use strut_check::import::{
-    Description, HOST, Instance, Kind, Library, Package, Status, Variable, description, library_path, uri,
+    Description, Instance, Kind, Library, Package, Status, Variable, Version, description, host,
+    library_path, uri,
 };
 use strut_model::Declaration;
 use tempfile::TempDir;
@@ -351,7 +352,8 @@ fn runnable(description: &Description) -> Result<(String, &'static str), String>
     if interface.can("canBeInstantiatedOnlyOncePerProcess") {
         return Err("it can be instantiated only once in a process, and a fit needs several instances".into());
     }
-    let platform = HOST.ok_or("FMI 2.0 has no name for this machine, for which it could have a library")?;
+    let platform = host(Version::Two)
+        .ok_or("FMI 2.0 has no name for this machine, for which it could have a library")?;
     Ok((interface.identifier.clone(), platform))
 }
 

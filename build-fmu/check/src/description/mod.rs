@@ -1,5 +1,7 @@
 //! The model description, read as it is: what is wrong with it is for the rules to find.
 
+mod three;
+
 use std::collections::{BTreeMap, HashMap};
 
 use roxmltree::Node;
@@ -8,12 +10,31 @@ use crate::declared::{Declared, declared};
 use crate::lines::Lines;
 use crate::unit::Unit;
 
+/// A version of the interface that libraries are run by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum Version {
+    /// FMI 2.0.
+    Two,
+    /// FMI 3.0.
+    Three,
+}
+
+impl Version {
+    /// What the names of its functions and types begin with.
+    pub fn prefix(self) -> &'static str {
+        match self {
+            Self::Two => "fmi2",
+            Self::Three => "fmi3",
+        }
+    }
+}
+
 /// What stands in `modelDescription.xml`.
 #[derive(Clone, Debug, Default)]
 pub struct Description {
     /// `2.0`.
     pub version: String,
-    /// Identifier that the library has to know.
+    /// Identifier that the library has to know: in FMI 3.0, the instantiationToken.
     pub guid: Option<String>,
     /// When it was made, as it stands there.
     pub date: Option<String>,
@@ -130,7 +151,8 @@ pub struct Variable {
     pub variability: String,
     /// Initial, if it is given.
     pub initial: Option<String>,
-    /// Name of the element: Real, Integer, Boolean, String, Enumeration; empty if there is none.
+    /// Name of the element: Real, Integer, Boolean, String, Enumeration; empty if there is none. Of FMI 3.0, what comes to the same
+    /// has the same name.
     pub kind: String,
     /// Start value, as it stands there.
     pub start: Option<String>,
@@ -205,6 +227,10 @@ impl Description {
             event_indicators: value(root, "numberOfEventIndicators").unwrap_or(0),
             ..Self::default()
         };
+        if description.runs_as() == Some(Version::Three) {
+            three::complete(&mut description, root, lines);
+            return Ok(description);
+        }
         for (name, kind) in [("CoSimulation", Kind::CoSimulation), ("ModelExchange", Kind::ModelExchange)] {
             description.interfaces.extend(elements(root, name).map(|node| {
                 Interface {
@@ -230,21 +256,11 @@ impl Description {
         }
         let categories = child("LogCategories").into_iter().flat_map(|node| elements(node, "Category"));
         description.categories = categories.filter_map(|node| text(node, "name")).collect();
-        if let Some(node) = child("DefaultExperiment") {
-            description.experiment = Experiment {
-                start: value(node, "startTime"),
-                stop: value(node, "stopTime"),
-                tolerance: value(node, "tolerance"),
-                step: value(node, "stepSize"),
-                line: line(node),
-            };
-        }
+        description.experiment = experiment(root, lines);
         for node in child("ModelVariables").into_iter().flat_map(|node| elements(node, "ScalarVariable")) {
             description.variables.push(variable(node, line(node), &description.types));
         }
-        for (index, variable) in (1..).zip(&description.variables) {
-            description.names.entry(variable.name.clone()).or_insert(index);
-        }
+        description.note_names();
         let structure = child("ModelStructure");
         let list = |name: &str| -> Vec<Unknown> {
             let list = structure.and_then(|node| node.children().find(|node| node.has_tag_name(name)));
@@ -259,7 +275,22 @@ impl Description {
 
     /// Whether it is FMI 1.0 or 3.0; a version that is none is for the schema.
     pub fn is_of_another_version(&self) -> bool {
-        self.version.starts_with("1.") || self.version.starts_with("3.")
+        self.runs_as() != Some(Version::Two)
+    }
+
+    /// The interface that its library has; none for FMI 1.0.
+    pub fn runs_as(&self) -> Option<Version> {
+        match self.version.split('.').next() {
+            Some("1") => None,
+            Some("3") => Some(Version::Three),
+            _ => Some(Version::Two),
+        }
+    }
+
+    fn note_names(&mut self) {
+        for (index, variable) in (1..).zip(&self.variables) {
+            self.names.entry(variable.name.clone()).or_insert(index);
+        }
     }
 
     /// The variable of an index, which counts from 1.
@@ -285,6 +316,17 @@ pub fn elements<'a, 'input>(node: Node<'a, 'input>, name: &'a str) -> impl Itera
 
 fn value<T: std::str::FromStr>(node: Node, name: &str) -> Option<T> {
     node.attribute(name)?.trim().parse().ok()
+}
+
+fn experiment(root: Node, lines: &Lines) -> Experiment {
+    let node = root.children().find(|node| node.has_tag_name("DefaultExperiment"));
+    node.map_or_else(Experiment::default, |node| Experiment {
+        start: value(node, "startTime"),
+        stop: value(node, "stopTime"),
+        tolerance: value(node, "tolerance"),
+        step: value(node, "stepSize"),
+        line: lines.line(node),
+    })
 }
 
 fn simple_type(node: Node, line: u32) -> SimpleType {
