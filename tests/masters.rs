@@ -1,11 +1,27 @@
 //! Every FMU and every system in every master: the table in `tests/masters/README.md`.
 
 use std::path::PathBuf;
+use std::process::Command;
 
 /// The matrix, in the masters that the tests' Python brings and in those that are named.
 fn matrix(more: &[PathBuf]) -> String {
-    let omsimulator = strut::omsimulator().map_or_else(Vec::new, |it| vec!["--omsimulator".into(), it]);
-    strut::python("tests/masters/matrix.py", [&[strut::fmus().into()], &omsimulator[..], more].concat())
+    let omsimulator = option("--omsimulator", strut::omsimulator());
+    let pyfmi = option("--pyfmi", strut::pyfmi());
+    strut::python(
+        "tests/masters/matrix.py",
+        [&[strut::fmus().into()], &omsimulator[..], &pyfmi, more].concat(),
+    )
+}
+
+/// Model exchange, in the importers that the tests' Python brings and in PyFMI where it is named.
+fn model_exchange(more: &[PathBuf]) -> String {
+    let pyfmi = option("--pyfmi", strut::pyfmi());
+    strut::python("tests/masters/model_exchange.py", [&[strut::fmus().into()], &pyfmi[..], more].concat())
+}
+
+/// An option with its value, if there is one.
+fn option(name: &str, value: Option<PathBuf>) -> Vec<PathBuf> {
+    value.map_or_else(Vec::new, |it| vec![name.into(), it])
 }
 
 /// Every FMU in FMPy, libcosimpy and ecos, and some of each kind in others, too.
@@ -21,15 +37,24 @@ fn casadis_jacobians_are_those_of_differences() {
 }
 
 #[test]
+fn pyfmi_reads_start_values_before_initialization_and_exact_derivatives() {
+    if let Some(python) = strut::pyfmi() {
+        let checks = strut::root().join("tests/masters/pyfmi_checks.py");
+        let output = strut::run(Command::new(python).arg(checks).arg(strut::fmus()));
+        print!("{}", String::from_utf8_lossy(&output.stdout));
+    }
+}
+
+#[test]
 fn some_of_each_kind_do_in_model_exchange_what_they_do_in_co_simulation() {
-    print!("{}", strut::python("tests/masters/model_exchange.py", [strut::fmus(), "--short".as_ref()]));
+    print!("{}", model_exchange(&["--short".into()]));
 }
 
 #[test]
 #[ignore = "takes minutes; writes tests/masters/model-exchange.md: `scripts/long-tests model-exchange`"]
 fn every_fmu_in_model_exchange_does_what_it_does_in_co_simulation() {
     let page = strut::root().join("tests/masters/model-exchange.md");
-    print!("{}", strut::python("tests/masters/model_exchange.py", [strut::fmus(), "--page".as_ref(), &page]));
+    print!("{}", model_exchange(&["--page".into(), page]));
 }
 
 /// fmi-sim, installed from crates.io at first use.

@@ -77,10 +77,11 @@ fn ours_and_theirs_do_together_what_an_independent_solution_does() {
 
 #[test]
 fn the_systems_run_in_masters_that_read_start_values() {
+    let omsimulator = strut::omsimulator();
     for name in NAMES {
         let mut arguments = vec![systems().join(name).with_extension("ssp")];
         // PythonFMU's libraries load in a Python alone.
-        arguments.extend(strut::omsimulator().filter(|_| name != "their-truck"));
+        arguments.extend(omsimulator.clone().filter(|_| name != "their-truck"));
         print!("{}", strut::python("tests/masters/third_party.py", arguments));
     }
 }

@@ -135,7 +135,21 @@ fn interpreter_of(environment: &Path) -> PathBuf {
 
 /// OMSimulator's command line, where `STRUT_OMSIMULATOR` names it: it is in no registry.
 pub fn omsimulator() -> Option<PathBuf> {
-    std::env::var_os("STRUT_OMSIMULATOR").map(PathBuf::from)
+    named("STRUT_OMSIMULATOR")
+}
+
+/// The Python interpreter that has PyFMI, where `STRUT_PYFMI` names it: no registry has it built.
+pub fn pyfmi() -> Option<PathBuf> {
+    named("STRUT_PYFMI")
+}
+
+/// What a variable names. Without it the tests say that they leave it out.
+fn named(variable: &str) -> Option<PathBuf> {
+    let program = std::env::var_os(variable).map(PathBuf::from);
+    if program.is_none() {
+        tell(&format!("left out: {variable} names no program"));
+    }
+    program
 }
 
 /// Cargo, at the root, for packages that the `fmi` crate is in.

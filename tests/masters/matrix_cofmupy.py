@@ -1,14 +1,8 @@
-"""Jobs in cofmupy, run by the Python that has it: a job a line on standard input, as JSON with the file for its rows.
-
-An empty line is the answer when they are there, and what went wrong if they are not.
-"""
-
-import contextlib
-import json
-import sys
+"""Jobs in cofmupy, run by the Python that has it."""
 
 import numpy as np
 from cofmupy import Coordinator
+from other_python import serve
 
 
 def unit(end):
@@ -39,20 +33,8 @@ def run(job):
     for _ in range(job["count"]):
         coordinator.do_step(job["step"])
     results = coordinator.get_results()
-    np.save(job["rows"], np.array([results[tuple(signal.split(".", 1))] for signal in job["signals"]]).T)
-
-
-def main():
-    for line in sys.stdin:
-        answer = ""
-        # It reports on standard output.
-        with contextlib.redirect_stdout(sys.stderr):
-            try:
-                run(json.loads(line))
-            except Exception as error:
-                answer = repr(error).replace("\n", " ")
-        print(answer, flush=True)
+    return np.array([results[tuple(signal.split(".", 1))] for signal in job["signals"]]).T
 
 
 if __name__ == "__main__":
-    main()
+    serve(run)

@@ -1,12 +1,12 @@
 """What the matrix runs: every single FMU and every system, as jobs that any master can be told."""
 
-import json
 import re
 import sys
 import zipfile
 from pathlib import Path
 
 import numpy as np
+from connected import ExchangedAfterwards
 from excitation import excitation
 from fmpy import read_model_description
 
@@ -29,9 +29,9 @@ class Job:
         self.name, self.components, self.connections = name, components, connections
         self.values, self.signals, self.step, self.count = values, signals, step, count
 
-    def json(self, **more):
-        fields = ("components", "connections", "values", "signals", "step", "count")
-        return json.dumps({field: getattr(self, field) for field in fields} | more)
+    def fields(self):
+        names = ("components", "connections", "values", "signals", "step", "count")
+        return {name: getattr(self, name) for name in names}
 
     def run(self, kind):
         """In a master of the examples' kind: a row after every step."""
@@ -91,9 +91,8 @@ class ZeroAtFirst(System):
         self.exchanging = True
 
 
-class InDependencyOrder(System):
-    """Before a step, what passes through a component is passed on at once, so that all inputs belong to one instant; one
-    tolerance for all components (OMSimulator)."""
+class OneTolerance(System):
+    """One tolerance for all components."""
 
     TOLERANCE = 1e-10
 
@@ -102,6 +101,38 @@ class InDependencyOrder(System):
             if "solver.tolerance" in component.variables:
                 component.set("solver.tolerance", self.TOLERANCE)
         super().initialize()
+
+
+class ContinuousFirst(OneTolerance):
+    """Before the first step, connections of continuous variables are exchanged until all agree, and the others then once.
+    Later all are exchanged at the end of each step (PyFMI)."""
+
+    step = ExchangedAfterwards.step
+
+    def __init__(self, folder, components, connections, parameters=None):
+        super().__init__(folder, components, connections, parameters)
+        self.rounds = len(components)
+        self.continuous = {
+            name: [(variable, source) for variable, source in inputs if self.both_continuous(source, f"{name}.{variable}")]
+            for name, inputs in self.inputs.items()
+        }
+
+    def both_continuous(self, *ends):
+        parts = [end.split(".", 1) for end in ends]
+        return all(self.components[name].variables[variable].variability == "continuous" for name, variable in parts)
+
+    def exchange(self):
+        self.rounds -= 1
+        whole = self.inputs
+        if self.rounds > 0:
+            self.inputs = self.continuous
+        super().exchange()
+        self.inputs = whole
+
+
+class InDependencyOrder(OneTolerance):
+    """Before a step, what passes through a component is passed on at once, so that all inputs belong to one instant
+    (OMSimulator)."""
 
     def exchange(self):
         for _ in self.components:

@@ -16,7 +16,8 @@ from pathlib import Path
 
 import numpy as np
 from connected import MASTERS, ExchangedAfterwards
-from matrix_jobs import InDependencyOrder, InTurn, System, ZeroAtFirst
+from matrix_jobs import ContinuousFirst, InDependencyOrder, InTurn, System, ZeroAtFirst
+from other_python import OtherPython
 
 # What a master of single FMUs, or of systems, does not run.
 ONE = "one"
@@ -160,21 +161,21 @@ class Fmucontainer(Master):
 
 class Cofmupy(Master):
     def __init__(self, python):
-        script = "from importlib.metadata import version; print(version('cofmupy'), end='')"
-        release = subprocess.run([python, "-c", script], check=True, capture_output=True, text=True).stdout
-        super().__init__("cofmupy", release)
-        # One process for all: it takes seconds to start.
-        script = Path(__file__).parent / "matrix_cofmupy.py"
-        self.process = subprocess.Popen([python, script], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                        stderr=subprocess.DEVNULL, text=True, bufsize=1)
+        self.python = OtherPython(python, "matrix_cofmupy.py", "cofmupy")
+        super().__init__("cofmupy", self.python.version)
 
     def run(self, kind, path, job):
-        with tempfile.TemporaryDirectory() as folder:
-            rows = Path(folder) / "rows.npy"
-            print(job.json(rows=str(rows)), file=self.process.stdin)
-            answer = self.process.stdout.readline()
-            assert answer == "\n", answer or "it has ended"
-            return np.load(rows), InTurn
+        return self.python.run(job.fields()), InTurn
+
+
+class PyFmi(Master):
+    def __init__(self, python):
+        self.python = OtherPython(python, "matrix_pyfmi.py", "PyFMI")
+        super().__init__("PyFMI", self.python.version)
+
+    def run(self, kind, path, job):
+        rows = self.python.run(job.fields() | {"tolerance": ContinuousFirst.TOLERANCE})
+        return rows, ContinuousFirst if kind == "ssp" else System
 
 
 @contextlib.contextmanager
@@ -293,4 +294,5 @@ ALL = [
     lambda arguments: arguments.fmi_sim and FmiSim(arguments.fmi_sim),
     lambda arguments: arguments.fmi_crate and FmiCrate(arguments.fmi_crate),
     lambda arguments: arguments.omsimulator and OMSimulator(arguments.omsimulator),
+    lambda arguments: arguments.pyfmi and PyFmi(arguments.pyfmi),
 ]

@@ -1,6 +1,6 @@
 """Model exchange with moving inputs: every FMU in importers that integrate it, against its co-simulation.
 
-    python model_exchange.py FOLDER [--short] [--page FILE]
+    python model_exchange.py FOLDER [--short] [--page FILE] [--pyfmi PYTHON]
 
 Inputs go in straight lines between samples of 1 ms. The reference is co-simulation with their slopes (fmi2SetRealInputDerivatives)
 at a tolerance of 1e-10: the same inputs, to the last digit. A cell is the largest difference of any output at the samples,
@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from fmpy import simulate_fmu
 from fmpy.sundials import CVodeSolver
-from model_exchange_importers import Casadi, Scipy
+from model_exchange_importers import Casadi, PyFmi, Scipy
 from rig import STEP, Fmu
 
 COUNT = 200
@@ -111,6 +111,11 @@ class FmpyWithInputs(Fmpy):
 IMPORTERS = [Scipy(EXACT), Casadi(EXACT), Fmpy(), FmpyWithInputs()]
 
 
+def importers(pyfmi):
+    """All importers; PyFMI where a Python is named that has it."""
+    return IMPORTERS + ([PyFmi(INTEGRATED, pyfmi, fmi) for fmi in (2, 3)] if pyfmi else [])
+
+
 def off(rows, expected):
     """The largest difference, relative to each output's largest value."""
     assert rows.shape == expected.shape, (rows.shape, expected.shape)
@@ -149,15 +154,16 @@ step, and CVODE wants more than 500 steps in a tenth of a millisecond. Co-simula
 is the way in FMPy. KoniecznyLoadedServoHydraulicActuator is left out: inputs that no load answers make its estimate of a load grow
 without bounds.
 
-| FMU | scipy | CasADi | FMPy | FMPy with inputs in its rates |
-|---|--:|--:|--:|--:|
+**PyFMI** has to be built. [Its results](README.md#pyfmi) are there.
+
 """
 
 
-def page(path, rows):
+def page(path, rows, used):
     """Writes the table."""
-    names = [importer.name for importer in IMPORTERS]
+    names = [importer.name for importer in used]
     text = HEAD.format(**{name: version(name.lower()) for name in ("scipy", "casadi")}, FMPy=version("FMPy"))
+    text += "| FMU | " + " | ".join(names) + " |\n|---|" + "--:|" * len(names) + "\n"
     for fmu, row in rows.items():
         text += f"| {fmu} | " + " | ".join(written(row[name]) for name in names) + " |\n"
     path.write_text(text, encoding="utf-8")
@@ -168,7 +174,9 @@ def main():
     parser.add_argument("folder", type=Path)
     parser.add_argument("--short", action="store_true", help="some of each kind, not all")
     parser.add_argument("--page", type=Path, help="file to write the table to")
+    parser.add_argument("--pyfmi", metavar="PYTHON", help="a Python that has PyFMI")
     arguments = parser.parse_args()
+    used = importers(arguments.pyfmi)
     failures, rows = [], {}
     for path in sorted(arguments.folder.glob("*.fmu")):
         if path.stem in RUNS_AWAY or arguments.short and path.stem not in SHORT:
@@ -178,7 +186,7 @@ def main():
         if not job.outputs:
             continue
         expected, row = job.co_simulated(), {}
-        for importer in IMPORTERS:
+        for importer in used:
             reason = importer.cannot(job)
             if reason:
                 row[importer.name] = reason
@@ -195,10 +203,10 @@ def main():
         print(path.stem, *(f"{name}: {written(cell)}" for name, cell in row.items()), flush=True)
     if failures:
         sys.exit("\n".join(failures))
-    for importer in IMPORTERS:
+    for importer in used:
         assert any(isinstance(row[importer.name], float) for row in rows.values()), f"nothing ran in {importer.name}"
     if arguments.page:
-        page(arguments.page, rows)
+        page(arguments.page, rows, used)
 
 
 if __name__ == "__main__":

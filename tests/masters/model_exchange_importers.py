@@ -5,6 +5,7 @@ import warnings
 import numpy as np
 from fmpy.fmi2 import FMU2Model
 from fmpy_checks import events, instance_double, set_states
+from other_python import OtherPython
 from rig import STEP
 from scipy.integrate import solve_ivp
 
@@ -137,3 +138,24 @@ class Casadi:
                 state = np.array(end)[: model.nx(), 0]
                 rows.append(np.array(function(state, then)[1])[places, 0])
         return np.array(rows)
+
+
+class PyFmi:
+    """PyFMI's own simulation with Assimulo's CVode, of an FMU of FMI 2.0 or of the same one of FMI 3.0."""
+
+    def __init__(self, tolerance, python, fmi):
+        self.name, self.tolerance, self.fmi = f"PyFMI, FMI {fmi}.0", tolerance, fmi
+        self.python = OtherPython(python, "model_exchange_pyfmi.py", "PyFMI")
+
+    def cannot(self, job):
+        return None
+
+    def run(self, job):
+        path, count = job.fmu.path, len(job.times) - 1
+        if self.fmi == 3:
+            path = path.parent / "fmi3" / path.name
+        return self.python.run({
+            "path": str(path.resolve()), "step": STEP, "count": count, "tolerance": 1e-8,
+            "inputs": [v.name for v in job.fmu.inputs], "outputs": [v.name for v in job.outputs],
+            "table": np.column_stack([job.times, job.inputs]).tolist(),
+        })  # fmt: skip
