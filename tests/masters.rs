@@ -7,9 +7,10 @@ use std::process::Command;
 fn matrix(more: &[PathBuf]) -> String {
     let omsimulator = option("--omsimulator", strut::omsimulator());
     let pyfmi = option("--pyfmi", strut::pyfmi());
+    let fmusim = option("--fmusim", strut::fmusim());
     strut::python(
         "tests/masters/matrix.py",
-        [&[strut::fmus().into()], &omsimulator[..], &pyfmi, more].concat(),
+        [&[strut::fmus().into()], &omsimulator[..], &pyfmi, &fmusim, more].concat(),
     )
 }
 

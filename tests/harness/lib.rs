@@ -138,6 +138,11 @@ pub fn omsimulator() -> Option<PathBuf> {
     named("STRUT_OMSIMULATOR")
 }
 
+/// The Reference FMUs' program, where `STRUT_FMUSIM` names it.
+pub fn fmusim() -> Option<PathBuf> {
+    named("STRUT_FMUSIM")
+}
+
 /// The Python interpreter that has PyFMI, where `STRUT_PYFMI` names it: no registry has it built.
 pub fn pyfmi() -> Option<PathBuf> {
     named("STRUT_PYFMI")

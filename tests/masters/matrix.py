@@ -1,7 +1,7 @@
 """Every FMU and every system in every master: a table of how far each result is from the reference.
 
     python matrix.py FOLDER [--short] [--page FILE] [--cofmupy PYTHON] [--fmi-sim PROGRAM] [--fmi-crate PROGRAM]
-        [--omsimulator PROGRAM] [--pyfmi PYTHON]
+        [--fmusim PROGRAM] [--omsimulator PROGRAM] [--pyfmi PYTHON]
 
 The reference is our own master (examples/jacobi.py), which calls the FMUs through FMPy's bare functions; where a master
 exchanges values at other instants than it, the same scheme is written down in ten lines, so that what is compared is
@@ -58,6 +58,7 @@ def main():
     parser.add_argument("--cofmupy", metavar="PYTHON", help="a Python that has cofmupy")
     parser.add_argument("--fmi-sim", metavar="PROGRAM", help="the program fmi-sim")
     parser.add_argument("--fmi-crate", metavar="PROGRAM", help="examples/rust-master's program `job`")
+    parser.add_argument("--fmusim", metavar="PROGRAM", help="modelica's program fmusim")
     parser.add_argument("--omsimulator", metavar="PROGRAM", help="OMSimulator's command line")
     parser.add_argument("--pyfmi", metavar="PYTHON", help="a Python that has PyFMI")
     arguments = parser.parse_args()

@@ -108,6 +108,8 @@ class Ecos(Master):
 class Fmutool(Master):
     """Checks single FMUs."""
 
+    fmi3 = True
+
     def cannot(self, kind, job):
         return ONE if kind == "ssp" else None
 
@@ -200,6 +202,8 @@ def without_units(kind, path):
 class FmiSim(Master):
     """Runs single FMUs."""
 
+    fmi3 = True
+
     def __init__(self, program):
         # It tells its version as an error.
         told = subprocess.run([program, "--version"], capture_output=True, text=True)
@@ -212,7 +216,7 @@ class FmiSim(Master):
     def run(self, kind, path, job):
         values = [f"{name.split('.', 1)[1]}={value!r}" for name, value in job.values.items()]
         values = [part for value in values for part in ("--init-values", value)]
-        with tempfile.TemporaryDirectory() as folder:
+        with tempfile.TemporaryDirectory() as folder, without_units(kind, path) as path:
             rows = Path(folder) / "rows.csv"
             done = subprocess.run(
                 [self.program, "--model", path, "-o", rows, "co-simulation", "--step", str(job.step),
@@ -222,6 +226,39 @@ class FmiSim(Master):
             assert done.returncode == 0, done.stderr[-500:]
             found = np.genfromtxt(rows, delimiter=",", names=True, deletechars="")
         return np.array([found[signal.split(".", 1)[1]][1 : job.count + 1] for signal in job.signals]).T, System
+
+
+class Fmusim(Master):
+    """Validates and runs single FMUs: the tool of the Reference FMUs."""
+
+    fmi3 = True
+
+    def __init__(self, program):
+        told = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout
+        super().__init__("fmusim", told.split()[1])
+        self.program = program
+
+    def cannot(self, kind, job):
+        return ONE if kind == "ssp" else None
+
+    def run(self, kind, path, job):
+        said = self.told("validate", path)
+        complaints = [line for line in said.splitlines() if not line.strip().startswith("Validating ")]
+        assert not complaints, complaints
+        names = [signal.split(".", 1)[1] for signal in job.signals]
+        options = [("--start-value", f"{name.split('.', 1)[1]}={value!r}") for name, value in job.values.items()]
+        options += [("--output-variable", name) for name in names]
+        with tempfile.TemporaryDirectory() as folder:
+            rows = Path(folder) / "rows.csv"
+            self.told("simulate", path, "--interface-type=cs", f"--stop-time={job.count * job.step!r}",
+                      f"--output-interval={job.step!r}", f"--output-file={rows}", *(it for pair in options for it in pair))
+            found = np.genfromtxt(rows, delimiter=",", names=True, deletechars="")
+        return np.array([found[name][1 : job.count + 1] for name in names]).T, System
+
+    def told(self, *arguments):
+        done = subprocess.run([self.program, *arguments], capture_output=True, text=True)
+        assert done.returncode == 0, (done.stdout + done.stderr)[-500:]
+        return done.stdout + done.stderr
 
 
 class OMSimulator(Master):
@@ -293,6 +330,7 @@ ALL = [
     lambda arguments: arguments.cofmupy and Cofmupy(arguments.cofmupy),
     lambda arguments: arguments.fmi_sim and FmiSim(arguments.fmi_sim),
     lambda arguments: arguments.fmi_crate and FmiCrate(arguments.fmi_crate),
+    lambda arguments: arguments.fmusim and Fmusim(arguments.fmusim),
     lambda arguments: arguments.omsimulator and OMSimulator(arguments.omsimulator),
     lambda arguments: arguments.pyfmi and PyFmi(arguments.pyfmi),
 ]

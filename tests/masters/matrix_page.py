@@ -52,7 +52,7 @@ NOTES = """\
 |---|---|
 | FMPy and fmucontainer read no start values of a system (`.ssv`). What our systems give there the FMUs have built in, so it is the same system | `connected_parameters.py` shows which masters read them; fmucontainer's `assembly.py` takes components and connections only |
 | libcosimpy knows no enumerations: such a start value is not set | its start values are kept |
-| fmi (crate) reads no FMU of FMI 3.0 with units or nominal values: it gets the FMU without them | fmi-schema 0.8.0: `unknown field "unit" in element "FmiFloat64"` |
+| fmi (crate) and fmi-sim read no FMU of FMI 3.0 with units or nominal values: they get the FMU without them | fmi-schema 0.8.0: `unknown field "unit" in element "FmiFloat64"` |
 | cofmupy, fmi (our example) set numbers of type Real only | `wrappers.py`: `setReal` |
 | FMPy ignores factors of connections | `connected_gains.py`; [what to do](../../examples/third-party/README.md) |
 
@@ -83,6 +83,16 @@ Python's own library is loaded before (`LD_PRELOAD`).
 
 Until March 2026 it refused a system with `-` in a name; in the SSD, names have `_` instead. It refuses a connection between
 units of other base units, so adapters declare the units of both of their ends.
+
+## fmusim
+
+The tool of the Reference FMUs is in no registry. Where a program is, `STRUT_FMUSIM=/path/to/fmusim` has `cargo test --test whole masters`
+and `scripts/long-tests masters` run it with the others. It validates every FMU and runs it in co-simulation, both versions of FMI;
+its column is in the tables where it was there. It was built by `cargo build --release` from modelica's repository fmusim (0.8.0 of
+August 2026, with CATIA-Systems' fmi-rs as its submodule); its build scripts download SUNDIALS and libxml2.
+
+Model exchange of FMI 3.0 does not start in 0.8.0, with any FMU: `instantiateModelExchange` (`fmi-rs/src/fmi3/mod.rs`) looks at the
+instance that it has not stored yet, and reports "FMI call failed". That of FMI 2.0 runs.
 
 ## PyFMI
 
