@@ -5,8 +5,9 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::{Command, ExitCode, Stdio};
 
+use cargo_metadata::camino::Utf8PathBuf;
 use cargo_metadata::{CrateType, Metadata, MetadataCommand, Package as Described, Target};
 
 use crate::cargo;
@@ -51,12 +52,45 @@ pub fn package(manifest: &Path) -> Result<Option<Package>> {
 }
 
 impl Package {
-    /// Writes the packager, runs it with our own arguments, and returns its exit code.
+    /// Runs the packager with our own arguments, and returns its exit code.
     ///
     /// # Errors
     /// If the crate is no library or does not use Strut, or cargo does not run.
     pub fn run(&self) -> Result<ExitCode> {
-        let folder = self.metadata.target_directory.join("build-fmu").join(self.described.name.as_str());
+        // `strut fmu …` is our `build-fmu …`.
+        let mut ours = std::env::args_os().skip(1).peekable();
+        ours.next_if(|word| word == "fmu");
+        let mut command = self.packager()?;
+        self.ended(command.args(ours))
+    }
+
+    /// Makes the FMU below the crate's target folder; its path.
+    ///
+    /// # Errors
+    /// If the crate is no library or does not use Strut, or its FMU cannot be made.
+    pub fn fmu(&self) -> Result<PathBuf> {
+        let out = self.folder().join("fmus").into_std_path_buf();
+        let failed = |error: std::io::Error| Failure::new(format!("`{}`: {error}", out.display()));
+        // What an earlier version of the model was called is gone.
+        if out.exists() {
+            fs::remove_dir_all(&out).map_err(failed)?;
+        }
+        let mut command = self.packager()?;
+        let code = self.ended(command.arg("--out").arg(&out).stdout(Stdio::null()))?;
+        let made = fs::read_dir(&out).ok().and_then(|mut files| Some(files.next()?.ok()?.path()));
+        made.filter(|_| code == ExitCode::SUCCESS).ok_or_else(|| {
+            Failure::new(format!("there is no FMU of `{}`; its packager says why above", self.described.name))
+        })
+    }
+
+    /// Where the packager and what it makes are.
+    fn folder(&self) -> Utf8PathBuf {
+        self.metadata.target_directory.join("build-fmu").join(self.described.name.as_str())
+    }
+
+    /// Writes the packager; what runs it.
+    fn packager(&self) -> Result<Command> {
+        let folder = self.folder();
         let library = self.library()?;
         let write = |file: &str, text: &str| write_if_changed(&folder.join(file).into_std_path_buf(), text);
         write("Cargo.toml", &self.manifest()?)?;
@@ -78,11 +112,12 @@ impl Package {
             }
         }
         eprintln!("note: compiling a packager for `{}`", self.described.name);
-        // `strut fmu …` is our `build-fmu …`.
-        let mut ours = std::env::args_os().skip(1).peekable();
-        ours.next_if(|word| word == "fmu");
-        let status = command.arg("--").args(ours).status();
-        let status = status.map_err(|error| Failure::new(format!("cannot run cargo: {error}")))?;
+        command.arg("--");
+        Ok(command)
+    }
+
+    fn ended(&self, packager: &mut Command) -> Result<ExitCode> {
+        let status = packager.status().map_err(|error| Failure::new(format!("cannot run cargo: {error}")))?;
         match status.code() {
             Some(code @ 0..=2) => Ok(ExitCode::from(code as u8)),
             _ => Err(Failure::new(format!(

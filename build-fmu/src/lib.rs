@@ -63,7 +63,6 @@ mod table;
 mod toolchain;
 mod version;
 
-#[cfg(feature = "strut")]
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -173,6 +172,17 @@ pub fn make(
     let told = run::build(project, &arguments).map_err(|failure| failure.to_string())?;
     let [name] = &told.fmus[..] else { unreachable!("one was asked for") };
     Ok(out.join(format!("{name}.fmu")))
+}
+
+/// Makes the FMU of a model in a crate of one's own, below the crate's target folder; its path. Cargo compiles what has changed.
+///
+/// # Errors
+/// If there is no such crate, it is none with a model of Strut's, or it cannot be compiled: what to do.
+pub fn make_own(manifest: &Path) -> Result<PathBuf, String> {
+    let package = foreign::package(manifest).map_err(|failure| failure.to_string())?;
+    let package =
+        package.ok_or_else(|| format!("`{}` is a part of Strut: name its model", manifest.display()))?;
+    package.fmu().map_err(|failure| failure.to_string())
 }
 
 /// All FMUs and systems in JSON, as `build-fmu list --json` prints them.

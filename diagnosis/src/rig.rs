@@ -4,6 +4,7 @@ mod check;
 mod draft;
 mod file;
 mod kind;
+mod own;
 mod stand_in;
 
 use std::sync::Arc;
@@ -16,8 +17,8 @@ use crate::data::table::did_you_mean;
 use crate::plant::{Plant, models};
 
 pub use draft::{Draft, SAME};
-pub use file::is_fmu;
 pub use kind::{DrivenBy, ElementSignals, ForceOf, Given, Inverse, Kind, Missing, Opposed};
+pub use own::{MADE, fmu_of, is_fmu, is_manifest};
 pub use stand_in::difference;
 
 /// Longest segment of a model that does not drift, in seconds.

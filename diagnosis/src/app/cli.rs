@@ -77,11 +77,12 @@ pub enum Command {
         #[arg(value_name = "NAME|FILE")]
         name: Option<String>,
     },
-    /// Drafts a rig file of an FMU or of a rig of the library
+    /// Drafts a rig file of an FMU, of a crate with a model, or of a rig of the library
     #[command(after_help = NEW_RIG_EXAMPLES)]
     NewRig {
-        /// An FMU for FMI 2.0 model exchange: model.fmu; or a rig of the library (`diagnose rigs` lists them)
-        #[arg(value_name = "FMU|NAME")]
+        /// An FMU for FMI 2.0 model exchange: model.fmu; the Cargo.toml of a crate with a model of your own; or a rig of the
+        /// library (`diagnose rigs` lists them)
+        #[arg(value_name = "FMU|CRATE|NAME")]
         model: String,
         /// The rig file, which must not exist yet [default: the model's name with .toml, in this folder]
         #[arg(long, value_name = "FILE")]

@@ -9,7 +9,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use crate::app::cli::{Arguments, Command as Subcommand};
-use crate::rig::{Kind, is_fmu};
+use crate::rig::{Kind, MADE, fmu_of, is_fmu, is_manifest};
 
 /// In the process that runs the FMU: the file that its output goes to. Its own standard output is the FMU's, of which some
 /// print there.
@@ -19,11 +19,16 @@ const GRACE: Duration = Duration::from_secs(60);
 
 /// Runs the command line in a process of its own if it takes another maker's FMU; none if it takes none.
 pub fn elsewhere(arguments: &Arguments) -> Option<ExitCode> {
-    let (fmu, limit) = foreign(arguments)?;
+    let (model, limit) = foreign(arguments)?;
     if env::var_os(INSIDE).is_some() {
         return None;
     }
-    Some(match run(limit.saturating_add(GRACE)) {
+    // Compiling a crate takes as long as it takes.
+    let fmu = match fmu_of(&model) {
+        Ok(fmu) => fmu,
+        Err(text) => return Some(failed(&text)),
+    };
+    Some(match run(&fmu, limit.saturating_add(GRACE)) {
         Ok(status) => match told(status, &fmu) {
             None => ExitCode::from(u8::try_from(status.code().unwrap_or(1)).unwrap_or(1)),
             Some(text) => failed(&text),
@@ -32,7 +37,7 @@ pub fn elsewhere(arguments: &Arguments) -> Option<ExitCode> {
     })
 }
 
-/// The FMU that a command line runs, and how long that may take; none if it runs none.
+/// The FMU, or the crate with the model, that a command line runs, and how long that may take; none if it runs none.
 fn foreign(arguments: &Arguments) -> Option<(PathBuf, Duration)> {
     let of_rig = |file: &Path| {
         // The reader of the file reports its mistakes.
@@ -44,7 +49,10 @@ fn foreign(arguments: &Arguments) -> Option<(PathBuf, Duration)> {
         Some(Subcommand::Check { file }) => of_rig(file),
         Some(Subcommand::Rigs { name: Some(name) }) => of_name(name),
         Some(Subcommand::Simulate(simulated)) => of_name(&simulated.rig),
-        Some(Subcommand::NewRig { model, .. }) => is_fmu(Path::new(model)).then(|| PathBuf::from(model)),
+        Some(Subcommand::NewRig { model, .. }) => {
+            let path = PathBuf::from(model);
+            (is_fmu(&path) || is_manifest(&path)).then_some(path)
+        }
         Some(_) => None,
         None => {
             let diagnosis = arguments.diagnosis.as_ref()?;
@@ -61,12 +69,12 @@ fn failed(text: &str) -> ExitCode {
 }
 
 /// This very command line in another process; its end.
-fn run(limit: Duration) -> Result<ExitStatus, String> {
+fn run(fmu: &Path, limit: Duration) -> Result<ExitStatus, String> {
     let started = |error: std::io::Error| format!("cannot start a process for the FMU: {error}");
     let program = env::current_exe().map_err(started)?;
     let told = tempfile::NamedTempFile::new().map_err(started)?;
     let mut command = Command::new(program);
-    command.args(env::args_os().skip(1)).env(INSIDE, told.path()).stdout(Stdio::null());
+    command.args(env::args_os().skip(1)).env(INSIDE, told.path()).env(MADE, fmu).stdout(Stdio::null());
     let end = command.spawn().map_err(started).and_then(|mut child| ended(&mut child, limit));
     // Whoever closed the pipe has read enough; what was not written has its error in the other process.
     let _ = std::io::copy(&mut told.as_file(), &mut std::io::stdout());

@@ -11,7 +11,7 @@ use textwrap::{Options, WordSplitter};
 use super::words::{columns, digits, list, number, percent, unit};
 use crate::catalogue::{self, Effect};
 use crate::missing::ports::{Entry, Port};
-use crate::rig::{Rig, SAME};
+use crate::rig::{Rig, SAME, is_manifest};
 
 use effects::{impossible, in_elements, in_signals};
 
@@ -68,8 +68,14 @@ pub fn capability(rig: &Rig, foreign: &Foreign) -> Result<String, String> {
 /// The first line of what is said of a rig.
 pub fn headline(rig: &Rig) -> String {
     if rig.kind.is_foreign() {
-        let file = Path::new(&rig.kind.model).file_name().unwrap_or_default().to_string_lossy();
-        format!("{}: the FMU {file}, of another maker", rig.name)
+        let model = Path::new(&rig.kind.model);
+        let file = model.file_name().unwrap_or_default().to_string_lossy();
+        match model.parent().filter(|_| is_manifest(model)) {
+            Some(folder) => {
+                format!("{}: the model {} of the crate in {}", rig.name, rig.fmu, folder.display())
+            }
+            None => format!("{}: the FMU {file}, of another maker", rig.name),
+        }
     } else {
         format!("{}: a {}, in the FMU {}", rig.name, rig.plant.name, rig.fmu)
     }

@@ -9,7 +9,7 @@ mod text;
 use std::path::{Component, Path, PathBuf};
 
 use super::Rig;
-use super::file::is_fmu;
+use super::own::{fmu_of, is_fmu, is_manifest};
 use super::stand_in;
 use crate::plant::is_of_strut;
 
@@ -29,23 +29,28 @@ pub struct Draft {
 }
 
 impl Draft {
-    /// Drafts a rig file of a model: an FMU's file, or a rig or a model of the library by its name. The file is for a
+    /// Drafts a rig file of a model: an FMU's file, a crate's manifest, or a rig or a model of the library by its name. The file is for a
     /// folder, which its path to the FMU is relative to.
     ///
     /// # Errors
     /// If there is no such model, or the FMU cannot be read or run on this machine: what to do.
     pub fn of(model: &str, folder: &Path) -> Result<Self, String> {
-        if is_fmu(Path::new(model)) {
-            return Self::of_fmu(Path::new(model), folder);
+        let path = Path::new(model);
+        if is_fmu(path) || is_manifest(path) {
+            return Self::of_fmu(path, folder);
         }
-        let rig = Rig::published(model)
-            .map_err(|error| format!("{error}; of an FMU, name the file with its ending: model.fmu"))?;
+        let rig = Rig::published(model).map_err(|error| {
+            format!(
+                "{error}; of an FMU, name the file with its ending, model.fmu; of a crate, its Cargo.toml"
+            )
+        })?;
         library::draft(&rig)
     }
 
     fn of_fmu(path: &Path, folder: &Path) -> Result<Self, String> {
-        let name = super::kebab(&path.file_stem().unwrap_or_default().to_string_lossy());
-        let declared = fmu::declared(path)?;
+        let fmu = fmu_of(path)?;
+        let name = super::kebab(&fmu.file_stem().unwrap_or_default().to_string_lossy());
+        let declared = fmu::declared(&fmu)?;
         let model = relative(path, folder)?;
         let guess = declared.guess();
         let mut notes = Vec::new();

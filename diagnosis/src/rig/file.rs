@@ -1,6 +1,5 @@
 //! A rig that a file describes, with a model of the library or of another maker.
 
-use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
 
@@ -11,11 +10,7 @@ use crate::plant::{self, Attachment, Foreign, Plant, is_of_strut, models};
 
 use super::Rig;
 use super::kind::{ElementSignals, ForceOf, Given, Kind};
-
-/// Whether a file is an FMU, by its ending.
-pub fn is_fmu(path: &Path) -> bool {
-    path.extension().and_then(OsStr::to_str).is_some_and(|it| it.eq_ignore_ascii_case("fmu"))
-}
+use super::own::{fmu_of, is_fmu, is_manifest};
 
 impl Rig {
     /// Reads a rig file. Paths in it are relative to its folder.
@@ -85,9 +80,10 @@ impl Given {
 }
 
 impl Kind {
-    /// Whether the model is another maker's FMU.
+    /// Whether the model is an FMU that is run as another maker's: a file, or that of a crate of one's own.
     pub fn is_foreign(&self) -> bool {
-        is_fmu(Path::new(&self.model))
+        let model = Path::new(&self.model);
+        is_fmu(model) || is_manifest(model)
     }
 
     fn plant(&self) -> Result<Plant, String> {
@@ -95,7 +91,7 @@ impl Kind {
             return models::named(&self.model).ok_or_else(|| {
                 let names: Vec<&str> = Self::published().iter().map(|it| it.model.as_str()).collect();
                 format!(
-                    "model: there is no `{}`; name a file with the ending .fmu, or one of {}",
+                    "model: there is no `{}`; name a file with the ending .fmu, a crate by its Cargo.toml, or one of {}",
                     self.model,
                     names.join(", ")
                 )
@@ -113,7 +109,7 @@ impl Kind {
             _ => return Err("elements: acts_on is for one element, the strut".into()),
         };
         let locals = self.signals().map(str::to_owned).collect();
-        Foreign { fmu: (&self.model).into(), parameters, locals, strut }.plant()
+        Foreign { fmu: fmu_of(Path::new(&self.model))?, parameters, locals, strut }.plant()
     }
 
     /// All that is named as something to be measured.

@@ -1,12 +1,14 @@
 //! Whether a strut of the library does what it replaces in a model of another maker.
 
 use std::f64::consts::TAU;
+use std::path::Path;
 
 use strut_model::Declaration;
 
 use crate::plant::{Between, Drive, Foreign, Plant, is_of_strut};
 
 use super::Rig;
+use super::own::fmu_of;
 
 /// Time between two samples in seconds.
 const STEP: f64 = 1e-3;
@@ -33,8 +35,8 @@ pub fn difference(rig: &Rig) -> Result<Option<f64>, String> {
     let mut parameters: Vec<String> = vec![replaced.stiffness.clone(), replaced.damping.clone()];
     let own = rig.plant.parameters.iter().map(|it| &it.name).filter(|it| !is_of_strut(it));
     parameters.extend(own.cloned());
-    let alone =
-        Foreign { fmu: (&rig.kind.model).into(), parameters, locals: Vec::new(), strut: None }.plant()?;
+    let fmu = fmu_of(Path::new(&rig.kind.model))?;
+    let alone = Foreign { fmu, parameters, locals: Vec::new(), strut: None }.plant()?;
     // Both have the values of the rig.
     let values: Vec<f64> = alone
         .parameters

@@ -9,7 +9,7 @@ use strut_model::unit;
 use crate::plant::{Between, Drive, Foreign, Plant, is_of_strut};
 
 use super::guess::Declared;
-use crate::rig::Rig;
+use crate::rig::{Rig, fmu_of};
 
 /// A force in N whose effect is far from rounding and far from breaking anything.
 const STEP: f64 = 100.0;
@@ -45,7 +45,7 @@ impl Rig {
             return Ok(Vec::new());
         }
         let (description, _) =
-            Package::open(Path::new(&self.kind.model)).and_then(|mut it| description(&mut it))?;
+            Package::open(&fmu_of(Path::new(&self.kind.model))?).and_then(|mut it| description(&mut it))?;
         let replaced = self.kind.elements.iter().filter_map(|it| it.replaces.as_ref());
         let replaced: Vec<&String> = replaced.flat_map(|it| [&it.stiffness, &it.damping]).collect();
         let mut all = names(&description, "parameter");
