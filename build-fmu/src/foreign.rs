@@ -161,7 +161,7 @@ impl Package {
             "//! Knows the declarations of `{library}`. Written by build-fmu.\n\n\
              fn main() -> std::process::ExitCode {{\n    build_fmu::main(&build_fmu::Project {{\n        \
              catalogue: &[model::ENTRY],\n        parameter_sets: &[],\n        systems: &[],\n        \
-             source: build_fmu::Source::Package {{ manifest: {:?}, name: {:?} }},\n        license: {license:?},\n    \
+             source: build_fmu::Source::Package {{ manifest: {:?}, name: {:?} }},\n        license: {license:?},\n        literature: \"\",\n    \
              }})\n}}\n",
             self.described.manifest_path.as_str(),
             self.described.name.as_str(),
