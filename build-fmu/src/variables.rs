@@ -120,17 +120,23 @@ fn variables(text: &mut String, title: &str, rows: &[rows::Row]) {
     if rows.is_empty() {
         return;
     }
-    let _ = writeln!(
-        text,
-        "\n## {title}\n\n| name | start | unit | range | description |\n|---|---:|---|---|---|"
-    );
+    let starts = rows.iter().any(|row| !row.start.is_empty());
+    let bounds = rows.iter().any(|row| !row.range.is_empty());
+    let line = |cells: [&str; 5]| {
+        let shown = [true, starts, true, bounds, true];
+        let cells = cells.into_iter().zip(shown).filter(|(_, shown)| *shown).map(|(cell, _)| cell);
+        format!("| {} |\n", cells.collect::<Vec<_>>().join(" | "))
+    };
+    let _ = write!(text, "\n## {title}\n\n");
+    *text += &line(["name", "start", "unit", "range", "description"]);
+    *text += &line(["---", "---:", "---", "---", "---"]);
     for row in rows {
         let items = row.items.iter().map(|(name, doc)| match name == doc {
             true => format!("; `{name}`"),
             false => format!("; `{name}`: {}", cell(doc)),
         });
         let doc = cell(&row.doc) + &items.collect::<String>();
-        let _ = writeln!(text, "| `{}` | {} | {} | {} | {doc} |", row.name, row.start, row.unit, row.range);
+        *text += &line([&format!("`{}`", row.name), &row.start, &row.unit, &row.range, &doc]);
     }
 }
 
