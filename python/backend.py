@@ -1,7 +1,8 @@
 """Builds the wheel: maturin builds the module; the command and the libraries of all models are put beside it first.
 
-`STRUT_PROFILE=dev` compiles module and command by the development profile, which is faster to build and slower to run. The
-libraries in the FMUs are the same in either case.
+`STRUT_TARGET=x86_64-unknown-linux-gnu.2.17` builds it for that platform instead of this machine. `STRUT_PROFILE=dev` compiles module
+and command by the development profile, which is faster to build and slower to run. The libraries in the FMUs are the same in
+either case.
 """
 
 import json
@@ -15,43 +16,60 @@ from maturin import (  # noqa: F401  (the hooks of PEP 517 that need nothing mor
     build_sdist,
     get_requires_for_build_editable,
     get_requires_for_build_sdist,
-    get_requires_for_build_wheel,
 )
+from toolchain import Toolchain
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "python" / "strut"
+MANIFEST = ["--manifest-path", str(ROOT / "Cargo.toml")]
+
+
+def get_requires_for_build_wheel(config_settings=None):
+    return maturin.get_requires_for_build_wheel(config_settings) + _toolchain().requires
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    _prepare()
+    _prepare(_toolchain())
     return maturin.build_wheel(wheel_directory, config_settings, metadata_directory)
 
 
 def build_editable(wheel_directory, config_settings=None, metadata_directory=None):
-    _prepare()
+    _prepare(Toolchain())
     return maturin.build_editable(wheel_directory, config_settings, metadata_directory)
 
 
-def _prepare():
+def _toolchain():
+    return Toolchain(os.environ.get("STRUT_TARGET") or None)
+
+
+def _prepare(toolchain):
     """Puts the command and the libraries into the package."""
     profile = os.environ.get("STRUT_PROFILE", "release")
     if profile != "dev":
         os.environ.setdefault("STRUT_VERSION", _version())
-    os.environ.setdefault("MATURIN_PEP517_ARGS", f"--profile {profile}")
-    cargo = os.environ.get("CARGO", "cargo")
-    manifest = ["--manifest-path", str(ROOT / "Cargo.toml")]
-    # Both at once: of one package alone, cargo would choose other features of what they share, and compile it again.
-    packages = ["--package", "strut-command", "--package", "strut-python"]
-    _run([cargo, "build", "--profile", profile, *manifest, *packages])
-    metadata = subprocess.check_output([cargo, "metadata", "--no-deps", "--format-version=1", *manifest])
-    built = Path(json.loads(metadata)["target_directory"], "debug" if profile == "dev" else profile)
-    command = "strut.exe" if os.name == "nt" else "strut"
+    os.environ.setdefault("MATURIN_PEP517_ARGS", " ".join(["--profile", profile, *toolchain.maturin]))
+    # Makes the libraries, for whatever platform: with this machine's compiler, to run here.
+    packager = None if toolchain.runs_here else _built("dev", Toolchain())
+    os.environ.update(toolchain.environment)
+    command = _built(profile, toolchain)
     for folder in ("bin", "libraries"):
         shutil.rmtree(PACKAGE / folder, ignore_errors=True)
     (PACKAGE / "bin").mkdir()
-    shutil.copy2(built / command, PACKAGE / "bin" / command)
-    libraries = [str(PACKAGE / "bin" / command), "fmu", "libraries", "--out", str(PACKAGE / "libraries")]
+    placed = PACKAGE / "bin" / toolchain.program
+    shutil.copy2(command, placed)
+    libraries = [str(packager or placed), "fmu", "libraries", "--out", str(PACKAGE / "libraries"), *toolchain.cargo]
     _run(libraries, CARGO_MANIFEST_DIR=str(ROOT / "build-fmu"))
+
+
+def _built(profile, toolchain):
+    """The command, built."""
+    cargo = os.environ.get("CARGO", "cargo")
+    # Both at once: of one package alone, cargo would choose other features of what they share, and compile it again.
+    packages = ["--package", "strut-command", "--package", "strut-python"]
+    _run([cargo, toolchain.subcommand, "--profile", profile, *MANIFEST, *packages, *toolchain.cargo])
+    metadata = subprocess.check_output([cargo, "metadata", "--no-deps", "--format-version=1", *MANIFEST])
+    target = Path(json.loads(metadata)["target_directory"], toolchain.triple or "")
+    return target / ("debug" if profile == "dev" else profile) / toolchain.program
 
 
 def _run(command, **variables):
