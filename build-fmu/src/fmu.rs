@@ -9,6 +9,7 @@ use strut_model_description::Header;
 use strut_related::{Files, Related, media};
 
 use crate::archive::Archive;
+use crate::declared;
 use crate::documentation::{self, Page};
 use crate::failure::{Failure, Result};
 use crate::{literature, platform::Platform, related, version::Version};
@@ -55,9 +56,12 @@ impl Fmu {
     /// Its variables with the start values of its parameter set.
     ///
     /// # Errors
-    /// If the parameter set does not fit the model.
+    /// If the parameter set does not fit the model, or its declarations contradict each other.
     pub fn interface(&self) -> Result<Interface> {
-        self.entry.interface(self.parsed(), self.folder()).map_err(|error| self.refused(&error))
+        let interface =
+            self.entry.interface(self.parsed(), self.folder()).map_err(|error| self.refused(&error))?;
+        declared::check(&interface)?;
+        Ok(interface)
     }
 
     /// Numbers of inputs and outputs.

@@ -41,6 +41,7 @@ mod cli;
 #[cfg(feature = "tools")]
 mod completions;
 mod custom;
+mod declared;
 mod describe;
 mod documentation;
 mod failure;
