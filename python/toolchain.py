@@ -9,12 +9,15 @@ import subprocess
 from pathlib import Path
 
 
+TARGETS = ["x86_64-unknown-linux-gnu", "aarch64-unknown-linux-gnu", "x86_64-pc-windows-gnu"]
+
+
 class Missing(Exception):
     """What is not installed, and what to do."""
 
 
 class Toolchain:
-    """How cargo and maturin build for a target; for this machine if there is none."""
+    """How cargo builds for a target; for this machine if there is none."""
 
     def __init__(self, target=None):
         self.target = target
@@ -23,6 +26,8 @@ class Toolchain:
             self.triple, self.glibc = None, None
             return
         self.triple, _, self.glibc = target.partition(".")
+        if self.triple not in TARGETS:
+            raise Missing(f"wheels are made for {', '.join(TARGETS)}; for {self.triple}, run `pip wheel .` on such a machine")
         if not _has(_rustc(), self.triple):
             cross = Path(os.environ.get("STRUT_CROSS") or "nowhere", "bin", "rustc")
             if not (cross.is_file() and _has(str(cross), self.triple)):
@@ -52,18 +57,26 @@ class Toolchain:
         return "zigbuild" if self.glibc else "build"
 
     @property
-    def maturin(self):
-        """The words for maturin."""
-        if self.target is None:
-            return []
-        zig = ["--zig", "--compatibility", f"manylinux_{self.glibc.replace('.', '_')}"] if self.glibc else []
-        return ["--target", self.triple, *zig]
+    def is_windows(self):
+        return os.name == "nt" if self.triple is None else "windows" in self.triple
 
     @property
     def program(self):
         """How the command's file is called."""
-        windows = os.name == "nt" if self.triple is None else "windows" in self.triple
-        return "strut.exe" if windows else "strut"
+        return "strut.exe" if self.is_windows else "strut"
+
+    @property
+    def module(self):
+        """How cargo and Python call the module's file."""
+        return ("_strut.dll", "_strut.pyd") if self.is_windows else ("lib_strut.so", "_strut.abi3.so")
+
+    @property
+    def tag(self):
+        """The platform in a wheel's name."""
+        processor = self.triple.split("-")[0]
+        if self.is_windows:
+            return "win_amd64"
+        return f"manylinux_{self.glibc.replace('.', '_')}_{processor}" if self.glibc else f"linux_{processor}"
 
     @property
     def runs_here(self):
