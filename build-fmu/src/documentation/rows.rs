@@ -131,7 +131,7 @@ pub fn given<'a>(interface: &Interface, set: &'a ParameterSet) -> Vec<GivenRow<'
         };
         match table {
             Some(table) if alike && values.len() == table.len => {
-                add(format!("{}[1 … {}]", table.name, table.len), &values)
+                add(format!("{}[1 … {}]", table.name, table.len), &values);
             }
             _ => values.iter().for_each(|it| add(it.0.name.clone(), std::slice::from_ref(it))),
         }
