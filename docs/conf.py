@@ -40,7 +40,9 @@ def outside(app, name, source):
 
     def replaced(match):
         text, path, anchor = match.groups()
-        target = (Path(app.srcdir) / path).resolve()
+        target = (Path(app.srcdir) / name).parent.joinpath(path).resolve()
+        if target.is_relative_to(Path(app.srcdir).resolve()):
+            return match[0]
         if not target.exists():
             logging.getLogger(__name__).warning("%s: there is no %s", name, path)
         kind = "tree" if target.is_dir() else "blob"

@@ -126,8 +126,8 @@ fn a_sensor_s_gain_is_beside_the_extended_model() {
         found["value"].as_f64().expect("a number")
     };
     assert!((amount("body.acceleration.gain") - 0.2).abs() < 0.01, "{terminal}");
-    let corrections = report["corrections"].as_array().expect("a list");
-    let outside: Vec<&str> = corrections.iter().filter_map(|it| it["signal"].as_str()).collect();
+    let distortions = report["distortions"].as_array().expect("a list");
+    let outside: Vec<&str> = distortions.iter().filter_map(|it| it["signal"].as_str()).collect();
     assert_eq!(outside, ["body.acceleration"], "{terminal}");
     print!("{}", strut::python("tests/masters/diagnosed.py", [&out, &records]));
 }

@@ -212,3 +212,45 @@ fn an_iteration_of_a_diagnosis_beside_differences_of_simulations() {
     assert!(differs < 1e-3, "{text}");
     assert!(ratio > 10.0, "{text}");
 }
+
+/// From an empty folder to an FMU and the diagnosis of two records, as the command says.
+#[test]
+fn a_new_crate_agrees_with_scipy_becomes_an_fmu_and_finds_what_its_records_hide() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = folder.path().join("my-rig");
+    let command = |arguments: &[&str]| {
+        let mut command = Command::new(strut::program("strut"));
+        command.args(arguments).current_dir(&made).env("CARGO_TARGET_DIR", strut::target());
+        String::from_utf8_lossy(&strut::run(&mut command).stdout).into_owned()
+    };
+    let mut new = Command::new(strut::program("strut"));
+    strut::run(new.arg("new").arg(&made).arg("--path").arg(strut::root()));
+    // In the workspace's versions, profile and target folder nearly all that it depends on is compiled already.
+    fs::copy(strut::root().join("Cargo.lock"), made.join("Cargo.lock")).unwrap();
+    let test = || {
+        let mut command = strut::cargo();
+        command.args(["test", "--release"]).current_dir(&made).env("CARGO_TARGET_DIR", strut::target());
+        let output = command.output().unwrap();
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        (output.status.success(), text(&output.stdout) + &text(&output.stderr))
+    };
+    let (passed, said) = test();
+    assert!(passed && said.contains("the_default_experiment_agrees_with_scipy ... ok"), "{said}");
+    // Another stiffness in the model alone is found.
+    let source = made.join("src/lib.rs");
+    let text = fs::read_to_string(&source).unwrap();
+    fs::write(&source, text.replace("start = 2000.0", "start = 2001.0")).unwrap();
+    let (passed, said) = test();
+    assert!(!passed && said.contains("position at "), "{said}");
+    fs::write(&source, text).unwrap();
+
+    command(&["fmu", "--manifest-path", "Cargo.toml"]);
+    let script = made.join("tests/records.py");
+    strut::run(Command::new(strut::interpreter()).arg(script).arg(&made));
+    let said = command(&["diagnose", "--rig", "rig.toml", "--train", "train.csv", "--test", "test.csv"]);
+    assert!(said.contains("IDENTIFIED: The model lacks Coulomb friction in the strut."), "{said}");
+    let report = fs::read_to_string(made.join("report/report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    let force = report["effects"][0]["parameters"][0]["value"].as_f64().unwrap();
+    assert!((force - 3.0).abs() < 0.1, "{force} N of 3 N");
+}

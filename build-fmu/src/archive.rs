@@ -44,7 +44,11 @@ impl Archive {
 
 /// A folder to write to, known to be writable.
 #[derive(Debug)]
-pub struct Folder<'a>(&'a Path);
+pub struct Folder<'a> {
+    path: &'a Path,
+    /// Whether it was made here: it goes again if nothing comes into it.
+    made: bool,
+}
 
 impl<'a> Folder<'a> {
     /// Makes the folder if it is missing and tries it out, so that a build of minutes does not end in
@@ -53,11 +57,12 @@ impl<'a> Folder<'a> {
     /// # Errors
     /// If it cannot be made or written.
     pub fn open(path: &'a Path) -> Result<Self> {
+        let made = !path.exists();
         std::fs::create_dir_all(path).map_err(|error| {
             Failure::new(format!("cannot make the folder `{}`: {error}", path.display()))
                 .help("choose another with --out")
         })?;
-        let folder = Self(path);
+        let folder = Self { path, made };
         folder.temporary()?;
         Ok(folder)
     }
@@ -68,7 +73,7 @@ impl<'a> Folder<'a> {
     /// # Errors
     /// If it cannot be written.
     pub fn write(&self, name: &str, contents: &[u8]) -> Result<()> {
-        let path = self.0.join(name);
+        let path = self.path.join(name);
         let failed = |error: &dyn std::fmt::Display| {
             Failure::new(format!("cannot write `{}`: {error}", path.display()))
         };
@@ -84,12 +89,21 @@ impl<'a> Folder<'a> {
     }
 
     fn temporary(&self) -> Result<NamedTempFile> {
-        Builder::new().prefix(".build-fmu-").tempfile_in(self.0).map_err(|error| {
+        Builder::new().prefix(".build-fmu-").tempfile_in(self.path).map_err(|error| {
             // The name of the temporary file, which the error carries, means nothing to the user.
             let reason = std::io::Error::from(error.kind());
-            Failure::new(format!("cannot write to the folder `{}`: {reason}", self.0.display()))
+            Failure::new(format!("cannot write to the folder `{}`: {reason}", self.path.display()))
                 .help("choose another with --out")
         })
+    }
+}
+
+impl Drop for Folder<'_> {
+    fn drop(&mut self) {
+        if self.made {
+            // Only an empty folder can be removed so.
+            let _ = std::fs::remove_dir(self.path);
+        }
     }
 }
 

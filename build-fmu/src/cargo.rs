@@ -39,6 +39,10 @@ pub fn metadata(manifest: Option<&Path>) -> Result<Metadata> {
         command.manifest_path(manifest);
     }
     command.no_deps().exec().map_err(|error| match error {
+        cargo_metadata::Error::CargoMetadata { stderr } if stderr.contains("could not find `Cargo.toml`") => {
+            Failure::new("there is neither a folder of prebuilt libraries nor a workspace that builds them")
+                .help("run it in a checkout of Strut, name the folder by --libraries, or your own crate by --manifest-path")
+        }
         cargo_metadata::Error::CargoMetadata { stderr } => {
             Failure::new(format!("cargo does not understand the manifest\n{}", stderr.trim()))
         }

@@ -1,11 +1,13 @@
 //! The page that an FMU brings along.
 
+pub mod rows;
 pub mod tables;
 
 use maud::{DOCTYPE, Markup, html};
-use strut_model::{About, Interface, Stimulus, Trajectory};
+use strut_model::{About, Interface, ParameterSet, Stimulus, Trajectory, VariableKind};
 
 use crate::fmu::Fmu;
+use crate::literature::Work;
 use crate::plot;
 
 /// What a page is about.
@@ -16,7 +18,12 @@ pub struct Page<'a> {
     pub interface: &'a Interface,
     /// Its default experiment.
     pub trajectory: &'a Trajectory,
+    /// What the keys of sources stand for.
+    pub works: &'a [Work],
 }
+
+/// Where the equations of effects are explained.
+const EFFECTS: &str = "docs/effects.md";
 
 /// The page as well-formed HTML with nothing outside but the icon.
 pub fn html(page: &Page) -> String {
@@ -55,6 +62,7 @@ pub fn html(page: &Page) -> String {
                 (experiment(page))
                 (tables::parameter_set(page))
                 (tables::variables(page))
+                (sources(page))
             }
         }
     }
@@ -77,7 +85,56 @@ fn equations(about: &About) -> Markup {
                 h2 { "Equations" }
                 table.equations {
                     @for equation in about.equations {
-                        tr { td { pre { (equation.text) } } td.source { (equation.source) } }
+                        tr { td { pre { (equation.text) } } td.source { (source(equation.source)) } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A source, with a link where it names the catalogue of effects.
+fn source(text: &str) -> Markup {
+    let mut parts = text.split(EFFECTS);
+    html! {
+        (parts.next().unwrap_or_default())
+        @for part in parts {
+            a href=(concat!(env!("CARGO_PKG_REPOSITORY"), "/blob/main/docs/effects.md")) { "effects" } (part)
+        }
+    }
+}
+
+/// The works that a model's equations and notes and its parameter set name.
+pub fn cited<'a>(works: &'a [Work], about: &About, set: Option<&ParameterSet>) -> Vec<&'a Work> {
+    let given = set.into_iter().flat_map(|set| {
+        set.values
+            .values()
+            .map(|given| given.source.as_str())
+            .chain([set.source.as_str(), set.title.as_str()])
+    });
+    let equations = about.equations.iter().map(|equation| equation.source);
+    let texts: Vec<&str> = equations.chain(about.notes.iter().copied()).chain(given).collect();
+    let named = |key: &str| {
+        let mut words = texts.iter().flat_map(|text| text.split(|c: char| !c.is_alphanumeric()));
+        words.any(|word| word == key)
+    };
+    works
+        .iter()
+        .filter(|work| named(&work.key) || texts.iter().any(|it| it.contains(&work.cited())))
+        .collect()
+}
+
+fn sources(page: &Page) -> Markup {
+    let set = page.fmu.set.as_ref().map(|set| &set.parsed);
+    let cited = cited(page.works, &page.fmu.entry.about, set);
+    html! {
+        @if !cited.is_empty() {
+            section {
+                h2 { "Sources" }
+                ul {
+                    @for work in cited {
+                        @let [authors, title, rest] = work.parts();
+                        li { strong { (work.key) } ": " (authors) em { (title) } (rest) }
                     }
                 }
             }
@@ -98,13 +155,6 @@ fn notes(about: &About) -> Markup {
 
 fn experiment(page: &Page) -> Markup {
     let experiment = page.fmu.entry.about.experiment;
-    let unit = |name: &str| {
-        page.trajectory
-            .signals
-            .iter()
-            .find(|(other, ..)| other == name)
-            .map_or_else(String::new, |(_, unit, _)| tables::printed(unit))
-    };
     html! {
         @if !page.trajectory.signals.is_empty() {
             section {
@@ -114,13 +164,21 @@ fn experiment(page: &Page) -> Markup {
                     @if experiment.stimuli.is_empty() { "; the inputs rest." }
                     @for (index, (name, stimulus)) in experiment.stimuli.iter().enumerate() {
                         @if index == 0 { "; " } @else { ", " }
-                        code { (name) } " " (words(*stimulus, &unit(name)))
+                        code { (name) } " " (words(*stimulus, &unit(page.interface, name)))
                     }
                     @if !experiment.stimuli.is_empty() { "." }
                 }
                 (plot::svg(page.trajectory))
             }
         }
+    }
+}
+
+/// The unit of a variable as one reads it; empty for settings.
+pub fn unit(interface: &Interface, name: &str) -> String {
+    match interface.variable(name).map(|variable| &variable.kind) {
+        Some(VariableKind::Real { unit, .. }) => tables::printed(&unit.symbol),
+        _ => String::new(),
     }
 }
 
@@ -144,7 +202,6 @@ mod tests {
     use std::path::Path;
 
     use crate::fmu::Set;
-    use strut_model::ParameterSet;
 
     /// Elements of HTML that have no end tag.
     fn closed(html: &str) -> String {
@@ -163,7 +220,8 @@ mod tests {
         let resources = fmu.set.as_ref().map(|set| set.folder.as_path());
         let interface = fmu.entry.interface(set, resources).unwrap();
         let trajectory = fmu.entry.demonstrate(set, resources).unwrap();
-        html(&Page { fmu, interface: &interface, trajectory: &trajectory })
+        let works = crate::literature::works(strut_physics::LITERATURE);
+        html(&Page { fmu, interface: &interface, trajectory: &trajectory, works: &works })
     }
 
     #[test]
@@ -194,11 +252,16 @@ mod tests {
             assert!(!html.contains("NaN") && !html.contains(">inf"), "{}", fmu.name);
             let text: String = document.descendants().filter_map(|node| node.text()).collect();
             for variable in fmu.interface().unwrap().variables {
-                let is_rate = variable.name.starts_with("der(");
-                assert!(is_rate || text.contains(&variable.name), "{}: {}", fmu.name, variable.name);
+                let name = variable.name.split('[').next().unwrap_or_default();
+                assert!(rows::is_rate(&variable) || text.contains(name), "{}: {}", fmu.name, variable.name);
             }
             for equation in fmu.entry.about.equations {
-                assert!(text.contains(equation.text) && text.contains(equation.source), "{}", fmu.name);
+                let source = equation.source.split(EFFECTS).last().unwrap_or_default();
+                assert!(text.contains(equation.text) && text.contains(source), "{}", fmu.name);
+            }
+            // A key that leads nowhere is no source.
+            if let Some(set) = &fmu.set {
+                assert!(html.contains(&format!("<strong>{}</strong>", set.parsed.source)), "{}", fmu.name);
             }
         }
     }

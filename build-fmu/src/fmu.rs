@@ -9,9 +9,10 @@ use strut_model_description::Header;
 use strut_related::{Files, Related, media};
 
 use crate::archive::Archive;
+use crate::declared;
 use crate::documentation::{self, Page};
 use crate::failure::{Failure, Result};
-use crate::{platform::Platform, related, version::Version};
+use crate::{literature, platform::Platform, related, version::Version};
 
 /// A published parameter set with where it comes from.
 #[derive(Clone, Debug)]
@@ -55,9 +56,12 @@ impl Fmu {
     /// Its variables with the start values of its parameter set.
     ///
     /// # Errors
-    /// If the parameter set does not fit the model.
+    /// If the parameter set does not fit the model, or its declarations contradict each other.
     pub fn interface(&self) -> Result<Interface> {
-        self.entry.interface(self.parsed(), self.folder()).map_err(|error| self.refused(&error))
+        let interface =
+            self.entry.interface(self.parsed(), self.folder()).map_err(|error| self.refused(&error))?;
+        declared::check(&interface)?;
+        Ok(interface)
     }
 
     /// Numbers of inputs and outputs.
@@ -67,7 +71,8 @@ impl Fmu {
         (count(Causality::Input), count(Causality::Output))
     }
 
-    /// An archive for each version of the standard, with a library for each platform.
+    /// An archive for each version of the standard, with a library for each platform. `literature` is where the keys of
+    /// sources are looked up.
     ///
     /// # Errors
     /// If the parameter set does not fit the model, a file of it is missing, or the default experiment
@@ -76,12 +81,17 @@ impl Fmu {
         &self,
         versions: &[Version],
         libraries: &[(Platform, Vec<u8>)],
-        license: &str,
+        (license, literature): (&str, &str),
     ) -> Result<Vec<Packed>> {
         let interface = self.interface()?;
         let trajectory =
             self.entry.demonstrate(self.parsed(), self.folder()).map_err(|error| self.refused(&error))?;
-        let page = documentation::html(&Page { fmu: self, interface: &interface, trajectory: &trajectory });
+        let page = documentation::html(&Page {
+            fmu: self,
+            interface: &interface,
+            trajectory: &trajectory,
+            works: &literature::works(literature),
+        });
         let recorded = self.entry.record(self.parsed(), self.folder(), related::STEPS);
         let (recorded, inputs) = recorded.map_err(|error| self.refused(&error))?;
         let archive = |version: &Version| {
@@ -213,7 +223,7 @@ mod tests {
     }
 
     fn archived(fmu: &Fmu, version: Version, libraries: &[(Platform, Vec<u8>)], license: &str) -> Packed {
-        fmu.pack(&[version], libraries, license).unwrap().remove(0)
+        fmu.pack(&[version], libraries, (license, "")).unwrap().remove(0)
     }
 
     #[test]
@@ -303,10 +313,11 @@ mod tests {
     #[test]
     fn files_stay_within_the_archive() {
         for file in ["../../../LICENSE", "/etc/hostname", "a//b", "parameters.toml", "c\\..\\d"] {
-            let error = recorded_road(&[file]).pack(&[Version::Two], &[], "").unwrap_err().to_string();
+            let error = recorded_road(&[file]).pack(&[Version::Two], &[], ("", "")).unwrap_err().to_string();
             assert!(error.contains("cannot bring the file"), "{error}");
         }
-        let error = recorded_road(&["missing.csv"]).pack(&[Version::Two], &[], "").unwrap_err().to_string();
+        let error =
+            recorded_road(&["missing.csv"]).pack(&[Version::Two], &[], ("", "")).unwrap_err().to_string();
         assert!(error.contains("RecordedRoad needs") && error.contains("missing.csv"), "{error}");
     }
 

@@ -38,7 +38,16 @@ pub fn package(manifest: &Path) -> Result<Option<Package>> {
     // Asked without dependencies first: that needs no network and tells most mistakes.
     let alone = cargo::metadata(Some(manifest))?;
     if alone.packages.iter().any(|package| package.name.as_str() == env!("CARGO_PKG_NAME")) {
-        return Ok(None);
+        let own = manifest.canonicalize().ok();
+        let root = alone.workspace_root.join("Cargo.toml");
+        return match alone.packages.iter().find(|it| own.as_deref() == Some(it.manifest_path.as_std_path())) {
+            Some(member) if member.manifest_path != root => Err(Failure::new(format!(
+                "`{}` is a member of Strut's workspace, whose FMUs are built together",
+                member.name
+            ))
+            .help("add an empty `[workspace]` to its Cargo.toml, and take it out of the members, to build it alone")),
+            _ => Ok(None),
+        };
     }
     let metadata = MetadataCommand::new()
         .manifest_path(manifest)
@@ -95,23 +104,36 @@ impl Package {
         let write = |file: &str, text: &str| write_if_changed(&folder.join(file).into_std_path_buf(), text);
         write("Cargo.toml", &self.manifest()?)?;
         write("src/main.rs", &self.program(&library.name))?;
-        let mut command = Command::new(cargo::program());
-        command.args(["run", "--quiet", "--manifest-path"]).arg(folder.join("Cargo.toml"));
-        // As this program was compiled, so that its dependencies are found compiled.
-        if !cfg!(debug_assertions) {
-            command.arg("--release");
-        }
+        let mut target = None;
         if let Some(root) = self.strut_root() {
             // What this program was made of is compiled already, in the versions of its lock file.
             let lock = root.join("Cargo.lock");
             if !folder.join("Cargo.lock").exists() && lock.exists() {
                 let _ = fs::copy(lock, folder.join("Cargo.lock"));
             }
-            if let Ok(strut) = cargo::metadata(Some(&root.join("Cargo.toml"))) {
-                command.arg("--target-dir").arg(strut.target_directory);
-            }
+            target = cargo::metadata(Some(&root.join("Cargo.toml"))).ok().map(|strut| strut.target_directory);
         }
+        let cargo = |subcommand: &str| {
+            let mut command = Command::new(cargo::program());
+            command.args([subcommand, "--quiet", "--manifest-path"]).arg(folder.join("Cargo.toml"));
+            // As this program was compiled, so that its dependencies are found compiled.
+            if !cfg!(debug_assertions) {
+                command.arg("--release");
+            }
+            if let Some(target) = &target {
+                command.arg("--target-dir").arg(target);
+            }
+            command
+        };
+        let failed = |error: std::io::Error| Failure::new(format!("cannot run cargo: {error}"));
         eprintln!("note: compiling a packager for `{}`", self.described.name);
+        let built = cargo("build").stdout(Stdio::inherit()).output().map_err(failed)?;
+        let said = String::from_utf8_lossy(&built.stderr);
+        eprint!("{said}");
+        if !built.status.success() {
+            return Err(self.refused(&said));
+        }
+        let mut command = cargo("run");
         command.arg("--");
         Ok(command)
     }
@@ -120,11 +142,27 @@ impl Package {
         let status = packager.status().map_err(|error| Failure::new(format!("cannot run cargo: {error}")))?;
         match status.code() {
             Some(code @ 0..=2) => Ok(ExitCode::from(code as u8)),
-            _ => Err(Failure::new(format!(
-                "the packager of `{}` cannot be built; cargo says why above",
-                self.described.name
-            ))
-            .help("its lib.rs must end with `strut_fmi::export_fmu!(YourModel);`, outside of any module")),
+            _ => {
+                Err(Failure::new(format!("the packager of `{}` ended early: {status}", self.described.name)))
+            }
+        }
+    }
+
+    /// What to do where cargo does not build the packager.
+    fn refused(&self, said: &str) -> Failure {
+        let name = &self.described.name;
+        if !said.contains(&format!("could not compile `{name}`")) {
+            return Failure::new(format!("the packager of `{name}` cannot be built; cargo says why above"))
+                .help(
+                    "its lib.rs must end with `strut_fmi::export_fmu!(YourModel);`, outside of any module",
+                );
+        }
+        let failure = Failure::new(format!("`{name}` does not compile; cargo says why above"));
+        // What the compiler advises would make a model without derivatives.
+        if said.contains("PartialOrd") {
+            failure.help("a value decides by `select`: `x.select(a, b)` is a where x > 0, and b elsewhere")
+        } else {
+            failure
         }
     }
 
@@ -196,7 +234,7 @@ impl Package {
             "//! Knows the declarations of `{library}`. Written by build-fmu.\n\n\
              fn main() -> std::process::ExitCode {{\n    build_fmu::main(&build_fmu::Project {{\n        \
              catalogue: &[model::ENTRY],\n        parameter_sets: &[],\n        systems: &[],\n        \
-             source: build_fmu::Source::Package {{ manifest: {:?}, name: {:?} }},\n        license: {license:?},\n    \
+             source: build_fmu::Source::Package {{ manifest: {:?}, name: {:?} }},\n        license: {license:?},\n        literature: \"\",\n    \
              }})\n}}\n",
             self.described.manifest_path.as_str(),
             self.described.name.as_str(),

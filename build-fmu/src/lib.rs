@@ -16,6 +16,7 @@
 //!     systems: strut_physics::SYSTEMS,
 //!     source: Source::Workspace { files: "fmu-src/physics/parameters/resources" },
 //!     license: "MIT",
+//!     literature: strut_physics::LITERATURE,
 //! };
 //! build_fmu::main(&project);
 //! ```
@@ -40,6 +41,7 @@ mod cli;
 #[cfg(feature = "tools")]
 mod completions;
 mod custom;
+mod declared;
 mod describe;
 mod documentation;
 mod failure;
@@ -48,6 +50,7 @@ mod foreign;
 mod icon;
 mod libraries;
 mod list;
+pub mod literature;
 mod needs;
 #[cfg(feature = "tools")]
 mod new;
@@ -61,6 +64,8 @@ mod style;
 mod system;
 mod table;
 mod toolchain;
+#[cfg(feature = "strut")]
+mod variables;
 mod version;
 
 use std::path::{Path, PathBuf};
@@ -95,6 +100,8 @@ pub struct Project<'a> {
     pub source: Source<'a>,
     /// Text of the license; its first line goes into the descriptions.
     pub license: &'a str,
+    /// The documents that sources name, in BibTeX with a field a line.
+    pub literature: &'a str,
 }
 
 impl Project<'_> {
@@ -132,6 +139,7 @@ pub fn strut() -> Project<'static> {
         systems: strut_physics::SYSTEMS,
         source: Source::Workspace { files: "fmu-src/physics/parameters/resources" },
         license: include_str!("../../LICENSE"),
+        literature: strut_physics::LITERATURE,
     }
 }
 
@@ -204,6 +212,17 @@ pub fn list(project: &Project, libraries: Option<&Path>) -> Result<String, Strin
 pub fn describe(project: &Project, name: &str, libraries: Option<&Path>) -> Result<String, String> {
     let plan = run::plan(project, &arguments(libraries));
     plan.and_then(|plan| describe::text(&plan, name, true)).map_err(|failure| failure.to_string())
+}
+
+/// The variables of all FMUs as pages in Markdown, each with its file's name.
+///
+/// # Errors
+/// If a parameter set does not fit its model.
+#[cfg(feature = "strut")]
+pub fn variables(project: &Project) -> Result<Vec<(String, String)>, String> {
+    let plan = run::plan(project, &arguments(None));
+    let works = literature::works(project.literature);
+    plan.and_then(|plan| variables::pages(&plan, &works)).map_err(|failure| failure.to_string())
 }
 
 /// Simulates an FMU's model with values `NAME=VALUE`, in this process: its driven inputs and all outputs. What is not given

@@ -48,6 +48,13 @@ impl<'a> Origin<'a> {
             return Ok(metadata);
         }
         let metadata = cargo::metadata(self.manifest.as_deref())?;
+        let is_ours = metadata.packages.iter().any(|it| it.name.as_str() == env!("CARGO_PKG_NAME"));
+        if matches!(self.project.source, Source::Workspace { .. }) && !is_ours {
+            let here = &metadata.workspace_root;
+            return Err(Failure::new(format!("`{here}` is no checkout of Strut"))
+                .help("for the model of this crate: --manifest-path Cargo.toml")
+                .help("for Strut's models: name a folder of prebuilt libraries by --libraries"));
+        }
         Ok(self.metadata.get_or_init(|| metadata))
     }
 

@@ -1,4 +1,5 @@
-//! A crate for a model of one's own: it compiles, and its test compares it with scipy.
+//! A crate for a model of one's own: it compiles, its test compares it with scipy, and a diagnosis of the records that its
+//! script makes finds what is hidden in them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,6 +16,8 @@ const FILES: &[(&str, &str)] = &[
     ("src/lib.rs", include_str!("new/lib.rs.in")),
     ("tests/scipy.rs", include_str!("new/scipy.rs.in")),
     ("tests/reference.py", include_str!("new/reference.py")),
+    ("tests/records.py", include_str!("new/records.py")),
+    ("rig.toml", include_str!("new/rig.toml.in")),
     ("tests/reference.csv", include_str!("new/reference.csv")),
 ];
 
@@ -168,7 +171,9 @@ pub fn make(arguments: &NewArguments) -> Result<String> {
          It needs Rust {rust} (https://rustup.rs) and a C linker. Next:\n\n  \
          cd {name}\n  \
          cargo test                             # the equations against scipy\n  \
-         strut fmu --manifest-path Cargo.toml   # fmus/{model}.fmu\n",
+         strut fmu --manifest-path Cargo.toml   # fmus/{model}.fmu\n  \
+         python3 tests/records.py               # two records with friction, by scipy\n  \
+         strut diagnose --rig rig.toml --train train.csv --test test.csv\n",
         origin = origin.said(),
         rust = env!("CARGO_PKG_RUST_VERSION"),
     ))
@@ -226,7 +231,10 @@ mod tests {
         assert!(told.contains("cargo test") && told.contains("fmus/MyHalfCar.fmu"), "{told}");
         for (path, _) in FILES {
             let text = fs::read_to_string(folder.path().join("my_half-car").join(path)).unwrap();
-            assert!(!text.contains('@') || *path == "tests/reference.py", "{path}: {text}");
+            assert!(
+                !text.contains('@') || ["tests/reference.py", "tests/records.py"].contains(path),
+                "{path}: {text}"
+            );
         }
         let test = fs::read_to_string(folder.path().join("my_half-car/tests/scipy.rs")).unwrap();
         assert!(test.contains("use my_half_car::MyHalfCar;"), "{test}");

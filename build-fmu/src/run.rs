@@ -148,7 +148,7 @@ pub fn build(project: &Project, arguments: &Arguments) -> Result<Told> {
                 Ok((platform.clone(), libraries::read(&all[&origin.package(&fmu.entry)])?))
             })
             .collect::<Result<Vec<_>>>()?;
-        let results = fmu.pack(&versions, &libraries, project.license)?;
+        let results = fmu.pack(&versions, &libraries, (project.license, project.literature))?;
         for (result, (version, path, folder)) in results.into_iter().zip(&places) {
             if plan.wanted.contains(&index) {
                 let file = format!("{}.fmu", fmu.name);

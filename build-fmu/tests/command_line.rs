@@ -303,39 +303,3 @@ fn the_same_sources_give_the_same_bytes() {
     };
     assert!(build() == build());
 }
-
-/// From an empty folder to an FMU, as the command says.
-#[test]
-fn a_new_crate_compiles_agrees_with_scipy_and_becomes_an_fmu() {
-    let folder = tempfile::tempdir().unwrap();
-    let made = folder.path().join("my-rig");
-    let (code, stdout, stderr) = answer(&["new", made.to_str().unwrap(), "--path", root().to_str().unwrap()]);
-    assert_eq!(code, 0, "{stderr}");
-    assert!(stdout.contains("cd ") && stdout.contains("strut fmu --manifest-path Cargo.toml"), "{stdout}");
-    let manifest = made.join("Cargo.toml");
-    // In the workspace's versions, profile and target folder nearly all that it depends on is compiled already.
-    std::fs::copy(root().join("Cargo.lock"), made.join("Cargo.lock")).unwrap();
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
-    let test = || {
-        let mut command = Command::new(env!("CARGO"));
-        command.args(["test", "--release", "--manifest-path"]).arg(&manifest).env("CARGO_TARGET_DIR", target);
-        let output = command.output().unwrap();
-        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-        (output.status.success(), text(&output.stdout) + &text(&output.stderr))
-    };
-    let (passed, said) = test();
-    assert!(passed && said.contains("the_default_experiment_agrees_with_scipy ... ok"), "{said}");
-    // Another stiffness in the model alone is found.
-    let source = made.join("src/lib.rs");
-    let text = std::fs::read_to_string(&source).unwrap();
-    std::fs::write(&source, text.replace("start = 2000.0", "start = 2001.0")).unwrap();
-    let (passed, said) = test();
-    assert!(!passed && said.contains("position at "), "{said}");
-    std::fs::write(&source, text).unwrap();
-
-    let out = folder.path().join("fmus");
-    let arguments = ["--manifest-path", manifest.to_str().unwrap(), "--out", out.to_str().unwrap()];
-    let output = build_fmu(&arguments).env("CARGO_TARGET_DIR", target).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && out.join("MyRig.fmu").is_file(), "{said}");
-}

@@ -1,7 +1,7 @@
 //! One command for all: `strut fmu` is `build-fmu`, `strut diagnose` is `diagnose`.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use build_fmu::{CheckArguments, CommandLine, DescribeArguments, ListArguments, NewArguments};
@@ -55,9 +55,16 @@ enum Command {
         #[arg(value_enum)]
         shell: Shell,
     },
-    /// Prints the help of all commands as a page in Markdown
+    /// Prints the help of all commands as a page in Markdown, or writes the pages of all FMUs' variables
     #[command(hide = true)]
-    Reference,
+    Reference {
+        /// Writes the variables of all FMUs into this folder of the book
+        #[arg(long, value_name = "DIR")]
+        variables: Option<PathBuf>,
+        /// Compares with what is there and writes nothing
+        #[arg(long, requires = "variables")]
+        check: bool,
+    },
     /// Runs a library, for `check`: a crash ends this program and not that one
     #[command(hide = true)]
     Probe {
@@ -75,7 +82,16 @@ fn main() -> ExitCode {
         Command::Describe(arguments) => CommandLine::of(build_fmu::Command::Describe(arguments)),
         Command::New(arguments) => CommandLine::of(build_fmu::Command::New(arguments)),
         Command::Completions { shell } => return print(&completions(shell)),
-        Command::Reference => return print(&reference()),
+        Command::Reference { variables: Some(folder), check } => {
+            return match variables(&folder, check) {
+                Ok(()) => ExitCode::SUCCESS,
+                Err(message) => {
+                    eprintln!("error: {message}");
+                    ExitCode::FAILURE
+                }
+            };
+        }
+        Command::Reference { variables: None, .. } => return print(&reference()),
         Command::Probe { folder } => return strut_check::probe(&folder),
     };
     build_fmu::run(&build_fmu::strut(), &line)
@@ -105,6 +121,35 @@ fn reference() -> String {
     strut.build();
     chapter(&mut page, &strut, "strut");
     page
+}
+
+/// Writes the pages of all FMUs' variables into a folder, or says which are not as there.
+fn variables(folder: &Path, check: bool) -> Result<(), String> {
+    let pages = build_fmu::variables(&build_fmu::strut())?;
+    let there = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let there = there.filter_map(|entry| entry.file_name().into_string().ok());
+    let gone: Vec<String> = there.filter(|name| !pages.iter().any(|(page, _)| page == name)).collect();
+    if check {
+        let is_same = |(name, text): &&(String, String)| {
+            std::fs::read_to_string(folder.join(name)).is_ok_and(|it| it == *text)
+        };
+        let other = pages.iter().filter(|page| !is_same(page)).map(|(name, _)| name.clone());
+        let stale: Vec<String> = other.chain(gone).collect();
+        return if stale.is_empty() {
+            Ok(())
+        } else {
+            Err(format!(
+                "{} in {} is not what the models declare; run `strut reference --variables {}`",
+                stale.join(", "),
+                folder.display(),
+                folder.display()
+            ))
+        };
+    }
+    let failed = |error: std::io::Error| format!("cannot write into {}: {error}", folder.display());
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    gone.iter().try_for_each(|name| std::fs::remove_file(folder.join(name))).map_err(failed)?;
+    pages.iter().try_for_each(|(name, text)| std::fs::write(folder.join(name), text)).map_err(failed)
 }
 
 fn chapter(page: &mut String, command: &clap::Command, path: &str) {
@@ -152,6 +197,11 @@ mod tests {
         let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/cli.md");
         let page = std::fs::read_to_string(file).unwrap_or_default();
         assert_eq!(page, reference(), "run `cargo run --package strut-command -- reference > docs/cli.md`");
+    }
+
+    #[test]
+    fn the_pages_of_variables_are_what_the_models_declare() {
+        variables(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/variables")), true).unwrap();
     }
 
     #[test]

@@ -2,7 +2,6 @@
 //! with their bounds, special cases, how common the effect is, when it acts, literature, and the experiment that separates it.
 
 mod guided;
-mod literature;
 pub mod naming;
 mod page;
 mod periphery;

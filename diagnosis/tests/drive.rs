@@ -23,7 +23,7 @@ fn friction_is_found_in_a_drive_of_which_nothing_was_known() {
         values.iter().find(|it| it["name"] == name).and_then(|it| it[key].as_f64()).unwrap_or(f64::NAN)
     };
     let parameters: Vec<Value> = parameters.collect();
-    let base = list("base_parameters");
+    let base = list("nominal_parameters");
     for (found, there) in [
         (of("moving_mass", &base, "after"), MASS),
         (of("guide.damping", &base, "after"), DAMPING),
@@ -34,5 +34,5 @@ fn friction_is_found_in_a_drive_of_which_nothing_was_known() {
     // The motion is given and the force compared: the remaining error is the transition of the friction.
     let force = &report["signals"][0];
     assert_eq!(force["name"], "motor.force");
-    assert!(force["phi_after"].as_f64().unwrap() > 0.94, "{force}");
+    assert!(force["fit_after"].as_f64().unwrap() > 0.94, "{force}");
 }

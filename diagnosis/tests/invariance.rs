@@ -36,7 +36,7 @@ fn as_it_is(_: usize, line: &str) -> Option<String> {
 fn said(report: &Value) -> (String, Vec<String>, Vec<bool>) {
     let effects = report["effects"].as_array().unwrap();
     let own = effects.iter().flat_map(|it| it["parameters"].as_array().unwrap());
-    let all: Vec<&Value> = report["base_parameters"].as_array().unwrap().iter().chain(own).collect();
+    let all: Vec<&Value> = report["nominal_parameters"].as_array().unwrap().iter().chain(own).collect();
     let is_right = |(name, key, there): (&str, &str, f64)| {
         let found = all.iter().find(|it| it["name"] == name).and_then(|it| it[key].as_f64());
         found.is_some_and(|found| (found / there - 1.0).abs() < 0.05)

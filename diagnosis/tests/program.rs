@@ -45,16 +45,17 @@ fn a_limit_of_no_time_leaves_the_nominal_fit_and_says_what_was_not_done() {
     assert!(output.status.success(), "{told}");
     assert!(told.contains("time limit 0 s"), "{told}");
     assert_eq!(report["verdict"], "out_of_time");
-    let not_done = report["not_done"].as_str().unwrap();
+    let unfinished = report["unfinished"].as_str().unwrap();
     assert!(
-        not_done.starts_with("The time limit of 0 s was reached.") && not_done.contains("effects were not")
+        unfinished.starts_with("The time limit of 0 s was reached.")
+            && unfinished.contains("effects were not")
     );
     // Lines break where they may.
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(printed.starts_with("OUT OF TIME") && words(&printed).contains(not_done), "{printed}");
-    assert!(fs::read_to_string(folder.path().join("report/report.html")).unwrap().contains(not_done));
+    assert!(printed.starts_with("OUT OF TIME") && words(&printed).contains(unfinished), "{printed}");
+    assert!(fs::read_to_string(folder.path().join("report/report.html")).unwrap().contains(unfinished));
     assert_eq!(report["effects"].as_array().unwrap().len(), 0);
-    let base = report["base_parameters"].as_array().unwrap();
+    let base = report["nominal_parameters"].as_array().unwrap();
     let mass = base.iter().find(|it| it["name"] == "sprung_mass").unwrap()["after"].as_f64().unwrap();
     assert!((mass - 100.0).abs() < 5.0, "{mass}");
     assert!(folder.path().join("report/extended.toml").exists());

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from strut import _strut
-from strut._frames import columns
+from strut._frames import columns, shown
 from strut._models import _libraries
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ class Diagnosis:
         """
         rows = {signal: [error, *shares] for signal, error, shares in self._outcome.account()}
         frame = pd.DataFrame.from_dict(rows, orient="index", columns=["error", *SHARES])
-        return frame.rename_axis("signal")
+        return shown(frame.rename_axis("signal"))
 
     @property
     def effects(self) -> pd.DataFrame:
@@ -69,27 +69,27 @@ class Diagnosis:
                 "low": parameter["low"],
                 "high": parameter["high"],
                 "unit": parameter["unit"],
-                "explained": effect["evidence"]["explained"],
+                "explained": effect["evidence"]["variance_explained"],
             }
             for effect in self.report["effects"]
             for parameter in effect["parameters"]
         ]
         names = ["effect", "place", "parameter", "value", "low", "high", "unit", "explained"]
-        return pd.DataFrame(rows, columns=names)
+        return shown(pd.DataFrame(rows, columns=names))
 
     @property
     def nominal_parameters(self) -> pd.DataFrame:
         """The starting model's parameters before and after the fit, with 95 % intervals, in SI units."""
-        frame = pd.DataFrame(self.report["base_parameters"])
+        frame = pd.DataFrame(self.report["nominal_parameters"])
         names = ["name", "before", "after", "low", "high", "unit", "mismatch"]
-        return frame.reindex(columns=names).set_index("name")
+        return shown(frame.reindex(columns=names).set_index("name"))
 
     @property
     def fit(self) -> pd.DataFrame:
         """Fit (1 − rms error / rms signal) of each signal on the validation data: starting, fitted and extended model."""
-        names = {"phi_before": "starting", "phi_fitted": "fitted", "phi_after": "extended", "noise_floor": "noise"}
+        names = {"fit_before": "starting", "fit_fitted": "fitted", "fit_after": "extended", "noise_floor": "noise"}
         frame = pd.DataFrame(self.report["signals"]).reindex(columns=["name", "unit", *names])
-        return frame.rename(columns=names).set_index("name")
+        return shown(frame.rename(columns=names).set_index("name"))
 
     @property
     def parameters(self) -> str | None:

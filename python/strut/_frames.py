@@ -6,8 +6,25 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 TIME = {"t", "time", "timestamp", "timestamps", "time_s"}
+
+
+class _Shown(pd.DataFrame):
+    """A frame that prints all of its columns, whatever the terminal's width, with four digits."""
+
+    @property
+    def _constructor(self) -> type[pd.DataFrame]:
+        return pd.DataFrame
+
+    def __repr__(self) -> str:
+        return self.to_string(float_format=lambda value: f"{value:.4g}")
+
+
+def shown(frame: pd.DataFrame) -> pd.DataFrame:
+    """The same frame, printed whole."""
+    return _Shown(frame)
 
 
 def columns(frame: Any, name: str) -> list[tuple[str, np.ndarray]]:

@@ -25,6 +25,8 @@ def test_a_hidden_friction_is_found(result):
     assert effect["low"] <= 60.0 <= effect["high"] and effect["value"] == pytest.approx(60.0, rel=0.02)
     assert result.account[_diagnosis.SHARES].sum(axis=1).to_numpy() == pytest.approx(1.0)
     assert (result.account["effects"] > 0.1).all()
+    printed = repr(result.account)
+    assert "..." not in printed and all(name in printed for name in ["error", *_diagnosis.SHARES])
     assert (result.fit["extended"] >= result.fit["starting"]).all()
     assert repr(result).startswith("IDENTIFIED")
 

@@ -29,7 +29,7 @@ fn diagnose_element(name: &str, records: &Path, train: &str, test: &[&str]) -> (
     let report = report(&out);
     let signal = &report["signals"][0];
     assert_eq!(signal["name"], "force");
-    let phi = signal["phi_after"].as_f64().expect("a number");
+    let phi = signal["fit_after"].as_f64().expect("a number");
     let test: Vec<PathBuf> = test.iter().map(|it| records.join(it)).collect();
     let by_hand = regression(&records.join(train), &test);
     assert!(phi >= by_hand, "Φ = {phi}, and a regression has {by_hand}");
@@ -82,7 +82,7 @@ fn diagnose_drive(name: &str, records: &Path, [train, test]: [&str; 2], more: &[
 
 /// Value and interval of a nominal parameter.
 fn nominal(report: &Value, name: &str) -> [f64; 3] {
-    let all = report["base_parameters"].as_array().expect("a list");
+    let all = report["nominal_parameters"].as_array().expect("a list");
     let found = all.iter().find(|it| it["name"] == name).expect(name);
     ["after", "low", "high"].map(|field| found[field].as_f64().expect("a number"))
 }
@@ -116,7 +116,7 @@ fn a_force_that_follows_another_column_is_told() {
     let unmodelled = report["unmodelled"].as_array().expect("a list");
     let voltage = unmodelled.iter().find(|it| it["depends_on"][0] == "column voltage").expect("the voltage");
     assert_eq!(voltage["place"], "strut");
-    assert!(voltage["validated"].as_f64().expect("a number") > 0.5, "{voltage}");
+    assert!(voltage["validation_share"].as_f64().expect("a number") > 0.5, "{voltage}");
 }
 
 /// By hand: 25.1 kg and 44 N s/m. One stroke of half a second is both estimation and validation record.

@@ -2,7 +2,7 @@
 
     python diagnosed.py REPORT RECORDS     # the folder of the report, that of the records
 
-Whoever runs `extended.fmu` on a validation record, and lets its signals pass the `corrections`, finds the errors that
+Whoever runs `extended.fmu` on a validation record, and lets its signals pass the `distortions`, finds the errors that
 `report.json` tells.
 """
 
@@ -46,7 +46,7 @@ def corrected(report, signals, step, first, into):
     pass a step response; what comes out is held within the limit, if that is not zero.
     """
     signals = dict(signals)
-    for it in (it for it in report["corrections"] if it["input"] == into and it["signal"] in signals):
+    for it in (it for it in report["distortions"] if it["input"] == into and it["signal"] in signals):
         y = np.asarray(signals[it["signal"]], dtype=float)
         y = y * (1.0 + y * (it["quadratic"] + y * it["cubic"]))
         time = step * (first + np.arange(len(y)))
@@ -128,7 +128,7 @@ def errors(fmu, report, folder, changed):
     """Root mean square of each signal's error over all validation segments."""
     names = [signal["name"] for signal in report["signals"]]
     left = [[] for _ in names]
-    for stretch in report["starts"]:
+    for stretch in report["initial_states"]:
         time, signals = read(folder / stretch["record"])
         step = (time[-1] - time[0]) / (len(time) - 1)
         first, last = round(stretch["time"] / step), round(stretch["end"] / step)
@@ -153,9 +153,9 @@ def check_errors(fmu, report, folder):
         first, place = report["effects"][0]["parameters"][0]["name"], report["effects"][0]["element"]
     else:
         first = place = report["unmodelled"][0]["place"]
-    others = [it for it in report["corrections"] if it["signal"] != place]
-    if len(others) < len(report["corrections"]):
-        without = errors(fmu, report | {"corrections": others}, folder, {})
+    others = [it for it in report["distortions"] if it["signal"] != place]
+    if len(others) < len(report["distortions"]):
+        without = errors(fmu, report | {"distortions": others}, folder, {})
     else:
         without = errors(fmu, report, folder, {first: 0.0})
     most = max(abs(value / told[name] - 1.0) for name, value in without.items())
@@ -181,7 +181,7 @@ def check_parameter_set(fmu, path):
 def main():
     folder, records = map(Path, sys.argv[1:])
     report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
-    assert report["signals"] and report["starts"], "the report tells no errors"
+    assert report["signals"] and report["initial_states"], "the report tells no errors"
     fmu = Fmu(folder / "extended.fmu")
     check_errors(fmu, report, records)
     check_parameter_set(fmu, folder / "extended.ssv")

@@ -1,10 +1,10 @@
 //! An FMU on a page for a terminal.
 
-use strut_model::{About, Causality, Interface, ParameterSet, Stimulus, Variable, VariableKind};
+use strut_model::{About, Interface, ParameterSet, Stimulus};
 
 use super::{page::Page, related};
-use crate::documentation::tables::{self, is_fixed, number, printed, range, start, unit};
-use crate::documentation::{count, words};
+use crate::documentation::tables::number;
+use crate::documentation::{count, rows, unit, words};
 use crate::fmu::Fmu;
 use crate::plan::Plan;
 
@@ -65,7 +65,7 @@ fn equations(page: &mut Page, about: &About) {
 fn experiment(page: &mut Page, interface: &Interface) {
     let experiment = interface.about.experiment;
     let said = |(name, stimulus): &(&str, Stimulus)| {
-        let unit = interface.variable(name).map(unit).unwrap_or_default();
+        let unit = unit(interface, name);
         format!("{name} {}", words(*stimulus, &unit))
     };
     let stimuli: Vec<String> = experiment.stimuli.iter().map(said).collect();
@@ -76,17 +76,8 @@ fn experiment(page: &mut Page, interface: &Interface) {
 }
 
 fn variables(page: &mut Page, interface: &Interface) {
-    let is_rate =
-        |variable: &&Variable| matches!(variable.kind, VariableKind::Real { derivative_of: Some(_), .. });
-    for (heading, causality) in [
-        ("Inputs", Causality::Input),
-        ("Outputs", Causality::Output),
-        ("Further states", Causality::Local),
-        ("Parameters", Causality::Parameter),
-        ("Calculated parameters", Causality::CalculatedParameter),
-    ] {
-        let variables = interface.variables.iter().filter(|variable| variable.causality == causality);
-        let rows: Vec<_> = variables.filter(|variable| !is_rate(variable)).map(row).collect();
+    for (heading, causality) in rows::TABLES {
+        let rows: Vec<_> = rows::of(interface, causality).into_iter().map(row).collect();
         if !rows.is_empty() {
             page.heading(heading);
             page.table(&["name", "start", "unit", "range", "description"], Some(1), &rows);
@@ -94,26 +85,21 @@ fn variables(page: &mut Page, interface: &Interface) {
     }
 }
 
-fn row(variable: &Variable) -> Vec<String> {
-    let mut doc = variable.doc.clone();
-    if is_fixed(variable) {
-        doc.push_str(" (fixed at initialisation)");
-    }
-    if let VariableKind::Choice { enumeration, .. } = &variable.kind {
-        let names: Vec<&str> = enumeration.items.iter().map(|(name, _)| *name).collect();
+fn row(row: rows::Row) -> Vec<String> {
+    let mut doc = row.doc;
+    if !row.items.is_empty() {
+        let names: Vec<&str> = row.items.iter().map(|(name, _)| *name).collect();
         doc = format!("{doc}: {}", names.join(", "));
     }
-    vec![variable.name.clone(), start(variable).unwrap_or_default(), unit(variable), range(variable), doc]
+    vec![row.name, row.start, row.unit, row.range, doc]
 }
 
 fn parameter_set(page: &mut Page, interface: &Interface, set: &ParameterSet) {
     page.heading("Parameter set");
-    // In the order of the model's variables, which groups what belongs together.
-    let values = interface.variables.iter().filter_map(|variable| {
-        let given = set.values.get(&variable.name)?;
-        let source = if given.assumed { format!("assumed: {}", given.source) } else { given.source.clone() };
-        let unit = given.unit.as_deref().map(printed).unwrap_or_default();
-        Some(vec![variable.name.clone(), tables::value(&given.value), unit, source])
-    });
-    page.table(&["name", "value", "unit", "source"], Some(1), &values.collect::<Vec<_>>());
+    let row = |given: rows::GivenRow| {
+        let assumed = if given.assumed { "assumed: " } else { "" };
+        vec![given.name, given.value, given.unit, format!("{assumed}{}", given.source)]
+    };
+    let values: Vec<_> = rows::given(interface, set).into_iter().map(row).collect();
+    page.table(&["name", "value", "unit", "source"], Some(1), &values);
 }

@@ -23,7 +23,7 @@ pub fn page(system: &System) -> String {
         .into_iter()
         .map(|setting| {
             let unit = setting.unit.as_deref().map(printed).unwrap_or_default();
-            let value = crate::documentation::tables::value(&setting.value);
+            let value = crate::documentation::rows::value(&setting.value);
             vec![format!("{}.{}", setting.port.component, setting.port.variable), value, unit]
         })
         .collect();

@@ -1,9 +1,8 @@
 //! Tables of variables and of parameter sets.
 
 use maud::{Markup, html};
-use strut_model::{Causality, Given, Value, Variability, Variable, VariableKind};
 
-use super::Page;
+use super::{Page, rows};
 
 /// What the parameter set says, value by value.
 pub fn parameter_set(page: &Page) -> Markup {
@@ -25,27 +24,19 @@ pub fn parameter_set(page: &Page) -> Markup {
             }
             @if !set.values.is_empty() {
                 table {
-                    thead { tr { th { "Name" } th.number { "Value" } th { "Unit" } th { "Source" } th {} } }
+                    thead { tr { th { "Name" } th.number { "Value" } th { "Unit" } th { "Source" } } }
                     tbody {
-                        // In the order of the model's variables, which groups what belongs together.
-                        @for variable in &page.interface.variables {
-                            @if let Some(given) = set.values.get(&variable.name) { (row(variable, given)) }
+                        @for given in rows::given(page.interface, set) {
+                            tr {
+                                td.name { code { (given.name) } }
+                                td.number { (given.value) }
+                                td.unit { (given.unit) }
+                                td.from { (given.source) @if given.assumed { " " (mark()) } }
+                            }
                         }
                     }
                 }
             }
-        }
-    }
-}
-
-fn row(variable: &Variable, given: &Given) -> Markup {
-    html! {
-        tr {
-            td.name { code { (variable.name) } }
-            td.number { (value(&given.value)) }
-            td.unit { (given.unit.as_deref().map(printed).unwrap_or_default()) }
-            td.from { (given.source) }
-            td { @if given.assumed { (mark()) } }
         }
     }
 }
@@ -56,34 +47,24 @@ fn mark() -> Markup {
 
 /// Every variable, by role.
 pub fn variables(page: &Page) -> Markup {
-    let all = &page.interface.variables;
-    let is_rate =
-        |variable: &Variable| matches!(variable.kind, VariableKind::Real { derivative_of: Some(_), .. });
-    let of = |causality: Causality| {
-        all.iter().filter(move |variable| variable.causality == causality).collect::<Vec<_>>()
-    };
-    let states: Vec<_> =
-        all.iter().filter(|variable| variable.causality == Causality::Local && !is_rate(variable)).collect();
     html! {
         section {
             h2 { "Variables" }
-            (list("Inputs", &of(Causality::Input)))
-            (list("Outputs", &of(Causality::Output)))
-            (list("Further states", &states))
-            (list("Parameters", &of(Causality::Parameter)))
-            (list("Calculated parameters", &of(Causality::CalculatedParameter)))
-            @if all.iter().any(is_rate) {
+            @for (title, causality) in rows::TABLES {
+                (list(title, &rows::of(page.interface, causality)))
+            }
+            @if page.interface.variables.iter().any(rows::is_rate) {
                 p.facts { span { "The rate of change of each state is a variable too: " code { "der(name)" } "." } }
             }
         }
     }
 }
 
-fn list(title: &str, variables: &[&Variable]) -> Markup {
-    let starts = variables.iter().any(|variable| start(variable).is_some());
-    let bounds = variables.iter().any(|variable| !range(variable).is_empty());
+fn list(title: &str, rows: &[rows::Row]) -> Markup {
+    let starts = rows.iter().any(|row| !row.start.is_empty());
+    let bounds = rows.iter().any(|row| !row.range.is_empty());
     html! {
-        @if !variables.is_empty() {
+        @if !rows.is_empty() {
             h3 { (title) }
             table {
                 thead {
@@ -96,76 +77,21 @@ fn list(title: &str, variables: &[&Variable]) -> Markup {
                     }
                 }
                 tbody {
-                    @for variable in variables {
+                    @for row in rows {
                         tr {
-                            td.name { code { (variable.name) } }
-                            @if starts { td.number { (start(variable).unwrap_or_default()) } }
-                            td.unit { (unit(variable)) }
-                            @if bounds { td.unit { (range(variable)) } }
-                            td { (variable.doc) @if is_fixed(variable) { " (fixed at initialisation)" } (items(variable)) }
+                            td.name { code { (row.name) } }
+                            @if starts { td.number { (row.start) } }
+                            td.unit { (row.unit) }
+                            @if bounds { td.unit { (row.range) } }
+                            td {
+                                (row.doc)
+                                @for (name, doc) in &row.items { br; code { (name) } @if doc != name { ": " (doc) } }
+                            }
                         }
                     }
                 }
             }
         }
-    }
-}
-
-/// Most parameters are tunable: those that are not are told.
-pub fn is_fixed(variable: &Variable) -> bool {
-    variable.causality == Causality::Parameter && variable.variability == Variability::Fixed
-}
-
-/// What each item of an enumeration means.
-fn items(variable: &Variable) -> Markup {
-    html! {
-        @if let VariableKind::Choice { enumeration, .. } = &variable.kind {
-            @for (name, doc) in enumeration.items { br; code { (name) } @if doc != name { ": " (doc) } }
-        }
-    }
-}
-
-/// The unit as one reads it; empty for settings.
-pub fn unit(variable: &Variable) -> String {
-    match &variable.kind {
-        VariableKind::Real { unit, .. } => printed(&unit.symbol),
-        _ => String::new(),
-    }
-}
-
-/// The start value as one reads it.
-pub fn start(variable: &Variable) -> Option<String> {
-    match &variable.kind {
-        VariableKind::Real { start, .. } => start.map(number),
-        VariableKind::Integer { start } => Some(start.to_string()),
-        VariableKind::Boolean { start } => Some(start.to_string()),
-        VariableKind::Text { start } => Some(start.clone()),
-        VariableKind::Choice { enumeration, start } => {
-            let index = usize::try_from(start - 1).ok()?;
-            enumeration.items.get(index).map(|(name, _)| (*name).to_owned())
-        }
-    }
-}
-
-/// The bounds as one reads them; empty if there are none.
-pub fn range(variable: &Variable) -> String {
-    match variable.kind {
-        VariableKind::Real { min: Some(min), max: Some(max), .. } => {
-            format!("{} … {}", number(min), number(max))
-        }
-        VariableKind::Real { min: Some(min), .. } => format!("≥ {}", number(min)),
-        VariableKind::Real { max: Some(max), .. } => format!("≤ {}", number(max)),
-        _ => String::new(),
-    }
-}
-
-/// A value as one reads it.
-pub fn value(value: &Value) -> String {
-    match value {
-        Value::Real(value) => number(*value),
-        Value::Integer(value) => value.to_string(),
-        Value::Boolean(value) => value.to_string(),
-        Value::Text(value) => value.clone(),
     }
 }
 

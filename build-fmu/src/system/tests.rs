@@ -129,8 +129,9 @@ fn mistakes_are_named() {
 
 fn packed() -> (Vec<String>, String, String) {
     let fmus = fmus();
-    let packed =
-        fmus.each_ref().map(|fmu| fmu.pack(&[crate::version::Version::Two], &[], "").unwrap().remove(0));
+    let packed = fmus
+        .each_ref()
+        .map(|fmu| fmu.pack(&[crate::version::Version::Two], &[], ("", "")).unwrap().remove(0));
     let components = fmus.iter().zip(&packed).map(|(fmu, packed)| Packed {
         title: fmu.title(),
         file: format!("{}.fmu", fmu.name),

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
+use build_fmu::literature::{Work, works};
 use strut_model::Declaration;
 
-use super::literature::Work;
 use super::signals::{Among, DISTORTIONS};
 use super::tables::{TABLES, UNNAMED};
 use super::{
@@ -33,7 +33,7 @@ What the diagnosis looks for, effect by effect. `diagnose effects` prints this p
 /// The whole page.
 pub fn page() -> String {
     let models: Vec<Plant> = Rig::models().collect();
-    let works = Work::all();
+    let works = works(strut_physics::LITERATURE);
     let mut page = Page { text: String::new(), models: &models, works: &works, cited: Vec::new() };
     for element in Element::ALL {
         page.element(element);

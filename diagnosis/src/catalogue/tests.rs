@@ -2,17 +2,17 @@
 
 use std::collections::BTreeSet;
 
-use super::literature::Work;
 use super::signals::{Among, DISTORTIONS};
 use super::tables::{TABLES, UNNAMED};
 use super::*;
 use crate::rig::Rig;
+use build_fmu::literature::works;
 
 /// What is wrong with entries, in words.
 fn mistakes(effects: &[Effect], models: &[Plant]) -> Vec<String> {
     let mut mistakes = Vec::new();
     let mut seen = BTreeSet::new();
-    let keys: Vec<String> = Work::all().into_iter().map(|work| work.key).collect();
+    let keys: Vec<String> = works(strut_physics::LITERATURE).into_iter().map(|work| work.key).collect();
     for effect in effects {
         let mut wrong =
             |what: String| mistakes.push(format!("{} {}: {what}", effect.id, effect.element.name()));
@@ -100,7 +100,7 @@ fn a_wrong_entry_is_noticed() {
 #[test]
 fn every_table_is_in_some_model_and_of_a_published_kind() {
     let models: Vec<Plant> = Rig::models().collect();
-    let keys: Vec<String> = Work::all().into_iter().map(|work| work.key).collect();
+    let keys: Vec<String> = works(strut_physics::LITERATURE).into_iter().map(|work| work.key).collect();
     for table in TABLES {
         let has = |plant: &Plant| table.is_in(plant) && plant.parameter(table.range).is_some();
         assert!(models.iter().any(has), "{}", table.points);
@@ -120,7 +120,7 @@ fn every_table_is_in_some_model_and_of_a_published_kind() {
 
 #[test]
 fn every_distortion_has_an_entry_of_its_own_with_literature() {
-    let keys: Vec<String> = Work::all().into_iter().map(|work| work.key).collect();
+    let keys: Vec<String> = works(strut_physics::LITERATURE).into_iter().map(|work| work.key).collect();
     assert_eq!(DISTORTIONS.map(|it| it.fault), Fault::NAMED);
     for own in DISTORTIONS.into_iter().chain([&RESPONSE]) {
         assert_eq!(distortion(own.fault).fault, own.fault);

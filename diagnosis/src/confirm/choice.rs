@@ -27,7 +27,7 @@ impl Baseline<'_> {
             {
                 let added = self.evidence(chosen.term, base, simpler, fitted);
                 // Whether it is common does not matter beside a part of itself.
-                if (Evidence { usual: false, ..added }).refusal().is_some() {
+                if (Evidence { background: false, ..added }).refusal().is_some() {
                     chosen = other;
                 }
             }

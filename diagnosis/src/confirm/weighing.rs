@@ -57,15 +57,15 @@ impl Baseline<'_> {
         let validated = self.steadiness(term, &null.test, &fitted.test);
         Evidence {
             delta_bic: gain - more as f64 * total.max(1.0).ln(),
-            block_t: steadiness.t,
-            chance: (self.looks * steadiness.chance_of_gain()).min(1.0),
-            held_out_t: validated.t,
-            held_out_chance: (self.looks * validated.chance()).min(1.0),
-            explained: if is_resonance(term) { estimation.max(validation) } else { validation },
-            phi_gain: everywhere(term, self.phi_gains(null, fitted)),
-            taken: everywhere(term, shares(null, fitted).map(|share| 1.0 - share)),
-            usual: self.is_usual(term, fitted) && !self.is_open(&null.test),
-            grave: false,
+            estimation_t: steadiness.t,
+            p_value: (self.looks * steadiness.chance_of_gain()).min(1.0),
+            validation_t: validated.t,
+            validation_p_value: (self.looks * validated.chance()).min(1.0),
+            variance_explained: if is_resonance(term) { estimation.max(validation) } else { validation },
+            fit_improvement: everywhere(term, self.phi_gains(null, fitted)),
+            residual_reduction: everywhere(term, shares(null, fitted).map(|share| 1.0 - share)),
+            background: self.is_usual(term, fitted) && !self.is_open(&null.test),
+            always_relevant: false,
         }
     }
 

@@ -194,7 +194,7 @@ impl Baseline<'_> {
                 refused.extend(tried.iter().filter(refusal).map(|it| it.term));
                 found.tried.extend(tried);
                 if let Some(Confirmed { accepted, fitted }) = confirmed
-                    && accepted.evidence.taken >= least
+                    && accepted.evidence.residual_reduction >= least
                 {
                     found.accepted.push(accepted);
                     found.extended = fitted.clone();

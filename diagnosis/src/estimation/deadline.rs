@@ -21,7 +21,7 @@ pub enum Stage {
 
 impl Stage {
     /// What is not known if it was not finished.
-    pub fn not_done(self) -> &'static str {
+    pub fn unfinished(self) -> &'static str {
         match self {
             Self::Nominal => {
                 "The nominal parameters may not be at their best. Signs of signals and effects were not looked at."

@@ -22,8 +22,8 @@ use crate::estimation::fit::{Estimate, Residuals, Unknown};
 use crate::estimation::hypothesis::{Fitted, SURE, Term};
 use crate::explain::selection::Score;
 use crate::report::findings::{
-    Answer, BaseParameter, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, FittedValue,
-    Signal, SignalCorrection, Start,
+    Answer, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, FittedValue, NominalParameter,
+    Signal, SignalDistortion, Start,
 };
 use crate::report::words::located;
 use crate::signal::distortion::{AFTER, Correction, Fault};
@@ -48,25 +48,25 @@ impl Diagnosis<'_> {
     /// Everything that is told.
     pub fn findings(&self, data_problems: Vec<DataProblem>, seconds: f64) -> Findings {
         let baseline = &self.baseline;
-        let (signals, starts, corrections) = self.signals();
-        let base_parameters = self.base_parameters();
+        let (signals, initial_states, distortions) = self.signals();
+        let nominal_parameters = self.nominal_parameters();
         let named: Vec<&Accepted> = self.found.accepted.iter().filter(|it| !has_no_name(it.term)).collect();
         let effects: Vec<Effect> = named.iter().map(|it| self.effect(it)).collect();
         let mut unmodelled = self.unmodelled();
         // The account is of the validation records; a curve in the model is among its effects.
         let described = unmodelled.iter().find(|it| it.curve.is_none());
-        let account = self.account(described.map_or(0.0, |it| it.share.min(it.validated)));
+        let account = self.account(described.map_or(0.0, |it| it.share.min(it.validation_share)));
         // What follows nothing is worth a word where a signal misses more than its noise.
         let open = account.iter().any(|it| it.open);
-        unmodelled.retain(|it| open || it.validated > 0.0);
+        unmodelled.retain(|it| open || it.validation_share > 0.0);
         let verdict = verdict(Facts {
             best_fit: self.best(),
             effects: effects.len(),
             ambiguous: effects.iter().any(|effect| !effect.ambiguous_with.is_empty()),
             sensors: !effects.is_empty() && named.iter().all(|it| name(it.term, &baseline.rig.plant).sensor),
-            unmodelled: unmodelled.first().map_or(0.0, |it| it.share.min(it.validated)),
+            unmodelled: unmodelled.first().map_or(0.0, |it| it.share.min(it.validation_share)),
             unmodelled_first: self.found.accepted.first().is_none_or(|it| has_no_name(it.term)),
-            mismatch: base_parameters.iter().any(|it| it.mismatch),
+            mismatch: nominal_parameters.iter().any(|it| it.mismatch),
             open,
             out_of_time: self.is_unfinished(),
         });
@@ -78,19 +78,19 @@ impl Diagnosis<'_> {
             test: baseline.test.iter().map(|record| record.name.clone()).collect(),
             verdict,
             summary: String::new(),
-            not_done: self.not_done(),
+            unfinished: self.unfinished(),
             disagreements: self.disagreements(),
             effects,
-            base_parameters,
+            nominal_parameters,
             pictures: self.pictures(),
             signals,
-            starts,
-            corrections,
+            initial_states,
+            distortions,
             account,
             unmodelled,
             missing: self.found.missing.as_ref().map(missing),
             experiment,
-            deciding: None,
+            deciding_experiment: None,
             data_problems,
             candidates: self.candidates(),
             seconds,
@@ -100,12 +100,12 @@ impl Diagnosis<'_> {
         findings
     }
 
-    fn base_parameters(&self) -> Vec<BaseParameter> {
+    fn nominal_parameters(&self) -> Vec<NominalParameter> {
         let rig = self.baseline.rig;
-        let mut list: Vec<BaseParameter> = self
+        let mut list: Vec<NominalParameter> = self
             .reversed
             .iter()
-            .map(|handle| BaseParameter {
+            .map(|handle| NominalParameter {
                 name: format!("{}.sign", naming::handle(*handle, &rig.plant).0.trim_end_matches(".gain")),
                 unit: "1".into(),
                 before: 1.0,
@@ -114,7 +114,7 @@ impl Diagnosis<'_> {
                 high: -1.0,
                 mismatch: true,
                 contradicted: false,
-                twins: Vec::new(),
+                equivalent_effects: Vec::new(),
             })
             .collect();
         let base = rig.base();
@@ -132,7 +132,7 @@ impl Diagnosis<'_> {
                 });
                 let twins = interval.twins.iter().filter(|_| mismatch && before == 0.0);
                 let twins = twins.map(|term| name(*term, &rig.plant));
-                list.push(BaseParameter {
+                list.push(NominalParameter {
                     name: declared.name.clone(),
                     unit: declared.unit.symbol.into(),
                     before,
@@ -141,7 +141,7 @@ impl Diagnosis<'_> {
                     high: interval.high(),
                     mismatch,
                     contradicted,
-                    twins: twins.map(|it| located(&it.name, &it.element)).collect(),
+                    equivalent_effects: twins.map(|it| located(&it.name, &it.element)).collect(),
                 });
             }
         }
@@ -154,7 +154,7 @@ impl Diagnosis<'_> {
     }
 
     /// What signals pass beside the model that is told.
-    fn corrections(&self, point: &Estimate) -> Vec<SignalCorrection> {
+    fn distortions(&self, point: &Estimate) -> Vec<SignalDistortion> {
         let plant = &self.baseline.rig.plant;
         let of = |input: bool| {
             move |(declared, correction): (&Declaration, &Correction)| {
@@ -164,7 +164,7 @@ impl Diagnosis<'_> {
                     || response.0.iter().zip(AFTER).map(|(more, after)| Answer { after, value: 1.0 + more });
                 let response = if response.is_neutral() { Vec::new() } else { points().collect() };
                 let signal = declared.name.clone();
-                let told = SignalCorrection { signal, input, amounts: amounts.into(), response };
+                let told = SignalDistortion { signal, input, amounts: amounts.into(), response };
                 (!correction.is_neutral()).then_some(told)
             }
         };
@@ -174,7 +174,7 @@ impl Diagnosis<'_> {
 
     /// The errors of the starting, the fitted and the extended model, where the last one starts, and what signals pass
     /// beside it.
-    fn signals(&self) -> (Vec<Signal>, Vec<Start>, Vec<SignalCorrection>) {
+    fn signals(&self) -> (Vec<Signal>, Vec<Start>, Vec<SignalDistortion>) {
         let baseline = &self.baseline;
         let extended = &self.found.extended;
         let terms = extended.terms.clone();
@@ -200,10 +200,10 @@ impl Diagnosis<'_> {
             Signal {
                 name: declared.name.clone(),
                 unit: declared.unit.symbol.into(),
-                phi_before: phi(&before, &measured),
-                phi_fitted: phi(&fitted, &measured),
-                phi_after: phi(&after, &measured),
-                phi_quiet: left[row].phi(),
+                fit_before: phi(&before, &measured),
+                fit_fitted: phi(&fitted, &measured),
+                fit_after: phi(&after, &measured),
+                fit_without_input_noise: left[row].phi(),
                 rms_before: root_mean_square(&before),
                 rms_fitted: root_mean_square(&fitted),
                 rms_after: root_mean_square(&after),
@@ -220,7 +220,7 @@ impl Diagnosis<'_> {
             end: section.end as f64 * record.step,
             states: names().zip(states.iter().copied()).collect(),
         });
-        ((0..rows).map(of).collect(), starts.collect(), self.corrections(&point))
+        ((0..rows).map(of).collect(), starts.collect(), self.distortions(&point))
     }
 
     fn effect(&self, accepted: &Accepted) -> Effect {
@@ -292,7 +292,7 @@ impl Diagnosis<'_> {
                 element: words.element,
                 name: words.name,
                 share: score.share,
-                validated: score.validated,
+                validation_share: score.validated,
                 fitted: tried.is_some_and(|tried| tried.fitted.is_ok()),
                 values: tried
                     .and_then(|it| it.fitted.as_ref().ok())

@@ -33,7 +33,7 @@ pub fn gates(evidence: &Evidence) -> [Gate; 6] {
         ESTIMATION | P_VALUE if evidence.is_steady_enough() => {
             Some("the effect removes most of the error; its improvement varies as the error does")
         }
-        EXPLAINED | IMPROVEMENT if evidence.grave => {
+        EXPLAINED | IMPROVEMENT if evidence.always_relevant => {
             Some("a delay of this size matters, even with small errors")
         }
         _ => None,
@@ -50,23 +50,23 @@ pub fn gates(evidence: &Evidence) -> [Gate; 6] {
         gate(
             VALIDATION,
             "t of the improvement over blocks of the validation data",
-            evidence.held_out_t,
-            limits.held_out_t,
+            evidence.validation_t,
+            limits.validation_t,
             number,
         ),
         gate(
             ESTIMATION,
             "t of the improvement over blocks of the estimation data",
-            evidence.block_t,
-            limits.block_t,
+            evidence.estimation_t,
+            limits.estimation_t,
             number,
         ),
         Gate {
             name: P_VALUE,
             meaning: "probability that the best candidate improves the fit this consistently by chance",
-            found: number(evidence.chance),
-            required: format!("< {}", limits.chance),
-            passed: evidence.chance < limits.chance,
+            found: number(evidence.p_value),
+            required: format!("< {}", limits.p_value),
+            passed: evidence.p_value < limits.p_value,
             waived: waived(P_VALUE),
         },
         gate(
@@ -79,16 +79,18 @@ pub fn gates(evidence: &Evidence) -> [Gate; 6] {
         gate(
             EXPLAINED,
             "share of the starting model’s error power, validation data",
-            evidence.explained,
-            limits.explained,
+            evidence.variance_explained,
+            limits.variance_explained,
             percent,
         ),
-        if evidence.phi_gain <= limits.phi_gain && evidence.taken > limits.taken {
+        if evidence.fit_improvement <= limits.fit_improvement
+            && evidence.residual_reduction > limits.residual_reduction
+        {
             let what = "residual reduction (partial R²); limit: smallest improvement of interest";
-            gate(IMPROVEMENT, what, evidence.taken, limits.taken, percent)
+            gate(IMPROVEMENT, what, evidence.residual_reduction, limits.residual_reduction, percent)
         } else {
             let what = "largest rise of a signal’s fit; limit: smallest improvement of interest";
-            gate(IMPROVEMENT, what, evidence.phi_gain, limits.phi_gain, number)
+            gate(IMPROVEMENT, what, evidence.fit_improvement, limits.fit_improvement, number)
         },
     ]
 }
@@ -104,18 +106,24 @@ pub fn sentences(evidence: &Evidence) -> Vec<String> {
         t if t.is_nan() => "not determined",
         t if t > 5.0 => "far beyond chance",
         t if t > 3.0 => "clearly beyond chance",
-        t if t > Evidence::REQUIRED.held_out_t => "beyond chance",
+        t if t > Evidence::REQUIRED.validation_t => "beyond chance",
         _ => "within chance",
     };
     let t = |t: f64| format!("t\u{a0}=\u{a0}{}, {}", number(t), strength(t));
     vec![
         format!(
             "The effect improves the fit of the validation data block by block ({}).",
-            t(evidence.held_out_t)
+            t(evidence.validation_t)
         ),
-        format!("There it explains {} of the starting model’s error power.", percent(evidence.explained)),
-        format!("It improves the fit of the estimation data, too ({}).", t(evidence.block_t)),
-        format!("The probability of such an improvement by chance is {} (p-value).", number(evidence.chance)),
+        format!(
+            "There it explains {} of the starting model’s error power.",
+            percent(evidence.variance_explained)
+        ),
+        format!("It improves the fit of the estimation data, too ({}).", t(evidence.estimation_t)),
+        format!(
+            "The probability of such an improvement by chance is {} (p-value).",
+            number(evidence.p_value)
+        ),
         format!(
             "The improvement outweighs the additional parameters: the BIC falls by {}.",
             number(evidence.delta_bic)

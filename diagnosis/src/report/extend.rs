@@ -221,7 +221,7 @@ impl Extended {
 fn digest(findings: &Findings) -> String {
     let mut value = serde_json::to_value(findings).expect("plain data");
     if let Some(fields) = value.as_object_mut() {
-        for large in ["pictures", "candidates", "missing", "deciding"] {
+        for large in ["pictures", "candidates", "missing", "deciding_experiment"] {
             fields.remove(large);
         }
     }

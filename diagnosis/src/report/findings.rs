@@ -18,7 +18,7 @@ pub(crate) use pictures::LARGEST;
 pub use pictures::{Binned, Coherence, Mark, Parity, Periodogram, Pictures, Spectrum, Trace};
 
 /// Version of the format of `report.json`: raised when a reader of an older one would misunderstand it.
-pub const FORMAT: u32 = 2;
+pub const FORMAT: u32 = 3;
 
 /// All that a diagnosis has found.
 #[derive(Clone, Debug, Serialize)]
@@ -36,19 +36,19 @@ pub struct Findings {
     /// The verdict in one or two sentences for an engineer.
     pub summary: String,
     /// What the time limit left undone; none if all was done.
-    pub not_done: Option<String>,
+    pub unfinished: Option<String>,
     /// Nominal parameters on which records disagree, the clearest first.
     pub disagreements: Vec<Disagreement>,
     /// The identified effects, the largest first.
     pub effects: Vec<Effect>,
     /// The nominal parameters: those of the starting model that were fitted.
-    pub base_parameters: Vec<BaseParameter>,
+    pub nominal_parameters: Vec<NominalParameter>,
     /// The errors of the models on the validation data.
     pub signals: Vec<Signal>,
     /// The extended model's states where the simulation of each validation stretch starts.
-    pub starts: Vec<Start>,
+    pub initial_states: Vec<Start>,
     /// What signals pass on their way into the extended model and out of it; its FMU does not hold it.
-    pub corrections: Vec<SignalCorrection>,
+    pub distortions: Vec<SignalDistortion>,
     /// Where the power of each signal's error goes, on the validation records.
     pub account: Vec<SignalAccount>,
     /// What is missing and in no catalogue, the largest first.
@@ -58,7 +58,7 @@ pub struct Findings {
     /// What would settle doubts.
     pub experiment: Option<String>,
     /// The experiment that is computed where rivals remain.
-    pub deciding: Option<DecidingExperiment>,
+    pub deciding_experiment: Option<DecidingExperiment>,
     /// What is wrong with the data.
     pub data_problems: Vec<DataProblem>,
     /// Every candidate.
@@ -83,18 +83,18 @@ impl Findings {
             test,
             verdict: Verdict::BadData,
             summary: format!("The data cannot be used. {}", texts.collect::<Vec<_>>().join(" ")),
-            not_done: None,
+            unfinished: None,
             disagreements: Vec::new(),
             effects: Vec::new(),
-            base_parameters: Vec::new(),
+            nominal_parameters: Vec::new(),
             signals: Vec::new(),
-            starts: Vec::new(),
-            corrections: Vec::new(),
+            initial_states: Vec::new(),
+            distortions: Vec::new(),
             account: Vec::new(),
             unmodelled: Vec::new(),
             missing: None,
             experiment: None,
-            deciding: None,
+            deciding_experiment: None,
             data_problems: problems,
             candidates: Vec::new(),
             pictures: Pictures::default(),
@@ -142,7 +142,7 @@ pub struct EffectParameter {
 
 /// A parameter of the starting model.
 #[derive(Clone, Debug, Serialize)]
-pub struct BaseParameter {
+pub struct NominalParameter {
     /// As in the FMU.
     pub name: String,
     /// SI.
@@ -160,7 +160,7 @@ pub struct BaseParameter {
     /// Whether the data contradict the value that the user gave with its standard deviation.
     pub contradicted: bool,
     /// Effects that do the same on these records, of a parameter that the starting model is without.
-    pub twins: Vec<String>,
+    pub equivalent_effects: Vec<String>,
 }
 
 /// The error of one signal, on the validation data.
@@ -171,13 +171,13 @@ pub struct Signal {
     /// SI.
     pub unit: String,
     /// 1 − rms(e)/rms(z), TUM eq. 16, of the starting model.
-    pub phi_before: f64,
+    pub fit_before: f64,
     /// The same of the starting model with fitted parameters.
-    pub phi_fitted: f64,
+    pub fit_fitted: f64,
     /// The same of the extended model.
-    pub phi_after: f64,
+    pub fit_after: f64,
     /// The same where the measured inputs are freed of their noise, which a master's are not.
-    pub phi_quiet: f64,
+    pub fit_without_input_noise: f64,
     /// Root mean square of the starting model's error.
     pub rms_before: f64,
     /// The same of the starting model with fitted parameters.
@@ -206,7 +206,7 @@ pub struct Start {
 /// What a signal passes on its way into or out of the extended model:
 /// `(1 + gain) lag(delay(y + quadratic y² + cubic y³)) + offset + drift t`, held within the limit.
 #[derive(Clone, Debug, Serialize)]
-pub struct SignalCorrection {
+pub struct SignalDistortion {
     /// The signal, as in the FMU.
     pub signal: String,
     /// Whether it goes into the model.
@@ -269,7 +269,7 @@ pub struct Unmodelled {
     /// Share of what is missing that it explains, on the estimation records.
     pub share: f64,
     /// The same on the validation records with the same amounts.
-    pub validated: f64,
+    pub validation_share: f64,
     /// By how much the fit of the worst signal would rise with it.
     pub improvement: f64,
     /// Frequency in Hz where it has one.
@@ -288,7 +288,7 @@ pub struct Missing {
     /// Its unit.
     pub unit: String,
     /// Places that no record of these signals could tell from it.
-    pub ties: Vec<String>,
+    pub equivalent_places: Vec<String>,
     /// Every place, the likeliest first.
     pub places: Vec<PlaceLikelihood>,
     /// Time since the record's beginning in seconds.
@@ -370,7 +370,7 @@ pub struct Candidate {
     /// Share of what was missing first that it explains on its own, on the estimation records.
     pub share: f64,
     /// The same on the validation records with the same amounts.
-    pub validated: f64,
+    pub validation_share: f64,
     /// Whether it was fitted.
     pub fitted: bool,
     /// Its parameters in its fit, the one that says how much of it there is first.

@@ -62,14 +62,17 @@ pub fn write(findings: &Findings, folder: &Path) -> Result<(), Vec<ReportError>>
     };
     let texts = [("report.json", json(findings)), ("report.html", html(findings))];
     let texts = texts.iter().map(|(name, text)| (*name, text));
-    let experiment = findings.deciding.iter().flat_map(|it| &it.files).map(|(name, text)| (&name[..], text));
+    let experiment =
+        findings.deciding_experiment.iter().flat_map(|it| &it.files).map(|(name, text)| (&name[..], text));
     for (name, text) in texts.chain(experiment) {
         let path = folder.join(name);
         let done = replace(&path, text);
         note(path, done);
     }
     // An experiment of an earlier run would pass for this one's.
-    let written = |name: &str| findings.deciding.iter().any(|it| it.files.iter().any(|(own, _)| own == name));
+    let written = |name: &str| {
+        findings.deciding_experiment.iter().any(|it| it.files.iter().any(|(own, _)| own == name))
+    };
     for name in FILES.into_iter().filter(|name| !written(name)) {
         let path = folder.join(name);
         if path.exists() {

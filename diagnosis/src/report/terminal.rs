@@ -111,9 +111,9 @@ impl Lines {
             "  ",
             &format!(
                 "explains {} of the error power; validation t = {}, p-value = {}, ΔBIC = {}",
-                percent(evidence.explained),
-                number(evidence.held_out_t),
-                number(evidence.chance),
+                percent(evidence.variance_explained),
+                number(evidence.validation_t),
+                number(evidence.p_value),
                 number(evidence.delta_bic)
             ),
         );
@@ -142,7 +142,7 @@ impl Lines {
                 &format!(
                     "covers {} of the missing signal on the estimation data, {} on the validation data",
                     percent(it.share),
-                    percent(it.validated)
+                    percent(it.validation_share)
                 ),
             );
         }
@@ -150,7 +150,8 @@ impl Lines {
     }
 
     fn nominal_parameters(&mut self, findings: &Findings) {
-        let wrong: Vec<_> = findings.base_parameters.iter().filter(|parameter| parameter.mismatch).collect();
+        let wrong: Vec<_> =
+            findings.nominal_parameters.iter().filter(|parameter| parameter.mismatch).collect();
         if wrong.is_empty() {
             return;
         }
@@ -167,7 +168,7 @@ impl Lines {
 
     /// How well the computed experiment separates effects from their rivals.
     fn deciding(&mut self, findings: &Findings) {
-        let Some(deciding) = &findings.deciding else { return };
+        let Some(deciding) = &findings.deciding_experiment else { return };
         for it in deciding.pairs.iter().take(SHOWN) {
             self.wrapped("  ", &chance(findings, it));
         }

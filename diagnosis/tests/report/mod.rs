@@ -149,7 +149,7 @@ fn the_numbers_beside_the_headline_are_of_all_signals() {
     for (signal, (before, after)) in
         findings.signals.iter_mut().zip([(0.2, 0.9), (0.6, 0.7), (f64::NAN, 0.1)])
     {
-        (signal.phi_before, signal.phi_after) = (before, after);
+        (signal.fit_before, signal.fit_after) = (before, after);
         (signal.rms_before, signal.rms_after, signal.noise_floor) = (2.0, 1.0 + after, 0.5);
     }
     let page = report::html(&findings);
@@ -237,14 +237,17 @@ fn a_gate_that_is_not_passed_is_marked_and_one_that_need_not_be_says_why() {
     let shown =
         |findings: &Findings| ["not passed", "not required"].map(|it| report::html(findings).contains(it));
     assert_eq!(shown(&findings), [false, false]);
-    findings.effects[0].evidence.held_out_t = Evidence::REQUIRED.held_out_t;
-    findings.effects[0].evidence.explained = 0.2;
+    findings.effects[0].evidence.validation_t = Evidence::REQUIRED.validation_t;
+    findings.effects[0].evidence.variance_explained = 0.2;
     assert_eq!(shown(&findings), [true, false]);
-    findings.effects[0].evidence.explained = 0.5;
+    findings.effects[0].evidence.variance_explained = 0.5;
     assert!(findings.effects[0].evidence.refusal().is_none());
     assert_eq!(shown(&findings), [false, true]);
-    findings.effects[0].evidence =
-        Evidence { explained: 1e-3, grave: true, ..sample(Verdict::Identified).effects[0].evidence };
+    findings.effects[0].evidence = Evidence {
+        variance_explained: 1e-3,
+        always_relevant: true,
+        ..sample(Verdict::Identified).effects[0].evidence
+    };
     assert!(findings.effects[0].evidence.refusal().is_none());
     assert_eq!(shown(&findings), [false, true]);
     assert!(report::html(&findings).contains("a delay of this size matters"));
@@ -272,7 +275,7 @@ fn a_report_replaces_an_older_one_and_leaves_nothing_else() {
     let findings = sample(Verdict::Ambiguous);
     report::write(&findings, folder.path()).unwrap();
     let table = std::fs::read_to_string(folder.path().join("experiment.csv")).unwrap();
-    assert_eq!(table, findings.deciding.unwrap().files[0].1);
+    assert_eq!(table, findings.deciding_experiment.unwrap().files[0].1);
 }
 
 /// Every key of an object, with those of the objects within.
@@ -292,11 +295,11 @@ fn keys(value: &serde_json::Value, found: &mut std::collections::BTreeSet<String
 #[test]
 fn every_field_and_verdict_is_described_on_its_page() {
     let page = include_str!("../../../docs/report.md");
-    let section = page.split("## report.json, version 2").nth(1).expect("the section on report.json");
+    let section = page.split("## report.json, version 3").nth(1).expect("the section on report.json");
     let mut found = std::collections::BTreeSet::new();
     for verdict in VERDICTS {
         let value: serde_json::Value = serde_json::from_str(&report::json(&sample(verdict))).unwrap();
-        assert_eq!(value["format"], 2);
+        assert_eq!(value["format"], 3);
         assert!(
             section.contains(&format!("`{}`", value["verdict"].as_str().unwrap())),
             "{}",
@@ -307,18 +310,21 @@ fn every_field_and_verdict_is_described_on_its_page() {
     let required = Evidence::REQUIRED;
     for (gate, limit) in [
         ("delta_bic", required.delta_bic),
-        ("block_t", required.block_t),
-        ("chance", required.chance),
-        ("held_out_t", required.held_out_t),
-        ("held_out_chance", required.held_out_chance),
-        ("explained", required.explained),
-        ("phi_gain", required.phi_gain),
-        ("taken", required.taken),
+        ("estimation_t", required.estimation_t),
+        ("p_value", required.p_value),
+        ("validation_t", required.validation_t),
+        ("validation_p_value", required.validation_p_value),
+        ("variance_explained", required.variance_explained),
+        ("fit_improvement", required.fit_improvement),
+        ("residual_reduction", required.residual_reduction),
     ] {
         assert!(section.contains(&format!("| `{gate}` | 1 | {limit} |")), "the limit of {gate}");
     }
-    let usual = Evidence::REQUIRED_OF_USUAL;
-    let more = format!("`phi_gain` has to exceed {} or `taken` {}", usual.phi_gain, usual.taken);
+    let usual = Evidence::REQUIRED_OF_BACKGROUND;
+    let more = format!(
+        "`fit_improvement` has to exceed {} or `residual_reduction` {}",
+        usual.fit_improvement, usual.residual_reduction
+    );
     assert!(section.contains(&more), "{more}");
     assert!(found.len() > 60, "{found:?}");
     for key in found {

@@ -28,21 +28,22 @@ fn with_numbers(mut findings: Findings, numbers: &[f64]) -> Findings {
             (parameter.value, parameter.low, parameter.high) = (next(), next(), next());
         }
         let evidence = &mut effect.evidence;
-        (evidence.delta_bic, evidence.block_t, evidence.held_out_t) = (next(), next(), next());
-        (evidence.chance, evidence.held_out_chance, evidence.explained) = (next(), next(), next());
-        (evidence.phi_gain, evidence.taken) = (next(), next());
+        (evidence.delta_bic, evidence.estimation_t, evidence.validation_t) = (next(), next(), next());
+        (evidence.p_value, evidence.validation_p_value, evidence.variance_explained) =
+            (next(), next(), next());
+        (evidence.fit_improvement, evidence.residual_reduction) = (next(), next());
     }
-    for parameter in &mut findings.base_parameters {
+    for parameter in &mut findings.nominal_parameters {
         (parameter.before, parameter.after, parameter.low, parameter.high) = (next(), next(), next(), next());
     }
     for signal in &mut findings.signals {
-        (signal.phi_before, signal.phi_fitted, signal.phi_after) = (next(), next(), next());
-        signal.phi_quiet = next();
+        (signal.fit_before, signal.fit_fitted, signal.fit_after) = (next(), next(), next());
+        signal.fit_without_input_noise = next();
         (signal.rms_before, signal.rms_fitted, signal.rms_after) = (next(), next(), next());
         (signal.noise_floor, signal.repeatability) = (next(), Some(next()));
     }
     for candidate in &mut findings.candidates {
-        (candidate.share, candidate.validated) = (next(), next());
+        (candidate.share, candidate.validation_share) = (next(), next());
     }
     for account in &mut findings.account {
         (account.error, account.noise, account.parameters) = (next(), next(), next());
@@ -51,7 +52,8 @@ fn with_numbers(mut findings: Findings, numbers: &[f64]) -> Findings {
         account.effects.iter_mut().for_each(|item| item.share = next());
     }
     for it in &mut findings.unmodelled {
-        (it.share, it.validated, it.improvement, it.frequency) = (next(), next(), next(), Some(next()));
+        (it.share, it.validation_share, it.improvement, it.frequency) =
+            (next(), next(), next(), Some(next()));
     }
     let mut fill = |values: &mut Vec<f64>, count: usize| {
         values.clear();

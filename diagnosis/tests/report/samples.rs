@@ -32,18 +32,18 @@ pub fn empty(verdict: Verdict) -> Findings {
         test: vec![],
         verdict,
         summary: String::new(),
-        not_done: None,
+        unfinished: None,
         disagreements: vec![],
         effects: vec![],
-        base_parameters: vec![],
+        nominal_parameters: vec![],
         signals: vec![],
-        starts: vec![],
-        corrections: vec![],
+        initial_states: vec![],
+        distortions: vec![],
         account: vec![],
         unmodelled: vec![],
         missing: None,
         experiment: None,
-        deciding: None,
+        deciding_experiment: None,
         data_problems: vec![],
         candidates: vec![],
         pictures: Pictures::default(),
@@ -83,7 +83,7 @@ pub fn sample(verdict: Verdict) -> Findings {
         rig: "tum-quarter-vehicle".into(),
         train: vec!["multisine-1.csv".into(), "prbs-2.csv".into()],
         test: vec!["bumps.csv".into()],
-        base_parameters: vec![
+        nominal_parameters: vec![
             base("strut.stiffness", "N/m", 11_000.0, 11_032.0, 85.0, false),
             base("strut.damping", "N.s/m", 600.0, 423.4, 9.0, true),
             base("body.mass", "kg", 94.4, 94.3, 0.4, false),
@@ -112,13 +112,13 @@ pub fn sample(verdict: Verdict) -> Findings {
                 Some("To excite bump stops and lift-off, drive over a bump of 40 mm.".into());
         }
         Verdict::ParameterMismatch => {
-            findings.base_parameters[0] = base("strut.stiffness", "N/m", 11_000.0, 12_850.0, 90.0, true);
+            findings.nominal_parameters[0] = base("strut.stiffness", "N/m", 11_000.0, 12_850.0, 90.0, true);
             findings.summary =
                 "Parameters: strut.stiffness is 12850 N/m instead of 11000; strut.damping is 423.4 N·s/m instead \
                 of 600. No effect beyond these parameters improves the fit."
                     .into();
             for signal in &mut findings.signals {
-                (signal.phi_fitted, signal.rms_fitted) = (signal.phi_after, signal.rms_after);
+                (signal.fit_fitted, signal.rms_fitted) = (signal.fit_after, signal.rms_after);
             }
             findings.account = account(&findings.signals, &[], 0.0);
         }
@@ -131,15 +131,15 @@ pub fn sample(verdict: Verdict) -> Findings {
             cogging.parameters = vec![parameter("actuator.cogging.amplitude", "N", 11.4, 9.9, 12.9)];
             cogging.evidence = Evidence {
                 delta_bic: 312.0,
-                block_t: 4.6,
-                chance: 0.0021,
-                held_out_t: 3.4,
-                held_out_chance: 0.004,
-                explained: 0.062,
-                phi_gain: 0.12,
-                taken: 0.35,
-                usual: true,
-                grave: false,
+                estimation_t: 4.6,
+                p_value: 0.0021,
+                validation_t: 3.4,
+                validation_p_value: 0.004,
+                variance_explained: 0.062,
+                fit_improvement: 0.12,
+                residual_reduction: 0.35,
+                background: true,
+                always_relevant: false,
             };
             findings.effects = vec![friction(), cogging];
             findings.summary =
@@ -189,19 +189,19 @@ pub fn sample(verdict: Verdict) -> Findings {
             let mut vibration = unmodelled(None);
             (vibration.place, vibration.unit) = ("wheel.acceleration".into(), "m/s2".into());
             (vibration.depends_on, vibration.frequency) = (vec!["time".into()], Some(17.3));
-            (vibration.share, vibration.validated, vibration.improvement) = (0.34, 0.12, 0.04);
+            (vibration.share, vibration.validation_share, vibration.improvement) = (0.34, 0.12, 0.04);
             vibration.description =
                 "a signal that is periodic in time, at 17.30 Hz in the measurement of wheel.acceleration"
                     .into();
             findings.unmodelled = vec![unmodelled(Some(curve)), vibration];
             for signal in &mut findings.signals {
                 signal.rms_after = 0.6 * signal.rms_fitted;
-                signal.phi_after = 1.0 - 0.6 * (1.0 - signal.phi_fitted);
-                signal.phi_quiet = signal.phi_after;
+                signal.fit_after = 1.0 - 0.6 * (1.0 - signal.fit_fitted);
+                signal.fit_without_input_noise = signal.fit_after;
             }
             findings.account =
                 account(&findings.signals, &[("unnamed force over velocity in the strut", 1.0)], 0.4);
-            findings.missing.iter_mut().for_each(|it| it.ties = vec!["actuator.force".into()]);
+            findings.missing.iter_mut().for_each(|it| it.equivalent_places = vec!["actuator.force".into()]);
             findings.summary = "No known effect explains 37 % of wheel.acceleration on the validation data (37 × sensor \
                 noise). Parts of 2 other signals are unexplained, too. The description covers 88 % of the missing \
                 signal on the estimation data and 81 % on the validation data."
@@ -227,9 +227,9 @@ pub fn sample(verdict: Verdict) -> Findings {
         }
         Verdict::ModelInadequate => {
             for signal in &mut findings.signals {
-                (signal.phi_before, signal.phi_fitted, signal.phi_after) = (-0.4, 0.08, 0.08);
+                (signal.fit_before, signal.fit_fitted, signal.fit_after) = (-0.4, 0.08, 0.08);
                 signal.rms_after = signal.rms_fitted;
-                signal.phi_quiet = 0.08;
+                signal.fit_without_input_noise = 0.08;
             }
             findings.account = account(&findings.signals, &[], 0.0);
             findings.summary =
@@ -239,7 +239,7 @@ pub fn sample(verdict: Verdict) -> Findings {
                 .into();
         }
         Verdict::OutOfTime => {
-            findings.not_done = Some(
+            findings.unfinished = Some(
                 "The time limit of 30 s was reached. The search for effects is not complete. There may be others.".into(),
             );
             let value = |record: &str, value: f64, half: f64| RecordValue {
@@ -294,10 +294,10 @@ fn unchanged(findings: &mut Findings) {
     for signal in &mut findings.signals {
         let noise = signal.noise_floor;
         (signal.rms_before, signal.rms_fitted, signal.rms_after) = (1.06 * noise, 1.02 * noise, 1.02 * noise);
-        (signal.phi_before, signal.phi_fitted, signal.phi_after) = (0.9894, 0.9898, 0.9898);
+        (signal.fit_before, signal.fit_fitted, signal.fit_after) = (0.9894, 0.9898, 0.9898);
     }
     findings.account = account(&findings.signals, &[], 0.0);
-    findings.base_parameters[1] = base("strut.damping", "N.s/m", 420.0, 423.4, 9.0, false);
+    findings.nominal_parameters[1] = base("strut.damping", "N.s/m", 420.0, 423.4, 9.0, false);
     for trace in &mut findings.pictures.traces {
         trace.before.clone_from(&trace.after);
     }

@@ -98,15 +98,15 @@ impl Comparison {
     pub fn signal(&self) -> Signal {
         let whole = rms(self.measured.iter().copied());
         let errors = [&self.start, &self.fitted, &self.extended].map(|simulated| self.error(simulated));
-        let [phi_before, phi_fitted, phi_after] = errors.map(|error| 1.0 - error / whole);
+        let [fit_before, fit_fitted, fit_after] = errors.map(|error| 1.0 - error / whole);
         let [rms_before, rms_fitted, rms_after] = errors;
         Signal {
             name: self.name.into(),
             unit: self.unit.into(),
-            phi_before,
-            phi_fitted,
-            phi_after,
-            phi_quiet: phi_after,
+            fit_before,
+            fit_fitted,
+            fit_after,
+            fit_without_input_noise: fit_after,
             rms_before,
             rms_fitted,
             rms_after,
@@ -285,7 +285,7 @@ pub fn missing() -> Missing {
     Missing {
         place: "strut".into(),
         unit: "N".into(),
-        ties: vec![],
+        equivalent_places: vec![],
         places: [
             ("strut", 2241.3),
             ("guide", 1712.8),

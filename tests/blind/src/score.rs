@@ -205,7 +205,7 @@ fn is_named(effect: &Present, named: &Named) -> bool {
 fn is_known_otherwise(effect: &Present, report: &Report) -> bool {
     let another = |name: &str| {
         report
-            .base_parameters
+            .nominal_parameters
             .iter()
             .any(|fitted| characteristic(&fitted.interval.name) == name && fitted.mismatch)
     };
@@ -291,7 +291,7 @@ fn coverage(report: &Report, effects: &[Present]) -> (usize, usize) {
 }
 
 fn base_coverage(report: &Report, truth: &Truth) -> (usize, usize) {
-    let intervals: Vec<Interval> = report.base_parameters.iter().map(|it| it.interval.clone()).collect();
+    let intervals: Vec<Interval> = report.nominal_parameters.iter().map(|it| it.interval.clone()).collect();
     let mut covered = (0, 0);
     count(&mut covered, &intervals, &truth.base);
     covered
@@ -313,7 +313,7 @@ fn gained(report: &Report, truth: &Truth) -> Gain {
     for signal in &report.signals {
         let left = |by: &[Value]| by.iter().find(|value| value.name == signal.name).map(|it| it.value);
         let oracle = left(&truth.oracle.recorded).zip(left(&truth.oracle.exact));
-        let known = signal.phi_after.zip(signal.rms_fitted.zip(signal.rms_after));
+        let known = signal.fit_after.zip(signal.rms_fitted.zip(signal.rms_after));
         if let (Some((recorded, exact)), Some((phi, (fitted, after)))) = (oracle, known) {
             let size = after / (1.0 - phi);
             gain.model += (fitted - after) / size;

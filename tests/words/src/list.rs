@@ -55,5 +55,10 @@ pub const LIST: &[Entry] = &[
     entry("further_effects", "`active_effects`", Code),
     entry("remembering", "`force_with_states`", Code),
     entry("resettled|dwarfed|punctual", "null refitted, negligible, delays bounded", Code),
+    entry(
+        "phi_gain|phi_before|phi_fitted|phi_after|held_out_t|held_out_chance|base_parameters|not_done",
+        "the names of docs/report.md",
+        Code,
+    ),
     entry("strut_fmi2|strut-fmi2", "`strut_fmi`", Code),
 ];

@@ -12,7 +12,7 @@ impl Findings {
     /// Takes an experiment that was computed in the place of the catalogue's advice.
     pub fn decide(&mut self, deciding: DecidingExperiment) {
         self.experiment = Some(experiment(self, &deciding));
-        self.deciding = Some(deciding);
+        self.deciding_experiment = Some(deciding);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::decision::rules::FALL;
 use crate::report::findings::{
-    BaseParameter, Candidate, Effect, Findings, RecordValue, Signal, Unmodelled, Verdict,
+    Candidate, Effect, Findings, NominalParameter, RecordValue, Signal, Unmodelled, Verdict,
 };
 use crate::report::words::{
     count, digits, effect_name, fit, interval, list, located, open_signals, percent, sized, unit, value,
@@ -16,7 +16,7 @@ const IMPROVED: f64 = 0.005;
 /// The summary of findings that are complete otherwise.
 pub(super) fn of(findings: &Findings) -> String {
     let parts = [
-        findings.not_done.clone(),
+        findings.unfinished.clone(),
         open(findings),
         disagreements(findings),
         parameters(findings),
@@ -105,7 +105,7 @@ fn unmodelled(findings: &Findings) -> Option<String> {
         format!(
             "{what} covers {} of the missing signal on the estimation data and {} on the validation data.",
             percent(it.share),
-            percent(it.validated)
+            percent(it.validation_share)
         )
     };
     let all: Vec<String> = findings.unmodelled.iter().enumerate().map(of).collect();
@@ -116,7 +116,7 @@ fn unmodelled(findings: &Findings) -> Option<String> {
 fn nearest(findings: &Findings) -> Option<String> {
     let lacks = matches!(findings.verdict, Verdict::Unmodelled | Verdict::ModelInadequate);
     let shown = |it: &&Candidate| it.evidence.is_some_and(|evidence| evidence.is_nearest());
-    let explained = |it: &Candidate| it.evidence.map_or(0.0, |evidence| evidence.explained);
+    let explained = |it: &Candidate| it.evidence.map_or(0.0, |evidence| evidence.variance_explained);
     let candidates =
         findings.candidates.iter().filter(|_| lacks && findings.effects.is_empty()).filter(shown);
     let nearest = candidates.max_by(|a, b| explained(a).total_cmp(&explained(b)))?;
@@ -132,7 +132,7 @@ fn nearest(findings: &Findings) -> Option<String> {
 }
 
 fn parameters(findings: &Findings) -> Option<String> {
-    let changed = findings.base_parameters.iter().filter(|it| it.mismatch);
+    let changed = findings.nominal_parameters.iter().filter(|it| it.mismatch);
     let changed: Vec<String> = changed
         .map(|it| {
             let (after, before) = (value(it.after, &it.unit), digits(it.before, 4));
@@ -145,71 +145,72 @@ fn parameters(findings: &Findings) -> Option<String> {
 /// A value that the user was sure of and that the data refuse: more likely it is wrong than all the data.
 fn contradictions(findings: &Findings) -> Option<String> {
     let all: Vec<String> =
-        findings.base_parameters.iter().filter(|it| it.contradicted).map(|it| it.name.clone()).collect();
+        findings.nominal_parameters.iter().filter(|it| it.contradicted).map(|it| it.name.clone()).collect();
     (!all.is_empty())
         .then(|| format!("The records contradict the given value of {}. Check it.", list(&all, "and")))
 }
 
 fn twins(findings: &Findings) -> Option<String> {
-    let of =
-        |it: &BaseParameter| format!("These records cannot tell {} from {}.", it.name, list(&it.twins, "or"));
+    let of = |it: &NominalParameter| {
+        format!("These records cannot tell {} from {}.", it.name, list(&it.equivalent_effects, "or"))
+    };
     let all: Vec<String> =
-        findings.base_parameters.iter().filter(|it| !it.twins.is_empty()).map(of).collect();
+        findings.nominal_parameters.iter().filter(|it| !it.equivalent_effects.is_empty()).map(of).collect();
     (!all.is_empty()).then(|| all.join(" "))
 }
 
 /// A signal that the final model meets less well than the starting model: the records want something else of it.
 fn worse(findings: &Findings) -> Option<String> {
     // Noise of the measured inputs costs any model its fit.
-    let fall = |signal: &Signal| signal.phi_before - signal.phi_after.max(signal.phi_quiet);
+    let fall = |signal: &Signal| signal.fit_before - signal.fit_after.max(signal.fit_without_input_noise);
     let worst = findings.signals.iter().max_by(|a, b| fall(a).total_cmp(&fall(b)))?;
-    (worst.phi_before > 0.0 && fall(worst) > FALL).then(|| {
+    (worst.fit_before > 0.0 && fall(worst) > FALL).then(|| {
         format!(
             "The fit of {} on the validation data falls from {} to {}: what the estimation data ask for does not \
              hold there.",
             worst.name,
-            fit(worst.phi_before, 2),
-            fit(worst.phi_after, 2)
+            fit(worst.fit_before, 2),
+            fit(worst.fit_after, 2)
         )
     })
 }
 
 /// The fit of the signal that improves most; a fit below zero is no number to compare with.
 fn improvement(findings: &Findings) -> Option<String> {
-    let improvement = |signal: &Signal| signal.phi_after.max(0.0) - signal.phi_before.max(0.0);
-    let known = findings.signals.iter().filter(|it| it.phi_before.is_finite() && it.phi_after.is_finite());
+    let improvement = |signal: &Signal| signal.fit_after.max(0.0) - signal.fit_before.max(0.0);
+    let known = findings.signals.iter().filter(|it| it.fit_before.is_finite() && it.fit_after.is_finite());
     let most = known.max_by(|a, b| improvement(a).total_cmp(&improvement(b)))?;
-    let Signal { name, phi_before, phi_after, .. } = most;
-    if *phi_before < 0.0 && *phi_after < IMPROVED {
+    let Signal { name, fit_before, fit_after, .. } = most;
+    if *fit_before < 0.0 && *fit_after < IMPROVED {
         return (findings.verdict != Verdict::BadData).then(|| {
-            format!("The starting model does not predict {name} at all (fit {}).", fit(*phi_before, 1))
+            format!("The starting model does not predict {name} at all (fit {}).", fit(*fit_before, 1))
         });
     }
     if improvement(most) < IMPROVED {
         return None;
     }
-    let after = fit(*phi_after, 2);
-    Some(match *phi_before < 0.0 {
+    let after = fit(*fit_after, 2);
+    Some(match *fit_before < 0.0 {
         true => format!(
             "The starting model does not predict {name} at all (fit {}). The final model reaches a fit of {after} \
              on the validation data.",
-            fit(*phi_before, 1)
+            fit(*fit_before, 1)
         ),
         false => {
-            format!("The fit of {name} on the validation data rises from {} to {after}.", fit(*phi_before, 2))
+            format!("The fit of {name} on the validation data rises from {} to {after}.", fit(*fit_before, 2))
         }
     })
 }
 
 /// The cost of noise in the measured inputs, such as a position from which a velocity is derived.
 fn noisy(findings: &Findings) -> Option<String> {
-    let cost = |signal: &Signal| signal.phi_quiet - signal.phi_after;
+    let cost = |signal: &Signal| signal.fit_without_input_noise - signal.fit_after;
     let most = findings.signals.iter().max_by(|a, b| cost(a).total_cmp(&cost(b)))?;
     (cost(most) > NOISY && findings.verdict != Verdict::ModelInadequate).then(|| {
         format!(
             "Noise of the measured inputs lowers the fit. Without that noise, the fit of {} is {}.",
             most.name,
-            fit(most.phi_quiet, 2)
+            fit(most.fit_without_input_noise, 2)
         )
     })
 }
@@ -223,14 +224,14 @@ mod tests {
         Findings { verdict, ..Findings::of_bad_data("rig", vec![], vec![], vec![]) }
     }
 
-    fn signal(phi_before: f64, phi_after: f64) -> Signal {
+    fn signal(fit_before: f64, fit_after: f64) -> Signal {
         Signal {
             name: "body.acceleration".into(),
             unit: "m/s2".into(),
-            phi_before,
-            phi_fitted: phi_after,
-            phi_after,
-            phi_quiet: phi_after,
+            fit_before,
+            fit_fitted: fit_after,
+            fit_after,
+            fit_without_input_noise: fit_after,
             rms_before: 8.0,
             rms_fitted: 4.0,
             rms_after: 4.0,
@@ -277,7 +278,7 @@ mod tests {
         let of =
             |name: &str| Disagreement { name: name.into(), unit: "N.s/m".into(), records: records.clone() };
         let found = Findings {
-            not_done: Some("The time limit of 5 s was reached.".into()),
+            unfinished: Some("The time limit of 5 s was reached.".into()),
             disagreements: vec![of("strut.damping"), of("tire.damping")],
             account: vec![open()],
             signals: vec![signal(0.1, 0.6)],
@@ -315,7 +316,7 @@ mod tests {
 
     #[test]
     fn what_the_records_say_of_a_parameter_beyond_its_value_is_told() {
-        let it = BaseParameter {
+        let it = NominalParameter {
             name: "constant_load".into(),
             unit: "N".into(),
             before: 0.0,
@@ -324,9 +325,9 @@ mod tests {
             high: 18.0,
             mismatch: true,
             contradicted: true,
-            twins: vec!["guide friction in the guide".into()],
+            equivalent_effects: vec!["guide friction in the guide".into()],
         };
-        let text = of(&Findings { base_parameters: vec![it], ..findings(Verdict::ParameterMismatch) });
+        let text = of(&Findings { nominal_parameters: vec![it], ..findings(Verdict::ParameterMismatch) });
         assert!(text.contains("The records contradict the given value of constant_load."), "{text}");
         assert!(text.contains("cannot tell constant_load from guide friction in the guide."), "{text}");
     }
@@ -335,13 +336,13 @@ mod tests {
     fn an_effect_that_only_the_validation_data_show_is_the_nearest_one() {
         let shows = Evidence {
             delta_bic: 0.8,
-            block_t: 2.0,
-            chance: 0.04,
-            held_out_t: 3.3,
-            held_out_chance: 0.02,
-            explained: 0.38,
-            phi_gain: 0.05,
-            taken: 0.3,
+            estimation_t: 2.0,
+            p_value: 0.04,
+            validation_t: 3.3,
+            validation_p_value: 0.02,
+            variance_explained: 0.38,
+            fit_improvement: 0.05,
+            residual_reduction: 0.3,
             ..Evidence::default()
         };
         let friction = Candidate {
@@ -349,14 +350,14 @@ mod tests {
             element: "guide".into(),
             name: "guide friction".into(),
             share: 0.1,
-            validated: 0.2,
+            validation_share: 0.2,
             fitted: true,
             values: vec![FittedValue { name: "guide.coulomb.force".into(), value: 480.0, unit: "N".into() }],
             evidence: Some(shows),
             outcome: "explains too little for its parameters (the BIC falls by 1)".into(),
         };
         let less = Candidate {
-            evidence: Some(Evidence { held_out_t: 2.0, explained: 0.9, ..shows }),
+            evidence: Some(Evidence { validation_t: 2.0, variance_explained: 0.9, ..shows }),
             ..friction.clone()
         };
         let of =
@@ -370,7 +371,7 @@ mod tests {
 
     #[test]
     fn noise_of_the_inputs_is_no_lack_of_the_model() {
-        let signals = vec![Signal { phi_quiet: 0.95, ..signal(0.1, 0.2) }];
+        let signals = vec![Signal { fit_without_input_noise: 0.95, ..signal(0.1, 0.2) }];
         let text = of(&Findings { signals, ..findings(Verdict::NoEffect) });
         assert!(text.contains("Without that noise, the fit of body.acceleration is 0.95."), "{text}");
     }
@@ -380,7 +381,7 @@ mod tests {
         let it = Unmodelled {
             description: "a signal that follows the velocity at the strut".into(),
             share: 0.88,
-            validated: 0.81,
+            validation_share: 0.81,
             ..Unmodelled::default()
         };
         let text = of(&Findings { unmodelled: vec![it.clone(), it], ..findings(Verdict::Unmodelled) });

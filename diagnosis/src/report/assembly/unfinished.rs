@@ -13,7 +13,7 @@ impl Diagnosis<'_> {
     }
 
     /// What was left undone, with the likeliest candidate so far; none if all was done.
-    pub(super) fn not_done(&self) -> Option<String> {
+    pub(super) fn unfinished(&self) -> Option<String> {
         let (stage, limit) = self.baseline.deadline.stopped()?;
         let likeliest = self.likeliest().filter(|_| self.found.accepted.is_empty() && self.is_unfinished());
         let likeliest = likeliest.map(|term| {
@@ -22,7 +22,11 @@ impl Diagnosis<'_> {
             format!(" The likeliest candidate so far is {located}. It is not confirmed.")
         });
         let likeliest = likeliest.unwrap_or_default();
-        Some(format!("The time limit of {} s was reached. {}{likeliest}", limit.as_secs(), stage.not_done()))
+        Some(format!(
+            "The time limit of {} s was reached. {}{likeliest}",
+            limit.as_secs(),
+            stage.unfinished()
+        ))
     }
 
     /// The best candidate whose fit passes, or the one that explains most of the missing signal.

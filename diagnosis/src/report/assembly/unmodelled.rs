@@ -19,7 +19,7 @@ pub(super) fn missing(signal: &MissingSignal) -> Missing {
     Missing {
         place: signal.place.clone(),
         unit: signal.unit.into(),
-        ties: signal.ties.clone(),
+        equivalent_places: signal.ties.clone(),
         places: places.collect(),
         time: signal.time.clone(),
         value: signal.value.clone(),
@@ -43,7 +43,7 @@ impl Diagnosis<'_> {
                 unit: it.unit.into(),
                 depends_on: it.depends_on.clone(),
                 share: it.share,
-                validated: it.validated,
+                validation_share: it.validated,
                 improvement: it.improvement,
                 frequency: it.frequency,
                 description: it.description(),

@@ -80,7 +80,7 @@ fn alternatives(findings: &Findings, effect: &Effect) -> Markup {
 
 /// The law and the values of its parameters.
 fn added(findings: &Findings, effect: &Effect) -> Markup {
-    let outside = findings.corrections.iter().any(|it| it.signal == effect.element);
+    let outside = findings.distortions.iter().any(|it| it.signal == effect.element);
     html! {
         @if !effect.equation.is_empty() || !effect.parameters.is_empty() {
             div.added {
@@ -88,7 +88,7 @@ fn added(findings: &Findings, effect: &Effect) -> Markup {
                 @if outside {
                     p {
                         "The distortion acts outside the model. " code { "extended.fmu" } " does not contain it; "
-                        code { "report.json" } " lists it under " code { "corrections" } "."
+                        code { "report.json" } " lists it under " code { "distortions" } "."
                     }
                 }
                 @if !effect.equation.is_empty() { pre { (effect.equation) } }

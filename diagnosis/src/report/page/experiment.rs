@@ -16,7 +16,7 @@ pub fn section(findings: &Findings) -> Markup {
             section.experiment {
                 h2 { @if ambiguous { "Experiment to tell the alternatives apart" } @else { "Next experiment" } }
                 p { (experiment) }
-                @if let Some(deciding) = &findings.deciding { (computed(findings, deciding)) }
+                @if let Some(deciding) = &findings.deciding_experiment { (computed(findings, deciding)) }
             }
         }
     }

@@ -14,15 +14,15 @@ const MODELS: [(&str, &str); 3] = [("start", "start"), ("before", "fitted"), ("a
 pub fn facts(findings: &Findings) -> Markup {
     let extended = extended(findings);
     let last = |signal: &Signal| {
-        if extended { (signal.phi_after, signal.rms_after) } else { (signal.phi_fitted, signal.rms_fitted) }
+        if extended { (signal.fit_after, signal.rms_after) } else { (signal.fit_fitted, signal.rms_fitted) }
     };
     // Both means are over the same signals.
     let known: Vec<&Signal> = findings
         .signals
         .iter()
-        .filter(|signal| signal.phi_before.is_finite() && last(signal).0.is_finite())
+        .filter(|signal| signal.fit_before.is_finite() && last(signal).0.is_finite())
         .collect();
-    let before = mean(known.iter().map(|signal| signal.phi_before));
+    let before = mean(known.iter().map(|signal| signal.fit_before));
     let after = mean(known.iter().map(|signal| last(signal).0));
     let ratios = findings.signals.iter().map(|signal| last(signal).1 / signal.noise_floor);
     let mut ratios: Vec<f64> = ratios.filter(|ratio| ratio.is_finite()).collect();
@@ -44,7 +44,7 @@ pub fn facts(findings: &Findings) -> Markup {
                     }
                 }
                 @if let Some(effect) = findings.effects.first() {
-                    div { dt { "Validation" } dd { "t = " (number(effect.evidence.held_out_t)) } }
+                    div { dt { "Validation" } dd { "t = " (number(effect.evidence.validation_t)) } }
                 }
             }
         }
@@ -103,7 +103,7 @@ pub fn section(findings: &Findings) -> Markup {
 }
 
 fn row(signal: &Signal, models: usize, repeated: bool) -> Markup {
-    let phi = [signal.phi_before, signal.phi_fitted, signal.phi_after].map(|phi| fit(phi, 3));
+    let phi = [signal.fit_before, signal.fit_fitted, signal.fit_after].map(|phi| fit(phi, 3));
     let rms = [signal.rms_before, signal.rms_fitted, signal.rms_after].map(number);
     html! {
         tr {

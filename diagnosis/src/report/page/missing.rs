@@ -25,7 +25,7 @@ pub fn section(findings: &Findings) -> Markup {
             h2 { "The missing signal" }
             p {
                 "The likeliest place of the missing signal: " strong { (missing.place) }
-                @if !missing.ties.is_empty() { " (these records cannot tell it from " (list(&missing.ties, "or")) ")" }
+                @if !missing.equivalent_places.is_empty() { " (these records cannot tell it from " (list(&missing.equivalent_places, "or")) ")" }
                 "."
             }
             p.note { "The estimate uses the starting model, before any effect is added. The band covers 95 %." }

@@ -67,7 +67,7 @@ fn marked(findings: &Findings) -> Vec<&str> {
     let effects = findings.effects.iter().map(|effect| effect.element.as_str());
     let unmodelled = findings.unmodelled.iter().map(|it| it.place.as_str());
     let wrong = findings
-        .base_parameters
+        .nominal_parameters
         .iter()
         .filter(|parameter| findings.verdict == Verdict::ParameterMismatch && parameter.mismatch);
     let owners = wrong.filter_map(|parameter| parameter.name.split('.').next());

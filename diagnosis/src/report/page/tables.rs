@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::report::findings::{BaseParameter, DataProblem, Findings};
+use crate::report::findings::{DataProblem, Findings, NominalParameter};
 use crate::report::words::{capitalised, count, digits, interval, number, percent, place, unit};
 
 /// Rows that a table shows before the rest is folded away.
@@ -53,9 +53,9 @@ fn folded<'a, T>(rows: &[&'a T], noun: &str, table: impl Fn(&[&'a T]) -> Markup)
 /// Starting and fitted values of the nominal parameters.
 pub fn nominal_parameters(findings: &Findings) -> Markup {
     // Mismatches come first; otherwise the order stays.
-    let mut all: Vec<&BaseParameter> = findings.base_parameters.iter().collect();
+    let mut all: Vec<&NominalParameter> = findings.nominal_parameters.iter().collect();
     all.sort_by_key(|parameter| !parameter.mismatch);
-    let table = |parameters: &[&BaseParameter]| {
+    let table = |parameters: &[&NominalParameter]| {
         html! {
             table {
                 thead { tr {
@@ -88,7 +88,7 @@ pub fn nominal_parameters(findings: &Findings) -> Markup {
     }
 }
 
-fn change(parameter: &BaseParameter) -> String {
+fn change(parameter: &NominalParameter) -> String {
     if parameter.before == 0.0 {
         return "–".into();
     }
@@ -133,13 +133,13 @@ pub fn candidates(findings: &Findings) -> Markup {
                             td { (capitalised(&candidate.name)) }
                             td { (site(&candidate.element)) }
                             td.number { (percent(candidate.share)) }
-                            td.number { (percent(candidate.validated)) }
+                            td.number { (percent(candidate.validation_share)) }
                             td { (candidate.outcome) @if !candidate.fitted { span.small { " (compared)" } } }
                             @if let Some(evidence) = candidate.evidence {
-                                td.number { (number(evidence.held_out_t)) }
-                                td.number { (number(evidence.block_t)) }
+                                td.number { (number(evidence.validation_t)) }
+                                td.number { (number(evidence.estimation_t)) }
                                 td.number { (number(evidence.delta_bic)) }
-                                td.number { (percent(evidence.explained)) }
+                                td.number { (percent(evidence.variance_explained)) }
                             } @else { td.number {} td.number {} td.number {} td.number {} }
                         }
                     } }

@@ -27,7 +27,7 @@ fn entry(it: &Unmodelled) -> Markup {
             dl.facts {
                 @if it.share > 0.0 {
                     div { dt { "Estimation data" } dd { (percent(it.share)) } }
-                    div { dt { "Validation data" } dd { (percent(it.validated)) } }
+                    div { dt { "Validation data" } dd { (percent(it.validation_share)) } }
                     div { dt { "Possible rise of the fit" } dd { (fit(it.improvement, 2)) } }
                 }
                 @if let Some(frequency) = it.frequency { div { dt { "Frequency" } dd { (digits(frequency, 3)) " Hz" } } }

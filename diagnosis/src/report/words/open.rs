@@ -34,8 +34,11 @@ pub fn open_signals(findings: &Findings) -> Vec<OpenSignal> {
 pub fn open_signal(findings: &Findings, account: &SignalAccount) -> Option<OpenSignal> {
     let left = account.unmodelled.max(0.0) + account.unexplained.max(0.0);
     let noise = account.noise.max(0.0);
-    let fit =
-        findings.signals.iter().find(|it| it.name == account.signal).map_or(f64::NAN, |it| it.phi_quiet);
+    let fit = findings
+        .signals
+        .iter()
+        .find(|it| it.name == account.signal)
+        .map_or(f64::NAN, |it| it.fit_without_input_noise);
     account.open.then(|| OpenSignal {
         signal: account.signal.clone(),
         // The remaining error is noise and the rest, which add up in power.
@@ -110,10 +113,10 @@ mod tests {
         let signal = Signal {
             name: "body.acceleration".into(),
             unit: "m/s2".into(),
-            phi_before: 0.1,
-            phi_fitted: phi,
-            phi_after: phi,
-            phi_quiet: phi,
+            fit_before: 0.1,
+            fit_fitted: phi,
+            fit_after: phi,
+            fit_without_input_noise: phi,
             rms_before: 8.0,
             rms_fitted: 4.0,
             rms_after: 4.0,

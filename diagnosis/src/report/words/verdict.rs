@@ -34,7 +34,7 @@ fn full_name(effect: &Effect) -> String {
 }
 
 fn mismatch(findings: &Findings) -> String {
-    let wrong = findings.base_parameters.iter().filter(|parameter| parameter.mismatch);
+    let wrong = findings.nominal_parameters.iter().filter(|parameter| parameter.mismatch);
     let names: Vec<String> = wrong.map(|parameter| parameter.name.clone()).collect();
     let rest = "The records show no further effect.";
     match names.len() {

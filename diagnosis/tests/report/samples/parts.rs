@@ -1,8 +1,8 @@
 //! Parts of sample findings.
 
 use strut_diagnosis::report::findings::{
-    AccountItem, BaseParameter, Candidate, Curve, DecidingExperiment, Distinction, Drive, Effect,
-    EffectParameter, Evidence, ExperimentLimit, Setting, Signal, SignalAccount, SourceFmu, Unmodelled, Value,
+    AccountItem, Candidate, Curve, DecidingExperiment, Distinction, Drive, Effect, EffectParameter, Evidence,
+    ExperimentLimit, NominalParameter, Setting, Signal, SignalAccount, SourceFmu, Unmodelled, Value,
 };
 
 pub fn friction() -> Effect {
@@ -17,15 +17,15 @@ pub fn friction() -> Effect {
         ],
         evidence: Evidence {
             delta_bic: 18_240.0,
-            block_t: 11.2,
-            chance: 3e-13,
-            held_out_t: 7.31,
-            held_out_chance: 2e-9,
-            explained: 0.943,
-            phi_gain: 0.21,
-            taken: 0.35,
-            usual: false,
-            grave: false,
+            estimation_t: 11.2,
+            p_value: 3e-13,
+            validation_t: 7.31,
+            validation_p_value: 2e-9,
+            variance_explained: 0.943,
+            fit_improvement: 0.21,
+            residual_reduction: 0.35,
+            background: false,
+            always_relevant: false,
         },
         ambiguous_with: vec![],
         experiment: None,
@@ -36,10 +36,20 @@ pub fn parameter(name: &str, unit: &str, value: f64, low: f64, high: f64) -> Eff
     EffectParameter { name: name.into(), value, unit: unit.into(), low, high }
 }
 
-pub fn base(name: &str, unit: &str, before: f64, after: f64, half: f64, mismatch: bool) -> BaseParameter {
+pub fn base(name: &str, unit: &str, before: f64, after: f64, half: f64, mismatch: bool) -> NominalParameter {
     let (name, unit) = (name.into(), unit.into());
     let (low, high) = (after - half, after + half);
-    BaseParameter { name, unit, before, after, low, high, mismatch, contradicted: false, twins: vec![] }
+    NominalParameter {
+        name,
+        unit,
+        before,
+        after,
+        low,
+        high,
+        mismatch,
+        contradicted: false,
+        equivalent_effects: vec![],
+    }
 }
 
 pub fn candidates() -> Vec<Candidate> {
@@ -69,15 +79,15 @@ pub fn candidates() -> Vec<Candidate> {
         let fitted = index < 5;
         let weak = Evidence {
             delta_bic: 12.0 - 9.0 * index as f64,
-            block_t: 1.3,
-            chance: 1.0,
-            held_out_t: 0.4,
-            held_out_chance: 1.0,
-            explained: 0.004,
-            phi_gain: 0.002,
-            taken: 0.35,
-            usual: false,
-            grave: false,
+            estimation_t: 1.3,
+            p_value: 1.0,
+            validation_t: 0.4,
+            validation_p_value: 1.0,
+            variance_explained: 0.004,
+            fit_improvement: 0.002,
+            residual_reduction: 0.35,
+            background: false,
+            always_relevant: false,
         };
         Candidate {
             id: id.into(),
@@ -87,7 +97,7 @@ pub fn candidates() -> Vec<Candidate> {
             values: Vec::new(),
             evidence: fitted.then_some(weak),
             share,
-            validated,
+            validation_share: validated,
             outcome: if fitted {
                 "no improvement on the validation data (t = 0.4)"
             } else {
@@ -116,7 +126,7 @@ pub fn account(signals: &[Signal], effects: &[(&str, f64)], unmodelled: f64) -> 
             effects: effects.iter().map(item).collect(),
             unmodelled: unmodelled * rest,
             unexplained: (1.0 - unmodelled) * rest,
-            open: rest > 8.0 * noise && (1.0 - signal.phi_after) > 0.1,
+            open: rest > 8.0 * noise && (1.0 - signal.fit_after) > 0.1,
         }
     };
     signals.iter().map(of).collect()
@@ -128,7 +138,7 @@ pub fn unmodelled(curve: Option<Curve>) -> Unmodelled {
         unit: "N".into(),
         depends_on: vec!["velocity".into(), "deflection".into()],
         share: 0.88,
-        validated: 0.81,
+        validation_share: 0.81,
         improvement: 0.21,
         frequency: None,
         description:

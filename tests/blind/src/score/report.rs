@@ -14,7 +14,7 @@ pub struct Report {
     pub effects: Vec<Named>,
     /// Parameters of the starting model.
     #[serde(default)]
-    pub base_parameters: Vec<Fitted>,
+    pub nominal_parameters: Vec<Fitted>,
     /// Errors on the validation data.
     #[serde(default)]
     pub signals: Vec<Signal>,
@@ -100,7 +100,7 @@ pub struct Signal {
     /// As in the FMU.
     pub name: String,
     /// 1 − rms(e)/rms(z) of the extended model.
-    pub phi_after: Option<f64>,
+    pub fit_after: Option<f64>,
     /// Root mean square of the error of the starting model with fitted parameters.
     pub rms_fitted: Option<f64>,
     /// The same of the extended model.

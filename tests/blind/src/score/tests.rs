@@ -151,7 +151,7 @@ fn a_curve_beside_what_is_there_is_too_much() {
     let report = |unnamed: &str| {
         format!(
             r#"{{"verdict": "parameter_mismatch", {unnamed}
-            "base_parameters": [{{"name": "tire.damping", "low": 60, "high": null, "mismatch": true}}]}}"#
+            "nominal_parameters": [{{"name": "tire.damping", "low": 60, "high": null, "mismatch": true}}]}}"#
         )
     };
     assert_eq!(came_out(&[damping], &report("")), Outcome::Correct);
@@ -185,13 +185,13 @@ fn intervals_are_counted_for_rightly_named_effects() {
 }
 
 #[test]
-fn base_parameters_are_judged_where_the_causes_are_right() {
+fn nominal_parameters_are_judged_where_the_causes_are_right() {
     let report = |id: &str| {
         let mass = |name: &str| serde_json::json!({"name": name, "low": 94.0, "high": 96.0});
-        let force = serde_json::json!({"name": "wheel.force", "phi_after": 0.8, "rms_fitted": 50.0, "rms_after": 20.0});
+        let force = serde_json::json!({"name": "wheel.force", "fit_after": 0.8, "rms_fitted": 50.0, "rms_after": 20.0});
         serde_json::json!({
             "verdict": "named", "effects": [{"id": id, "element": "strut"}], "signals": [force],
-            "base_parameters": [mass("sprung_mass"), mass("unsprung_mass")],
+            "nominal_parameters": [mass("sprung_mass"), mass("unsprung_mass")],
         })
         .to_string()
     };
@@ -259,7 +259,7 @@ fn another_base_parameter_is_the_effect_of_the_valve() {
     let report = |name: &str| {
         format!(
             r#"{{"verdict": "parameter_mismatch",
-            "base_parameters": [{{"name": "{name}", "low": 1e-11, "high": 4e-11, "mismatch": true}}]}}"#
+            "nominal_parameters": [{{"name": "{name}", "low": 1e-11, "high": 4e-11, "mismatch": true}}]}}"#
         )
     };
     assert_eq!(came_out(&[leakage], &report("actuator.cylinder.leakage")), Outcome::Correct);
@@ -280,7 +280,7 @@ fn a_pump_actuators_causes_are_told_in_their_own_ways() {
     let another = |name: &str| {
         format!(
             r#"{{"verdict": "parameter_mismatch",
-            "base_parameters": [{{"name": "{name}", "low": 1, "high": 2, "mismatch": true}}]}}"#
+            "nominal_parameters": [{{"name": "{name}", "low": 1, "high": 2, "mismatch": true}}]}}"#
         )
     };
     let rebound = another("valve.rebound.pressure_drop[7]");

@@ -25,7 +25,7 @@ fn report(verdict: &str, causes: &[(&str, &[&str], Option<f64>)]) -> String {
         })
     };
     let causes: Vec<_> = causes.iter().enumerate().map(cause).collect();
-    serde_json::json!({"format": 2, "verdict": verdict, "effects": [], "unmodelled": causes}).to_string()
+    serde_json::json!({"format": 3, "verdict": verdict, "effects": [], "unmodelled": causes}).to_string()
 }
 
 fn judged(truth: &Truth, place: &str, depends_on: &[&str]) -> (Outcome, Option<bool>, Option<bool>) {

@@ -1,22 +1,15 @@
 //! The articles and books that laws come from.
 
-use strut_physics::LITERATURE;
-
 /// An article, a book, a report.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Work {
-    /// What entries of the catalogue call it.
+pub struct Work {
+    /// What equations, parameter sets and effects call it.
     pub key: String,
     /// Names and values.
     fields: Vec<(String, String)>,
 }
 
 impl Work {
-    /// All works, in the order of the list.
-    pub fn all() -> Vec<Self> {
-        works(LITERATURE)
-    }
-
     fn field(&self, name: &str) -> Option<&str> {
         self.fields.iter().find(|(of, _)| of == name).map(|(_, value)| value.as_str())
     }
@@ -40,11 +33,17 @@ impl Work {
 
     /// In Markdown: authors, title, where it appeared, and when.
     pub fn listed(&self) -> String {
+        let [authors, title, rest] = self.parts();
+        format!("{authors}*{title}*{rest}")
+    }
+
+    /// What stands before the title, the title, and what stands behind it.
+    pub fn parts(&self) -> [String; 3] {
         let authors = match self.authors().as_slice() {
             [] => String::new(),
             names => format!("{}. ", names.join("; ").trim_end_matches('.')),
         };
-        let title = format!("*{}*", self.field("title").unwrap_or_default());
+        let title = self.field("title").unwrap_or_default().to_owned();
         let places = ["journal", "booktitle", "publisher", "institution", "organization"];
         let place =
             places.into_iter().find_map(|name| self.field(name)).map(|place| match self.field("volume") {
@@ -53,16 +52,13 @@ impl Work {
             });
         let rest = [place.as_deref(), self.field("number"), self.field("note"), self.field("year")];
         let rest: Vec<&str> = rest.into_iter().flatten().collect();
-        if rest.is_empty() {
-            format!("{authors}{title}")
-        } else {
-            format!("{authors}{title}. {}", rest.join(", "))
-        }
+        let rest = if rest.is_empty() { String::new() } else { format!(". {}", rest.join(", ")) };
+        [authors, title, rest]
     }
 }
 
-/// The works of a list in BibTeX, a field to a line.
-fn works(list: &str) -> Vec<Work> {
+/// The works of a list in BibTeX, a field to a line, in the order of the list.
+pub fn works(list: &str) -> Vec<Work> {
     let mut works: Vec<Work> = Vec::new();
     for line in list.lines().map(str::trim) {
         if let Some((_, key)) = line.strip_prefix('@').and_then(|it| it.split_once('{')) {
@@ -97,14 +93,14 @@ mod tests {
 
     #[test]
     fn the_list_has_a_field_a_line() {
-        for line in LITERATURE.lines().filter(|it| it.contains(" = ")) {
+        for line in strut_physics::LITERATURE.lines().filter(|it| it.contains(" = ")) {
             assert!(line.contains(" = {") && line.trim_end_matches(',').ends_with('}'), "{line}");
         }
     }
 
     #[test]
     fn every_work_has_a_key_of_its_own_a_title_and_no_latex() {
-        let all = Work::all();
+        let all = works(strut_physics::LITERATURE);
         for work in &all {
             assert!(work.field("title").is_some_and(|it| !it.is_empty()), "{}", work.key);
             assert!(!work.listed().contains(['{', '}', '\\']), "{}", work.listed());
