@@ -254,3 +254,29 @@ fn a_new_crate_agrees_with_scipy_becomes_an_fmu_and_finds_what_its_records_hide(
     let force = report["effects"][0]["parameters"][0]["value"].as_f64().unwrap();
     assert!((force - 3.0).abs() < 0.1, "{force} N of 3 N");
 }
+
+/// One command compiles the crate and names what scipy's records hide.
+#[test]
+fn a_rig_of_ones_own_is_diagnosed_from_its_crate() {
+    let folder = tempfile::tempdir().unwrap();
+    let example = strut::root().join("examples/own-model/hydropneumatic");
+    strut::run(Command::new(strut::interpreter()).arg(example.join("records.py")).arg(folder.path()));
+    let mut command = Command::new(strut::program("strut"));
+    command
+        .args(["diagnose", "--train", "train.csv", "--test", "test.csv", "--rig"])
+        .arg(example.join("rig.toml"));
+    command.current_dir(folder.path()).env("CARGO_TARGET_DIR", strut::target());
+    let said = String::from_utf8_lossy(&strut::run(&mut command).stdout).into_owned();
+    assert!(said.contains("IDENTIFIED: The model lacks Coulomb friction in the strut."), "{said}");
+    let report = fs::read_to_string(folder.path().join("report/report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    let number = |of: &serde_json::Value, field: &str| of[field].as_f64().unwrap();
+    let force = &report["effects"][0]["parameters"][0];
+    assert!((number(force, "value") / 80.0 - 1.0).abs() < 0.05, "{force}");
+    // The records are of other masses, springs and dampers than the model starts with.
+    for (name, truth) in [("sprung_mass", 312.0), ("stiffness", 12600.0), ("damping", 1330.0)] {
+        let parameters = report["nominal_parameters"].as_array().unwrap();
+        let found = parameters.iter().find(|it| it["name"] == name).unwrap();
+        assert!((number(found, "after") / truth - 1.0).abs() < 0.02, "{found}");
+    }
+}
