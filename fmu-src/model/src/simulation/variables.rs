@@ -59,6 +59,7 @@ impl<M: Model> Simulation<M> {
     ///
     /// # Errors
     /// For an unknown reference or a variable that is calculated.
+    #[cold]
     pub fn real_before_initialization(&self, references: &[u32], values: &mut [f64]) -> Result<(), Error> {
         for (reference, value) in references.iter().zip(values) {
             let (section, index) = Layout::<M>::locate(*reference)?;
