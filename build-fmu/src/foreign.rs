@@ -80,11 +80,11 @@ impl Package {
     pub fn fmu(&self) -> Result<PathBuf> {
         let out = self.folder().join("fmus").into_std_path_buf();
         let failed = |error: std::io::Error| Failure::new(format!("`{}`: {error}", out.display()));
-        // What an earlier version of the model was called is gone.
+        let mut command = self.packager()?;
+        // An earlier version of the model may have had another name.
         if out.exists() {
             fs::remove_dir_all(&out).map_err(failed)?;
         }
-        let mut command = self.packager()?;
         let code = self.ended(command.arg("--out").arg(&out).stdout(Stdio::null()))?;
         let made = fs::read_dir(&out).ok().and_then(|mut files| Some(files.next()?.ok()?.path()));
         made.filter(|_| code == ExitCode::SUCCESS).ok_or_else(|| {

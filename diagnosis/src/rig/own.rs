@@ -38,3 +38,17 @@ pub fn fmu_of(model: &Path) -> Result<PathBuf, String> {
     all.insert(model.to_owned(), made.clone());
     Ok(made)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_crate_is_known_by_its_manifest_and_an_fmu_by_its_ending() {
+        assert!(is_manifest(Path::new("my-rig/Cargo.toml")) && !is_manifest(Path::new("rig.toml")));
+        assert!(is_fmu(Path::new("a/B.FMU")) && !is_fmu(Path::new("Cargo.toml")));
+        assert_eq!(fmu_of(Path::new("a/B.fmu")).unwrap(), Path::new("a/B.fmu"));
+        let error = fmu_of(Path::new("nowhere/Cargo.toml")).unwrap_err();
+        assert!(error.contains("there is no manifest `nowhere/Cargo.toml`"), "{error}");
+    }
+}
