@@ -77,7 +77,7 @@ def _prepare(toolchain):
 def _built(profile, toolchain):
     """The command, built."""
     cargo = os.environ.get("CARGO", "cargo")
-    # Both at once: of one package alone, cargo would choose other features of what they share, and compile it again.
+    # Both at once: of one package alone, cargo would choose other features of their common dependencies, and compile those again.
     packages = ["--package", "strut-command", "--package", "strut-python"]
     _run([cargo, toolchain.subcommand, "--profile", profile, *MANIFEST, *packages, *toolchain.cargo])
     return _artefacts(profile, toolchain) / toolchain.program

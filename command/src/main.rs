@@ -61,7 +61,7 @@ enum Command {
         /// Writes the variables of all FMUs into this folder of the book
         #[arg(long, value_name = "DIR")]
         variables: Option<PathBuf>,
-        /// Compares with what is there and writes nothing
+        /// Compares with the files there and writes nothing
         #[arg(long, requires = "variables")]
         check: bool,
     },

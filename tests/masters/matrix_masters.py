@@ -182,7 +182,7 @@ class PyFmi(Master):
 
 @contextlib.contextmanager
 def without_units(kind, path):
-    """An FMU of FMI 3.0 without units and nominal values: fmi-schema 0.8.0, by which the crate `fmi` reads
+    """An FMU of FMI 3.0 without units and nominal values: fmi-schema 0.8.0, by which the crate `fmi` and fmi-sim read
     descriptions, knows neither, and refuses what it does not know (`unknown field "unit" in element "FmiFloat64"`)."""
     if kind != "fmi3":
         yield path

@@ -60,7 +60,7 @@ pub fn check(file: &Path, package: &mut Package, options: &Options) -> Result<Re
     Ok(report)
 }
 
-/// Runs what is to be run. Returns whether it was asked for beyond the rules.
+/// Runs the library as the options want. Returns whether they want experiments or signs, beyond the rules.
 fn run(
     description: &Description,
     package: &mut Package,

@@ -1,4 +1,4 @@
-//! The FMU of a rig file's model: the file that it names, or what is made of the crate that it names.
+//! The FMU of a rig file's model: a file, or made from a crate.
 
 use std::collections::BTreeMap;
 use std::ffi::OsStr;

@@ -20,7 +20,7 @@ pub enum Version {
 }
 
 impl Version {
-    /// What the names of its functions and types begin with.
+    /// Prefix of the names of its functions and types.
     pub fn prefix(self) -> &'static str {
         match self {
             Self::Two => "fmi2",
@@ -151,8 +151,8 @@ pub struct Variable {
     pub variability: String,
     /// Initial, if it is given.
     pub initial: Option<String>,
-    /// Name of the element: Real, Integer, Boolean, String, Enumeration; empty if there is none. Of FMI 3.0, what comes to the same
-    /// has the same name.
+    /// Name of the element: Real, Integer, Boolean, String, Enumeration; empty if there is none. Types of FMI 3.0
+    /// that correspond to them have the same names.
     pub kind: String,
     /// Start value, as it stands there.
     pub start: Option<String>,
@@ -227,10 +227,7 @@ impl Description {
             event_indicators: value(root, "numberOfEventIndicators").unwrap_or(0),
             ..Self::default()
         };
-        if description.runs_as() == Some(Version::Three) {
-            three::complete(&mut description, root, lines);
-            return Ok(description);
-        }
+        description.experiment = experiment(root, lines);
         for (name, kind) in [("CoSimulation", Kind::CoSimulation), ("ModelExchange", Kind::ModelExchange)] {
             description.interfaces.extend(elements(root, name).map(|node| {
                 Interface {
@@ -245,6 +242,12 @@ impl Description {
                 }
             }));
         }
+        if description.runs_as() == Some(Version::Three) {
+            description.guid = text(root, "instantiationToken");
+            description.variables = three::variables(root, lines);
+            description.note_names();
+            return Ok(description);
+        }
         description.declared = declared(root, lines);
         for unit in child("UnitDefinitions").into_iter().flat_map(|node| elements(node, "Unit")) {
             // What its numbers are the schema tells; the unit is declared all the same.
@@ -256,7 +259,6 @@ impl Description {
         }
         let categories = child("LogCategories").into_iter().flat_map(|node| elements(node, "Category"));
         description.categories = categories.filter_map(|node| text(node, "name")).collect();
-        description.experiment = experiment(root, lines);
         for node in child("ModelVariables").into_iter().flat_map(|node| elements(node, "ScalarVariable")) {
             description.variables.push(variable(node, line(node), &description.types));
         }

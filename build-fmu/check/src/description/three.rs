@@ -1,28 +1,15 @@
-//! What running an FMU of FMI 3.0 takes: its interfaces, variables and default experiment. The rest of its description is for FMPy.
+//! The variables of FMI 3.0, as far as a run needs them. FMPy validates the rest of such a description.
 
 use roxmltree::Node;
 
-use super::{Description, Interface, Kind, Variable, elements, experiment, value};
+use super::{Variable, elements, value};
 use crate::lines::Lines;
 
-/// Adds to the head of a description what is declared in ways of FMI 3.0.
-pub(super) fn complete(description: &mut Description, root: Node, lines: &Lines) {
-    let text = |node: Node, name: &str| node.attribute(name).map(str::to_owned);
-    description.guid = text(root, "instantiationToken");
-    for (name, kind) in [("CoSimulation", Kind::CoSimulation), ("ModelExchange", Kind::ModelExchange)] {
-        description.interfaces.extend(elements(root, name).map(|node| Interface {
-            kind,
-            sources: Vec::new(),
-            identifier: text(node, "modelIdentifier").unwrap_or_default(),
-            attributes: node.attributes().map(|it| (it.name().into(), it.value().into())).collect(),
-            line: lines.line(node),
-        }));
-    }
-    description.experiment = experiment(root, lines);
+/// The variables of a description, in their order.
+pub(super) fn variables(root: Node, lines: &Lines) -> Vec<Variable> {
     let list = elements(root, "ModelVariables").next();
     let variables = list.into_iter().flat_map(|node| node.children().filter(Node::is_element));
-    description.variables.extend(variables.map(|node| variable(node, lines.line(node))));
-    description.note_names();
+    variables.map(|node| variable(node, lines.line(node))).collect()
 }
 
 fn variable(node: Node, line: u32) -> Variable {
@@ -55,7 +42,7 @@ fn variable(node: Node, line: u32) -> Variable {
     }
 }
 
-/// The kind of FMI 2.0 that comes to the same; arrays and other widths have none, and keep a name of their own.
+/// The corresponding type of FMI 2.0; arrays and other widths have none, and keep names of their own.
 fn kind(node: Node) -> String {
     let name = node.tag_name().name();
     if elements(node, "Dimension").next().is_some() {
@@ -72,10 +59,10 @@ fn kind(node: Node) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::description::Version;
+    use crate::description::{Description, Kind, Version};
 
     #[test]
-    fn variables_are_those_of_fmi_2_where_they_come_to_the_same() {
+    fn variables_of_corresponding_types_are_those_of_fmi_2() {
         let text = r#"<fmiModelDescription fmiVersion="3.0" instantiationToken="{1}">
             <CoSimulation modelIdentifier="m" canSerializeFMUState="true"/>
             <DefaultExperiment stopTime="2"/>

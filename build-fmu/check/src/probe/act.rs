@@ -1,4 +1,4 @@
-//! What a process is told to do.
+//! Orders to a process that runs a library.
 
 use serde::{Deserialize, Serialize};
 
@@ -90,7 +90,7 @@ impl Act {
         .to_owned()
     }
 
-    /// None for what is called in runs of FMI 2.0 alone.
+    /// None for functions that only runs of FMI 2.0 call.
     fn of_three(&self) -> Option<String> {
         let name = match self {
             Self::Instantiate { .. } => "fmi3InstantiateCoSimulation",

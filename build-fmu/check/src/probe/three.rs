@@ -1,4 +1,4 @@
-//! Co-simulation in FMI 3.0: what it takes to run experiments.
+//! Co-simulation in FMI 3.0, as far as experiments and signs need it.
 
 #![allow(unsafe_code)]
 

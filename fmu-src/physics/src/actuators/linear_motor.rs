@@ -108,7 +108,7 @@ pub struct Output<R> {
 /// The stroke.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Stroke<R> {
-    /// What is left to the nearer end; below zero the rod would hit it
+    /// Distance to the nearer end; below zero the rod would hit it
     #[var(unit = M)]
     pub reserve: R,
 }
@@ -116,7 +116,7 @@ pub struct Stroke<R> {
 /// The speed.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Speed<R> {
-    /// What is left to the largest speed
+    /// Margin to the largest speed
     #[var(unit = M_PER_S)]
     pub reserve: R,
 }
