@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use strut_diagnosis::data::check::check;
 use strut_diagnosis::data::map::{Map, Wanted};
 use strut_diagnosis::data::uniform::uniform;
-use strut_diagnosis::data::{read, read_with};
+use strut_diagnosis::data::{Reading, read};
 
 fn fixture(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
@@ -21,8 +21,8 @@ fn wanted(name: &str, unit: &str, aliases: &[&str]) -> Wanted {
 
 #[test]
 fn one_signal_in_three_formats() {
-    let mdf = read(&fixture("deflate.mf4")).unwrap();
-    let matlab = read(&fixture("struct.mat")).unwrap();
+    let mdf = read(&fixture("deflate.mf4"), &Reading::default()).unwrap();
+    let matlab = read(&fixture("struct.mat"), &Reading::default()).unwrap();
     assert_eq!(mdf.name, "deflate.mf4");
     assert_eq!(mdf.time.len(), matlab.time.len());
     for (a, b) in mdf.channels[0].values.iter().zip(&matlab.channels[0].values) {
@@ -31,7 +31,7 @@ fn one_signal_in_three_formats() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("copy.csv");
     strut_diagnosis::data::csv::write(&mdf, fs::File::create(&path).unwrap()).unwrap();
-    let copy = read(&path).unwrap();
+    let copy = read(&path, &Reading::default()).unwrap();
     assert_eq!(copy.time, mdf.time);
     assert_eq!(copy.channels[0], mdf.channels[0]);
 }
@@ -52,7 +52,7 @@ fn from_a_foreign_file_to_an_even_record() {
     let map = "time = { column = \"Zeit\", unit = \"ms\" }\n\
                [signals]\ndeflection = { column = \"Weg\", scale = -1.0 }\n";
     let map = Map::parse(map).unwrap();
-    let record = read_with(&path, map.time.as_ref()).unwrap();
+    let record = read(&path, &map.reading).unwrap();
     let signals = [wanted("deflection", "m", &[]), wanted("strut.force", "N", &["kraft"])];
     let mapped = map.apply(record, &signals).unwrap();
     assert_eq!(mapped.unused.iter().map(|it| it.name.as_str()).collect::<Vec<_>>(), ["Reserve"]);
@@ -76,6 +76,6 @@ fn from_a_foreign_file_to_an_even_record() {
 
 #[test]
 fn a_file_that_is_not_there() {
-    let message = read(&fixture("none.csv")).unwrap_err().to_string();
+    let message = read(&fixture("none.csv"), &Reading::default()).unwrap_err().to_string();
     assert!(message.contains("none.csv: cannot be read"), "{message}");
 }

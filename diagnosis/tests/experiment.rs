@@ -163,7 +163,7 @@ fn the_table_is_a_record_s_drive() {
     assert_eq!(name, TABLE);
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join(name), text).unwrap();
-    let table = data::read_with(&folder.path().join(name), None).unwrap();
+    let table = data::read(&folder.path().join(name), &data::Reading::default()).unwrap();
     assert_eq!((table.channels.len(), &table.channels[0].name[..]), (1, "motion.position"));
     let largest = table.channels[0].values.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
     assert!((largest / deciding.drives[0].amplitude - 1.0).abs() < 0.02, "{largest}: {:?}", deciding.drives);

@@ -14,7 +14,7 @@ use build_fmu::Wanted;
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use strut_diagnosis::app::study::{self, Outcome, Study};
+use strut_diagnosis::app::study::{self, Outcome, Progress, Study};
 use strut_diagnosis::app::virtual_rig::{self, Experiment};
 use strut_diagnosis::data::map::Map;
 use strut_diagnosis::estimation::deadline::Deadline;
@@ -218,7 +218,7 @@ impl PyOutcome {
 
 /// Diagnoses; `progress` is called with each stage.
 #[pyfunction]
-#[pyo3(signature = (train, test, *, rig, parameters, map, known, effects, limits, time_limit, command, progress))]
+#[pyo3(signature = (train, test, *, rig, parameters, map, sampling_rate, skip_rows, known, effects, limits, time_limit, command, progress))]
 #[allow(clippy::too_many_arguments, reason = "Python names them")]
 fn diagnose(
     py: Python<'_>,
@@ -227,6 +227,8 @@ fn diagnose(
     rig: Option<String>,
     parameters: Option<PathBuf>,
     map: Option<String>,
+    sampling_rate: Option<f64>,
+    skip_rows: Option<usize>,
     known: Vec<String>,
     effects: Vec<String>,
     limits: [Option<f64>; 5],
@@ -244,6 +246,7 @@ fn diagnose(
     if let Some(text) = map {
         study.map = Map::parse(&text).map_err(|error| wrong(error.to_string()))?;
     }
+    study.map.reading = study.map.reading.or(sampling_rate, skip_rows);
     let [stroke, force, rate, bandwidth, duration] = limits;
     if limits.iter().flatten().any(|limit| !(limit.is_finite() && *limit > 0.0)) {
         return Err(wrong("the limits of an experiment are positive numbers in SI units".into()));
@@ -252,7 +255,13 @@ fn diagnose(
     let limit = Duration::try_from_secs_f64(time_limit).map_err(|error| wrong(error.to_string()))?;
     let stop = Arc::new(AtomicBool::new(false));
     let deadline = Deadline::after(limit).or_when(stop.clone());
-    let work = move |told: &(dyn Fn(&str) + Sync)| study.run(deadline, told);
+    let work = move |told: &(dyn Fn(&str) + Sync)| {
+        study.run(deadline, &|progress: Progress<'_>| {
+            if let Progress::Stage(text) = progress {
+                told(text);
+            }
+        })
+    };
     let mut outcome =
         watched(py, &stop, work, |text| progress.call1(py, (text,)).map(|_| ()))?.map_err(wrong)?;
     if let Some(provenance) = &mut outcome.findings.provenance {

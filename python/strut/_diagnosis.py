@@ -147,6 +147,8 @@ def diagnose(
     *,
     parameters: str | os.PathLike[str] | None = None,
     map: str | os.PathLike[str] | None = None,
+    sampling_rate: float | None = None,
+    skip_rows: int | None = None,
     known: Mapping[str, tuple[float, float]] | None = None,
     effects: Sequence[str] = (),
     stroke: float | None = None,
@@ -159,12 +161,14 @@ def diagnose(
 ) -> Diagnosis:
     """Estimates from records what the rig's model lacks: where, how much, and which known effect explains it.
 
-    :param train: Estimation data: a path (CSV, MDF 4, MATLAB), a frame of pandas or polars, or a list of them. Columns
+    :param train: Estimation data: a path (CSV, Excel, MDF 4, MATLAB, HDF5, Parquet), a frame of pandas or polars, or a list of them. Columns
         are called as the rig's signals, with units in brackets: ``"suspension.deflection [mm]"``. Without a unit, SI.
     :param test: Validation data, of another excitation.
     :param rig: A name of :func:`rigs`.
     :param parameters: Parameter set (TOML) of the starting model in place of the rig's.
     :param map: File (TOML) with other names, units, signs and delays of the columns.
+    :param sampling_rate: Samples per second of records without a column of time.
+    :param skip_rows: Lines above the row that names the columns, where that row is not found.
     :param known: Independently measured parameters: value and standard deviation in SI units,
         e.g. ``{"sprung_mass": (94.4, 0.5)}``.
     :param effects: Only these effects, by their numbers in the catalogue, e.g. ``["01", "04"]``.
@@ -193,6 +197,8 @@ def diagnose(
             rig=rig,
             parameters=None if parameters is None else os.fspath(parameters),
             map=None if map is None else Path(map).read_text(encoding="utf-8"),
+            sampling_rate=sampling_rate,
+            skip_rows=skip_rows,
             known=[f"{name}={value!r}±{deviation!r}" for name, (value, deviation) in (known or {}).items()],
             effects=list(effects),
             limits=[stroke, force, rate, bandwidth, duration],

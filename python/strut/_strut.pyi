@@ -34,6 +34,8 @@ def diagnose(
     rig: str | None,
     parameters: str | PathLike[str] | None,
     map: str | None,
+    sampling_rate: float | None,
+    skip_rows: int | None,
     known: list[str],
     effects: list[str],
     limits: list[float | None],

@@ -128,6 +128,14 @@ pub struct DiagnosisArguments {
     #[arg(long, value_name = "FILE")]
     pub map: Option<PathBuf>,
 
+    /// Samples per second of records without a column of time
+    #[arg(long, value_name = "HZ", value_parser = positive)]
+    pub sampling_rate: Option<f64>,
+
+    /// Lines above the row that names the columns, where that row is not found
+    #[arg(long, value_name = "LINES")]
+    pub skip_rows: Option<usize>,
+
     /// Independently measured parameter with its standard deviation: sprung_mass=94.4±0.5
     #[arg(long, value_name = "NAME=VALUE±DEVIATION")]
     pub known: Vec<String>,

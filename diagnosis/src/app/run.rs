@@ -11,7 +11,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::app::cli::{Arguments, Command, DiagnosisArguments, SimulateArguments};
 use crate::app::guard::tell;
-use crate::app::study::{self, Outcome, Study};
+use crate::app::study::{self, Outcome, Progress, Study};
 use crate::app::virtual_rig::{self, Experiment};
 use crate::app::{completions, guard, rig_file};
 use crate::catalogue;
@@ -86,9 +86,13 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
     let bar = spinner("reading the records");
     // Once the records are read: an error there comes alone.
     let limit = Once::new();
-    let outcome = study.run(deadline, &|text: &str| {
-        limit.call_once(|| bar.suspend(|| eprintln!("time limit {} s (--time-limit)", arguments.time_limit)));
-        bar.set_message(text.to_owned());
+    let outcome = study.run(deadline, &|progress: Progress<'_>| match progress {
+        Progress::Read(records) => bar.suspend(|| eprint!("{}", report::read(records))),
+        Progress::Stage(text) => {
+            let limit_of = || eprintln!("time limit {} s (--time-limit)", arguments.time_limit);
+            limit.call_once(|| bar.suspend(limit_of));
+            bar.set_message(text.to_owned());
+        }
     });
     bar.finish_and_clear();
     let Outcome { mut findings, extended } = outcome?;
@@ -131,6 +135,7 @@ fn study(arguments: &DiagnosisArguments) -> Result<Study, String> {
     if let Some(path) = &arguments.map {
         study.map = Map::parse(&read(path)?).map_err(|error| format!("{}: {error}", path.display()))?;
     }
+    study.map.reading = study.map.reading.or(arguments.sampling_rate, arguments.skip_rows);
     study.limits = Limits {
         stroke: arguments.stroke,
         force: arguments.force,

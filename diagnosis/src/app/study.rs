@@ -19,7 +19,7 @@ use crate::estimation::deadline::{Deadline, Stage};
 use crate::experiment::Limits;
 use crate::plausibility;
 use crate::report::extend::Extended;
-use crate::report::findings::{DataProblem, Findings};
+use crate::report::findings::{DataProblem, Findings, RecordRead};
 use crate::report::provenance::Provenance;
 use crate::rig::Rig;
 
@@ -43,6 +43,15 @@ pub struct Study {
     pub effects: Vec<String>,
     /// Limits of a deciding experiment.
     pub limits: Limits,
+}
+
+/// What a diagnosis tells while it runs.
+#[derive(Clone, Copy, Debug)]
+pub enum Progress<'a> {
+    /// How the records were read.
+    Read(&'a [RecordRead]),
+    /// What it does from now on.
+    Stage(&'a str),
 }
 
 /// What comes out of it.
@@ -83,26 +92,37 @@ impl Study {
         Ok(())
     }
 
-    /// Diagnoses. `progress` gets the name of each stage; a [`Deadline`] may end it early, with the best answer so far.
+    /// Diagnoses. `progress` gets how the records were read, and each stage; a [`Deadline`] may end it early, with the best
+    /// answer so far.
     ///
     /// # Errors
     /// If a record cannot be read or lacks signals that the rig needs, or the model diverges on the records: what to do.
-    pub fn run(mut self, deadline: Deadline, progress: &(dyn Fn(&str) + Sync)) -> Result<Outcome, String> {
+    pub fn run(
+        mut self,
+        deadline: Deadline,
+        progress: &(dyn Fn(Progress<'_>) + Sync),
+    ) -> Result<Outcome, String> {
         let clock = Instant::now();
         let provenance = Provenance::of(self.train.iter().chain(&self.test));
-        let mut outcome = self.diagnose(deadline, progress, clock)?;
+        let all: Vec<&Origin> = self.train.iter().chain(&self.test).collect();
+        let loaded = load(&mut self.rig, &all, &self.map)?;
+        let read = loaded.read.clone();
+        progress(Progress::Read(&read));
+        let mut outcome =
+            self.diagnose(loaded, deadline, &|text: &str| progress(Progress::Stage(text)), clock)?;
         outcome.findings.provenance = Some(provenance);
+        outcome.findings.records = read;
         Ok(outcome)
     }
 
     fn diagnose(
         &mut self,
+        loaded: Loaded,
         deadline: Deadline,
         progress: &(dyn Fn(&str) + Sync),
         clock: Instant,
     ) -> Result<Outcome, String> {
-        let all: Vec<&Origin> = self.train.iter().chain(&self.test).collect();
-        let Loaded { mut records, mut problems } = load(&mut self.rig, &all, &self.map)?;
+        let Loaded { mut records, mut problems, .. } = loaded;
         if let Some(outcome) = self.refused(&problems) {
             return Ok(outcome);
         }

@@ -6,7 +6,7 @@
 mod channel;
 mod lines;
 
-use super::uniform::{median_period, runs};
+use super::uniform::{median_period, rounded_clock, runs};
 use super::{Channel, Record};
 use crate::report::findings::DataProblem;
 use std::ops::Range;
@@ -43,7 +43,7 @@ pub fn check(record: &Record) -> Checked {
     let mut problems = Problems { record: &record.name, found: Vec::new() };
     let mut unusable = vec![Vec::new(); record.channels.len()];
     if check_time(&record.time, &mut problems) {
-        check_intervals(&record.time, &mut problems);
+        check_intervals(record, &mut problems);
         let rest = standstill(record);
         for (i, channel) in record.channels.iter().enumerate() {
             let others = record.channels.iter().enumerate().filter(|&(j, _)| j != i).map(|(_, other)| other);
@@ -112,8 +112,10 @@ fn check_time(time: &[f64], problems: &mut Problems) -> bool {
 }
 
 /// Gaps and jitter.
-fn check_intervals(time: &[f64], problems: &mut Problems) {
-    let Some(period) = median_period(time) else { return };
+fn check_intervals(record: &Record, problems: &mut Problems) {
+    let time = &record.time;
+    let rounded = rounded_clock(record);
+    let Some(period) = rounded.map(|(period, _)| period).or_else(|| median_period(time)) else { return };
     let intervals = || time.windows(2).map(|pair| (pair[0], (pair[1] - pair[0]) / period));
     let gaps: Vec<_> = intervals().filter(|interval| interval.1 > GAP).collect();
     let lost: f64 = gaps.iter().map(|gap| gap.1.round() - 1.0).sum();
@@ -129,6 +131,16 @@ fn check_intervals(time: &[f64], problems: &mut Problems) {
             if fatal { ": more than 10 %, record again" } else { "" }
         );
         problems.add("time", fatal, text);
+    }
+    if let Some((period, digit)) = rounded {
+        let text = format!(
+            "the time stamps are rounded to {} s; an even clock of {} Hz is within half a digit of all of them and is used \
+             in their place",
+            number(digit),
+            number(1.0 / period)
+        );
+        problems.add("time", false, text);
+        return;
     }
     let deviation = |interval: &(f64, f64)| (interval.1 - 1.0).abs();
     let jittering = || intervals().filter(|i| i.1 <= GAP && deviation(i) > JITTER);

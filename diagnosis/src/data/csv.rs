@@ -1,55 +1,42 @@
-//! Records from CSV: one header row `name [unit]`, then one row for each sample.
+//! Records from CSV and other tables of text: a row that names the columns, `name [unit]`, then one row for each sample.
 //!
-//! The separator is `,`, `;` or a tab, found from the header. With `;` or tabs the numbers may have a decimal
-//! comma. Lines that start with `#` are comments. An empty cell, `NaN` or `NA` is a missing sample.
-//! Units may also stand in round brackets, or in a row of their own below the names. A column of dates and times of
-//! day is one of seconds.
+//! The separator is `;`, a tab, `,` or blanks. But for `,` the numbers may have a decimal comma. Lines that start with `#`
+//! are comments. An empty cell, `NaN` or `NA` is a missing sample. Units may also stand in round brackets, or in a row of
+//! their own below the names. A column of dates and times of day is one of seconds. Lines that a logger writes above the
+//! names are passed over ([`layout`]); columns of text are left out, with the place of the first text.
 
+mod layout;
+
+use super::reading::Reading;
 use super::table::Table;
-use super::timestamp::Timestamps;
-use super::{Channel, DataError, Record};
+use super::timestamp::{self, Timestamps};
+use super::{Channel, DataError, Record, Unread};
 use csv::{ReaderBuilder, StringRecord, WriterBuilder};
+use layout::Layout;
 use std::borrow::Cow;
 use std::io;
 
 /// Columns of a CSV file's contents.
-pub(crate) fn parse(file: &str, bytes: &[u8]) -> Result<Table, DataError> {
+pub(crate) fn parse(file: &str, bytes: &[u8], reading: &Reading) -> Result<Table, DataError> {
     let text = decode(file, bytes)?;
-    let separator = separator(&text);
-    let mut reader = ReaderBuilder::new()
-        .delimiter(separator)
-        .comment(Some(b'#'))
-        .has_headers(false)
-        .flexible(true)
-        .from_reader(text.as_bytes());
-    let mut row = StringRecord::new();
-    let mut next = |row: &mut StringRecord| {
-        reader.read_record(row).map_err(|e| DataError::file(file, format!("not a table: {e}")))
-    };
-    if !next(&mut row)? {
-        return Err(DataError::file(file, "is empty: the first row names the columns, `time [s],…`"));
-    }
-    let mut columns = header(file, &row)?;
-    let mut line = row.position().map_or(1, csv::Position::line);
-    let mut stamps: Vec<Option<Timestamps>> = Vec::new();
-    while next(&mut row)? {
-        line = row.position().map_or(line, csv::Position::line);
-        if stamps.is_empty() {
-            if take_units(&row, &mut columns) {
-                continue;
-            }
-            stamps = row.iter().map(|cell| Timestamps::from(cell.trim())).collect();
-            stamps.resize_with(columns.len(), || None);
-            for (column, _) in columns.iter_mut().zip(&stamps).filter(|(_, stamps)| stamps.is_some()) {
-                column.unit = "s".into();
-            }
+    let layout = Layout::find(file, &text, reading.skip_rows)?;
+    let mut columns = header(file, &layout)?;
+    for row in rows(&text, layout.separator) {
+        let row = row.map_err(|e| DataError::file(file, format!("not a table: {e}")))?;
+        let line = row.position().map_or(1, csv::Position::line);
+        let is_blank = row.iter().all(|cell| cell.trim().is_empty());
+        if line >= layout.first && !is_comment(&row) && !is_blank {
+            add_row(file, line, layout.separator, &row, &mut columns)?;
         }
-        add_row(file, line, separator, &row, &stamps, &mut columns)?;
     }
-    if columns[0].values.is_empty() {
-        return Err(DataError::file(file, "has a header, but no samples"));
+    let mut table = Table { name: file.to_owned(), ..Table::default() };
+    for Column { name, unit, values, why, .. } in columns {
+        match why {
+            Some(why) => table.unread.push(Unread { name, unit, why }),
+            None => table.columns.push(Channel { name, unit, values }),
+        }
     }
-    Ok(Table { name: file.to_owned(), columns, master: None })
+    Ok(table)
 }
 
 /// Writes a record as CSV that [`super::read`] reads back unchanged: time in seconds first, then the channels.
@@ -74,63 +61,82 @@ fn decode<'a>(file: &str, bytes: &'a [u8]) -> Result<Cow<'a, str>, DataError> {
     }
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     if bytes.iter().take(4096).any(|&byte| byte == 0) {
-        let text = "is neither CSV nor a format known here: export it as CSV, ASAM MDF 4 or MATLAB -v7";
+        let text = "is of no format known here: export it as CSV, .xlsx, ASAM MDF 4, .mat, HDF5 or Parquet";
         return Err(DataError::file(file, text));
     }
-    Ok(match std::str::from_utf8(bytes) {
+    let text = match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
         Err(_) => Cow::Owned(bytes.iter().map(|&byte| char::from(byte)).collect()),
-    })
+    };
+    // The reader of rows counts a line that ends in two characters late.
+    Ok(if text.contains('\r') { Cow::Owned(text.replace("\r\n", "\n").replace('\r', "\n")) } else { text })
 }
 
-/// The separator of the header row: what stands in it outside of quotes and brackets.
-fn separator(text: &str) -> u8 {
-    let header = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or("");
-    let (mut quoted, mut depth, mut count) = (false, 0_i32, [0_usize; 3]);
-    for c in header.chars() {
-        match c {
-            '"' => quoted = !quoted,
-            '[' | '(' => depth += 1,
-            ']' | ')' => depth -= 1,
-            ';' if !quoted && depth <= 0 => count[0] += 1,
-            '\t' if !quoted && depth <= 0 => count[1] += 1,
-            ',' if !quoted && depth <= 0 => count[2] += 1,
-            _ => {}
-        }
-    }
-    match count {
-        [semicolons, ..] if semicolons > 0 => b';',
-        [_, tabs, _] if tabs > 0 => b'\t',
-        _ => b',',
-    }
+/// All rows that are not empty, comments included.
+fn rows(text: &str, separator: u8) -> impl Iterator<Item = Result<StringRecord, csv::Error>> {
+    let mut builder = ReaderBuilder::new();
+    builder.has_headers(false).flexible(true);
+    let (separated, blank) = match separator {
+        b' ' => (None, Some(text)),
+        separator => (Some(builder.delimiter(separator).from_reader(text.as_bytes()).into_records()), None),
+    };
+    let separated = separated.into_iter().flatten().map(|row| {
+        row.map(|mut row| {
+            // The reader puts a row where the empty lines before it begin.
+            if let Some(mut position) = row.position().cloned() {
+                let from = usize::try_from(position.byte()).unwrap_or(usize::MAX);
+                let empty = text.as_bytes().get(from..).unwrap_or(&[]).iter().take_while(|it| **it == b'\n');
+                position.set_line(position.line() + empty.count() as u64);
+                row.set_position(Some(position));
+            }
+            row
+        })
+    });
+    let blank = blank.into_iter().flat_map(|text| (1..).zip(text.lines())).filter_map(|(line, text)| {
+        let mut row: StringRecord = text.split_whitespace().collect::<Vec<_>>().into();
+        let mut position = csv::Position::new();
+        position.set_line(line);
+        row.set_position(Some(position));
+        (!row.is_empty()).then_some(Ok(row))
+    });
+    separated.chain(blank)
 }
 
-fn header(file: &str, row: &StringRecord) -> Result<Vec<Channel>, DataError> {
-    let line = row.position().map_or(1, csv::Position::line);
-    let mut cells: Vec<&str> = row.iter().map(str::trim).collect();
+/// Whether a row is a comment.
+fn is_comment(row: &StringRecord) -> bool {
+    row.get(0).is_some_and(|cell| cell.trim_start().starts_with('#'))
+}
+
+/// A column while it is read.
+struct Column {
+    name: String,
+    unit: String,
+    values: Vec<f64>,
+    /// From the first row on: the instants that it holds in place of numbers.
+    stamps: Option<Timestamps>,
+    /// Why it is left out.
+    why: Option<String>,
+}
+
+fn header(file: &str, layout: &Layout) -> Result<Vec<Column>, DataError> {
+    let line = layout.names.position().map_or(1, csv::Position::line);
+    let mut cells: Vec<&str> = layout.names.iter().map(str::trim).collect();
     // A separator at the end of each line is no column.
     if cells.len() > 1 && cells.last() == Some(&"") {
         cells.pop();
     }
-    let error = |column: usize, text: String| DataError::Cell { file: file.into(), line, column, text };
-    if cells.iter().all(|cell| number(cell, b';').is_some()) {
-        return Err(error(1, "the first row has to name the columns: `time [s]`, `force [N]`, …".into()));
-    }
-    if let [only] = cells[..] {
-        let text =
-            format!("only one column, `{only}`: columns are separated by a comma, a semicolon or a tab");
-        return Err(error(1, text));
-    }
-    let mut columns: Vec<Channel> = Vec::with_capacity(cells.len());
+    let mut columns: Vec<Column> = Vec::with_capacity(cells.len());
     for (i, cell) in cells.iter().enumerate() {
-        let (name, unit) = title(cell);
-        if name.is_empty() {
-            return Err(error(i + 1, "the column has no name: write one, such as `force [N]`".into()));
+        let (name, mut unit) = title(cell);
+        if let Some(below) = layout.units.as_ref().and_then(|units| units.get(i)) {
+            unit = self::unit(below);
         }
+        let name = if name.is_empty() { format!("column {}", i + 1) } else { name.into() };
         if columns.iter().any(|column| column.name == name && column.unit == unit) {
-            return Err(error(i + 1, format!("a second column `{cell}`: rename one of them")));
+            let text = format!("a second column `{cell}`: rename one of them");
+            return Err(DataError::Cell { file: file.into(), line, column: i + 1, text });
         }
-        columns.push(Channel { name: name.into(), unit: unit.into(), values: Vec::new() });
+        columns.push(Column { name, unit: unit.into(), values: Vec::new(), stamps: None, why: None });
     }
     Ok(columns)
 }
@@ -145,21 +151,9 @@ pub(super) fn title(cell: &str) -> (&str, &str) {
     (cell, "")
 }
 
-/// Takes a row of units below the names, if that is what the row is.
-fn take_units(row: &StringRecord, columns: &mut [Channel]) -> bool {
-    let no_unit_yet = columns.iter().all(|column| column.unit.is_empty());
-    let words = row.iter().filter(|cell| !cell.trim().is_empty());
-    let is_units = no_unit_yet && words.clone().count() > 0 && {
-        let mut words = words;
-        words.all(|cell| number(cell.trim(), b';').is_none())
-    };
-    if is_units {
-        for (column, cell) in columns.iter_mut().zip(row) {
-            let unit = cell.trim().trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
-            column.unit = unit.trim().into();
-        }
-    }
-    is_units
+/// A unit in a row of units, in brackets or without.
+fn unit(cell: &str) -> &str {
+    cell.trim().trim_start_matches(['[', '(']).trim_end_matches([']', ')']).trim()
 }
 
 fn add_row(
@@ -167,34 +161,42 @@ fn add_row(
     line: u64,
     separator: u8,
     row: &StringRecord,
-    stamps: &[Option<Timestamps>],
-    columns: &mut [Channel],
+    columns: &mut [Column],
 ) -> Result<(), DataError> {
-    let error = |column: usize, text: String| DataError::Cell { file: file.into(), line, column, text };
     let surplus = row.len() == columns.len() + 1 && row[columns.len()].trim().is_empty();
-    if row.len() != columns.len() && !surplus {
+    // Of columns that hold no numbers the last ones may be missing.
+    let is_empty = |column: &Column| column.why.is_some() || column.values.iter().all(|it| it.is_nan());
+    let short = columns.get(row.len()..).is_some_and(|left| !columns.is_empty() && left.iter().all(is_empty));
+    if row.len() != columns.len() && !surplus && !short {
         let text = format!(
             "the row has {} cells, the header {}: complete the row, or delete it if recording stopped here",
             row.len(),
             columns.len()
         );
-        return Err(error(row.len().min(columns.len()), text));
+        return Err(DataError::Cell { file: file.into(), line, column: row.len().min(columns.len()), text });
     }
-    for (i, ((column, stamps), cell)) in columns.iter_mut().zip(stamps).zip(row).enumerate() {
-        let cell = cell.trim();
-        let value = match stamps {
-            Some(stamps) => stamps.seconds(cell),
-            None => number(cell, separator),
+    for (column, cell) in columns.iter_mut().zip(row.iter().map(str::trim).chain(std::iter::repeat(""))) {
+        if column.why.is_some() {
+            continue;
+        }
+        if column.values.is_empty() {
+            column.stamps = Timestamps::from(cell);
+            if column.stamps.is_some() {
+                column.unit = "s".into();
+            }
+        }
+        let (value, wanted) = match &column.stamps {
+            Some(stamps) => (stamps.seconds(cell), "a time as in the first row: write all in one way"),
+            None => (number(cell, separator), "a number: leave missing samples empty"),
         };
-        let value = value.ok_or_else(|| {
-            let (wanted, remedy) = match stamps {
-                Some(_) => ("a time as in the first row", "write all in one way"),
-                None => ("a number", "leave missing samples empty"),
-            };
-            let text = format!("`{cell}` in `{}` is not {wanted}: {remedy}", column.name);
-            error(i + 1, text)
-        })?;
-        column.values.push(value);
+        match value {
+            Some(value) => column.values.push(value),
+            None => {
+                let shown: String = cell.chars().take(timestamp::SHOWN).collect();
+                column.why = Some(format!("`{shown}` in line {line} is not {wanted}"));
+                column.values = Vec::new();
+            }
+        }
     }
     Ok(())
 }

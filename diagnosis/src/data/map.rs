@@ -1,7 +1,9 @@
 //! From a file's columns to the model's signals: names, units, signs, delays.
 //!
 //! ```toml
-//! time = { column = "Timestamp", unit = "ms" }     # or its name alone
+//! time = { column = "Timestamp", unit = "ms" }     # or its name alone; of files without one: rate = 1000.0, in Hz
+//! skip_rows = 12                                   # lines above the names, where they are not found
+//! sheet = "Run 3"                                  # of a spreadsheet
 //!
 //! [signals]
 //! deflection = { column = "Weg_FL", unit = "mm", scale = -1.0, offset = 0.01, delay = 0.002 }
@@ -18,15 +20,15 @@ use super::check::standstill;
 use super::formula::Formula;
 use super::interpolate::linear;
 use super::table::did_you_mean;
-use super::{Channel, DataError, Record, TimeColumn, units};
+use super::{Channel, DataError, Reading, Record, TimeColumn, units};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
 /// What the user says about the columns of the files.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Map {
-    /// The column of time, for [`super::read_with`].
-    pub time: Option<TimeColumn>,
+    /// What it says about the files as a whole.
+    pub reading: Reading,
     /// Where the signals come from, by the model's names.
     pub signals: BTreeMap<String, Source>,
 }
@@ -128,10 +130,25 @@ impl Wanted {
 pub struct Mapped {
     /// The signals that were found, in the order in which they were wanted.
     pub record: Record,
+    /// Where each of them comes from.
+    pub taken: Vec<Taken>,
     /// Columns of the file that no signal comes from.
     pub unused: Vec<Channel>,
     /// Signals that were wanted, but are not in the file.
     pub missing: Vec<String>,
+}
+
+/// Where a signal comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Taken {
+    /// The model's name.
+    pub signal: String,
+    /// The column, or the formula of columns.
+    pub column: String,
+    /// Its unit.
+    pub unit: String,
+    /// Whether the unit is the model's because neither the file nor the map says one.
+    pub assumed: bool,
 }
 
 fn one() -> f64 {
@@ -148,6 +165,9 @@ impl Map {
         #[serde(deny_unknown_fields)]
         struct File {
             time: Option<toml::Value>,
+            rate: Option<f64>,
+            skip_rows: Option<usize>,
+            sheet: Option<String>,
             #[serde(default)]
             signals: BTreeMap<String, toml::Value>,
         }
@@ -173,7 +193,8 @@ impl Map {
             }
             signals.insert(name, source);
         }
-        Ok(Self { time, signals })
+        let reading = Reading { time, rate: file.rate, skip_rows: file.skip_rows, sheet: file.sheet };
+        Ok(Self { reading, signals })
     }
 
     /// Takes the wanted signals out of a record. What the map does not mention is found by its name or an alias,
@@ -189,17 +210,28 @@ impl Map {
             }
         }
         let mut used = vec![false; record.channels.len()];
-        let mut channels = Vec::new();
-        let mut missing = Vec::new();
+        let (mut channels, mut taken, mut missing) = (Vec::new(), Vec::new(), Vec::new());
         for wanted in wanted {
             let Some((found, source)) = self.source(&record, wanted)? else {
                 missing.push(wanted.name.clone());
                 continue;
             };
-            let (columns, values) = match found {
-                Found::Column(index) => (vec![index], converted(&record, index, &source, wanted)?),
-                Found::Formula(formula) => computed::values(&record, &formula, &source, wanted)?,
+            let (columns, values, unit) = match found {
+                Found::Column(index) => {
+                    let (values, unit) = converted(&record, index, &source, wanted)?;
+                    (vec![index], values, unit)
+                }
+                Found::Formula(formula) => {
+                    let (columns, values) = computed::values(&record, &formula, &source, wanted)?;
+                    (columns, values, Some(wanted.unit.clone()))
+                }
             };
+            taken.push(Taken {
+                signal: wanted.name.clone(),
+                column: source.column.clone(),
+                assumed: unit.is_none(),
+                unit: unit.unwrap_or_else(|| wanted.unit.clone()),
+            });
             columns.into_iter().for_each(|index| used[index] = true);
             channels.push(corrected(&record, values, &source, wanted)?);
         }
@@ -212,7 +244,7 @@ impl Map {
             );
             return Err(DataError::file(&record.name, text));
         }
-        Ok(Mapped { record: Record { channels, ..record }, unused, missing })
+        Ok(Mapped { record: Record { channels, ..record }, taken, unused, missing })
     }
 
     /// Where a signal is and what to do with it; none if the file does not have it.
@@ -220,6 +252,10 @@ impl Map {
         for (name, sign) in wanted.names() {
             let Some(source) = self.signals.get(name) else { continue };
             let unit = source.unit.as_deref();
+            if let Some(unread) = record.unread.iter().find(|it| it.is_called(&source.column)) {
+                let text = format!("the map takes `{name}` from it, but {}", unread.why);
+                return Err(DataError::signal(&record.name, &unread.name, text));
+            }
             let found = match only(record, wanted, unit, |column| column.is_called(&source.column))? {
                 Some(index) => Found::Column(index),
                 None => Found::Formula(computed::read(record, name, &source.column)?),
@@ -227,7 +263,15 @@ impl Map {
             return Ok(Some((found, source.signed(sign))));
         }
         for (name, sign) in wanted.names() {
-            if let Some(index) = only(record, wanted, None, |column| plain(&column.name) == plain(name))? {
+            let called = |column: &str| {
+                let without_unit = units::split_suffix(column, &wanted.unit).map(|(name, _)| plain(name));
+                plain(column) == plain(name) || without_unit.is_some_and(|it| it == plain(name))
+            };
+            if let Some(unread) = record.unread.iter().find(|it| called(&it.name)) {
+                let text = format!("this is `{}`, but {}", wanted.name, unread.why);
+                return Err(DataError::signal(&record.name, &unread.name, text));
+            }
+            if let Some(index) = only(record, wanted, None, |column| called(&column.name))? {
                 let source = Source::of(record.channels[index].name.clone());
                 return Ok(Some((Found::Column(index), source.signed(sign))));
             }
@@ -270,23 +314,30 @@ pub fn plain(name: &str) -> String {
     name.trim().to_lowercase().replace(['.', ' '], "_")
 }
 
-/// A column in the model's unit. A column without a unit is in the model's.
-fn converted(record: &Record, index: usize, source: &Source, wanted: &Wanted) -> Result<Vec<f64>, DataError> {
+/// A column in the model's unit, and the unit that it has in the file or the map: in the header, or at the end of its name.
+/// A column without one is in the model's.
+fn converted(
+    record: &Record,
+    index: usize,
+    source: &Source,
+    wanted: &Wanted,
+) -> Result<(Vec<f64>, Option<String>), DataError> {
     let column = &record.channels[index];
     if !source.units.is_empty() {
         let text = "`units` are those of a formula's columns; give this one's in the map as `unit`";
         return Err(DataError::signal(&record.name, &column.name, text));
     }
-    let unit = source.unit.as_ref().unwrap_or(&column.unit);
-    let unit = if unit.trim().is_empty() { &wanted.unit } else { unit };
-    let conversion = units::conversion(unit, &wanted.unit).map_err(|problem| {
+    let header = Some(column.unit.trim()).filter(|unit| !unit.is_empty());
+    let suffix = || units::split_suffix(&column.name, &wanted.unit).map(|(_, unit)| unit);
+    let unit = source.unit.as_deref().or(header).or_else(suffix);
+    let conversion = units::conversion(unit.unwrap_or(&wanted.unit), &wanted.unit).map_err(|problem| {
         let text = format!(
             "{problem}: `{}` is wanted in {}; correct the header, or give the column's unit in the map",
             wanted.name, wanted.unit
         );
         DataError::signal(&record.name, &column.name, text)
     })?;
-    Ok(column.values.iter().map(|it| conversion.apply(*it)).collect())
+    Ok((column.values.iter().map(|it| conversion.apply(*it)).collect(), unit.map(str::to_owned)))
 }
 
 /// The signal with its factor, offset and delay.

@@ -1,13 +1,12 @@
-//! Records from MATLAB's MAT-files of version 5 to 7 (`save -v7`): MathWorks, MAT-File Format, R2023b.
+//! Records from MATLAB's MAT-files of version 5 to 7: MathWorks, MAT-File Format, R2023b. Those of version 7.3 are HDF5.
 //!
-//! Real numeric vectors (n×1 or 1×n), by their names, and those in the fields of structs. All vectors as long as
-//! the time are its channels; scalars, matrices, text and objects are left out. There are no units: SI is assumed
-//! unless the map says otherwise.
+//! Real numeric vectors (n×1 or 1×n), by their names, and those in the fields of structs; scalars, matrices, text and
+//! objects are left out. There are no units: SI is assumed unless the map says otherwise.
 
+use super::DataError;
 use super::bytes::Bytes;
-use super::table::{self, Table};
-use super::{Channel, DataError};
-use std::collections::BTreeMap;
+use super::table::Table;
+use super::vectors::{self, Vector};
 
 /// Types of data elements, `mi…`.
 const MATRIX: u32 = 14;
@@ -21,21 +20,15 @@ const COMPLEX: u8 = 0x08;
 const DEEPEST: usize = 4;
 const HEADER: u64 = 128;
 
-/// Whether a file's contents are a MAT-file of version 5 or later.
+/// Whether a file's contents are a MAT-file of version 5 to 7.
 pub(crate) fn is_matlab(bytes: &[u8]) -> bool {
-    is_hdf5(bytes) || matches!(bytes.get(126..128), Some(b"IM" | b"MI")) && bytes.starts_with(b"MATLAB")
-}
-
-fn is_hdf5(bytes: &[u8]) -> bool {
-    [0, 512].iter().any(|&at| bytes.get(at..at + 8) == Some(b"\x89HDF\r\n\x1a\n"))
+    let has_mark = matches!(bytes.get(126..128), Some(b"IM" | b"MI")) && bytes.starts_with(b"MATLAB");
+    has_mark && !super::hdf5::is_hdf5(bytes)
 }
 
 /// Columns of a MAT-file.
 pub(crate) fn parse(file: &str, all: &[u8]) -> Result<Table, DataError> {
     let bytes = Bytes { file, all };
-    if is_hdf5(all) {
-        return Err(bytes.error("is a MAT-file of version 7.3: save it again with `save -v7`"));
-    }
     let big_endian = bytes.get(126, 2)? == b"MI";
     let mut elements = Elements { bytes, at: HEADER, big_endian };
     let mut vectors = Vec::new();
@@ -56,47 +49,7 @@ pub(crate) fn parse(file: &str, all: &[u8]) -> Result<Table, DataError> {
             matrix(inner, &mut Vec::new(), None, &mut vectors)?;
         }
     }
-    table(bytes, vectors)
-}
-
-/// A vector, with the names of the structs that it is in before its own.
-struct Vector {
-    path: Vec<String>,
-    values: Vec<f64>,
-}
-
-/// The vectors that belong together.
-fn table(bytes: Bytes, mut vectors: Vec<Vector>) -> Result<Table, DataError> {
-    let length = vectors
-        .iter()
-        .find(|v| table::is_time(v.path.last().map_or("", |name| name)))
-        .map(|v| v.values.len());
-    let length = length.or_else(|| {
-        let mut counts = BTreeMap::new();
-        vectors.iter().for_each(|v| *counts.entry(v.values.len()).or_insert(0) += 1);
-        counts.into_iter().max_by_key(|&(length, count)| (count, length)).map(|(length, _)| length)
-    });
-    vectors.retain(|vector| Some(vector.values.len()) == length);
-    if vectors.is_empty() {
-        let text = "has no real numeric vectors: save time and signals as vectors, `save('run.mat', 't', 'x', '-v7')`";
-        return Err(bytes.error(text));
-    }
-    // A field goes by its own name, unless another field has it too.
-    let names: Vec<String> = vectors
-        .iter()
-        .map(|vector| {
-            let own = vector.path.last();
-            let shared = vectors.iter().filter(|other| other.path.last() == own).count() > 1;
-            if shared { vector.path.join(".") } else { own.cloned().unwrap_or_default() }
-        })
-        .collect();
-    if let Some(i) = (1..names.len()).find(|&i| names[..i].contains(&names[i])) {
-        return Err(DataError::signal(bytes.file, &names[i], "two vectors have this name: rename one"));
-    }
-    let channel =
-        |(name, vector): (String, Vector)| Channel { name, unit: String::new(), values: vector.values };
-    let columns = names.into_iter().zip(vectors).map(channel).collect();
-    Ok(Table { name: bytes.file.to_owned(), columns, master: None })
+    vectors::table(file, vectors)
 }
 
 /// Reads an array element and adds its vectors; a field's name comes from its struct.
@@ -135,7 +88,7 @@ fn matrix(
             return Err(damaged());
         }
         if !values.is_empty() {
-            vectors.push(Vector { path: path.clone(), values });
+            vectors.push(Vector { path: path.clone(), unit: String::new(), values });
         }
     }
     path.pop();

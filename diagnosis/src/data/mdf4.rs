@@ -129,7 +129,7 @@ pub(crate) fn parse(file: &str, all: &[u8]) -> Result<Table, DataError> {
         bytes.error(format!("has no numeric channel with a master channel of time{why}"))
     })?;
     number_doubles(&mut columns);
-    Ok(Table { name: file.to_owned(), columns, master: Some(0) })
+    Ok(Table { name: file.to_owned(), columns, master: Some(0), ..Table::default() })
 }
 
 /// Names are free in MDF: the second channel `x` becomes `x#2`.

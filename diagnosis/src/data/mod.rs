@@ -1,32 +1,37 @@
 //! Measured records: reading, mapping to the model's names and units, checking, even sampling.
 //!
-//! A record goes through [`read`] (CSV, MDF4, MATLAB), [`map::Map::apply`] (the model's names, SI units),
-//! [`check::check`] (what is wrong with it) and [`uniform::uniform`] (evenly spaced times).
+//! A record goes through [`read`] (CSV, spreadsheets, MDF4, MATLAB, HDF5, Parquet), [`map::Map::apply`] (the model's
+//! names, SI units), [`check::check`] (what is wrong with it) and [`uniform::uniform`] (evenly spaced times).
 
 mod bytes;
 pub mod check;
 pub mod csv;
 pub mod error;
 mod formula;
+mod hdf5;
 mod interpolate;
 pub mod map;
 mod matlab;
 mod mdf4;
 mod noise;
+mod parquet;
 mod quantity;
+pub mod reading;
+mod spreadsheet;
 pub mod table;
 mod timestamp;
 pub mod uniform;
 pub mod units;
+mod vectors;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 pub use error::DataError;
-pub use table::TimeColumn;
+pub use reading::{Reading, TimeColumn};
 
 /// A measurement: channels over common times.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Record {
     /// The file's name without its folder.
     pub name: String,
@@ -34,6 +39,30 @@ pub struct Record {
     pub time: Vec<f64>,
     /// The channels, in the file's order.
     pub channels: Vec<Channel>,
+    /// Columns of the file that hold no numbers.
+    pub unread: Vec<Unread>,
+    /// What else there is to say about how the file was read.
+    pub notes: Vec<String>,
+    /// Whether neither the file nor the map says the unit of the time.
+    pub seconds_assumed: bool,
+}
+
+/// A column that could not be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unread {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// Why it cannot be used, and where.
+    pub why: String,
+}
+
+impl Unread {
+    /// Whether somebody means it by a name, as [`Channel::is_called`].
+    pub(crate) fn is_called(&self, name: &str) -> bool {
+        is_called((&self.name, &self.unit), name)
+    }
 }
 
 /// One measured signal.
@@ -58,14 +87,19 @@ impl Channel {
 
     /// Whether somebody means it by a name: its own, or as a header has it, with the unit in brackets.
     pub(crate) fn is_called(&self, name: &str) -> bool {
-        name == self.name || csv::title(name.trim()) == (self.name.as_str(), self.unit.as_str())
+        is_called((&self.name, &self.unit), name)
     }
+}
+
+/// Whether a name is a column's, or as a header has it.
+fn is_called(column: (&str, &str), name: &str) -> bool {
+    name == column.0 || csv::title(name.trim()) == column
 }
 
 /// Where a record comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Origin {
-    /// A file: CSV, ASAM MDF 4 or MATLAB 5 to 7.
+    /// A file: see [`read`].
     File(PathBuf),
     /// A table in memory.
     Columns {
@@ -115,51 +149,52 @@ impl Origin {
         }
     }
 
-    /// The record, with the column that holds the time if it is not named so.
+    /// The record, with what is known of the file beside it.
     ///
     /// # Errors
-    /// As [`read_with`].
-    pub fn read(&self, time: Option<&TimeColumn>) -> Result<Record, DataError> {
+    /// As [`read`].
+    pub fn read(&self, reading: &Reading) -> Result<Record, DataError> {
         match self {
-            Self::File(path) => read_with(path, time),
+            Self::File(path) => read(path, reading),
             Self::Columns { name, columns } => {
-                let table = table::Table { name: name.clone(), columns: columns.clone(), master: None };
-                table.into_record(time)
+                let table =
+                    table::Table { name: name.clone(), columns: columns.clone(), ..table::Table::default() };
+                table.into_record(reading)
             }
         }
     }
 }
 
-/// Reads a record: CSV, ASAM MDF 4 or MATLAB 5 to 7, told apart by the first bytes.
+/// Reads a record, with what is known of the file beside it: CSV, Excel or OpenDocument, ASAM MDF 4, MATLAB, HDF5 or
+/// Parquet, told apart by the first bytes.
 ///
 /// # Errors
-/// The file cannot be read, is damaged, or has no column of time: the message says what to do.
-pub fn read(path: &Path) -> Result<Record, DataError> {
-    read_with(path, None)
-}
-
-/// Like [`read`], with the column that holds the time if the file does not name it so.
-///
-/// # Errors
-/// As [`read`]; and the column does not exist, or its unit is not one of time.
-pub fn read_with(path: &Path, time: Option<&TimeColumn>) -> Result<Record, DataError> {
+/// The file cannot be read, is damaged, or has no column of time: the message says what to do. A column that is named as
+/// the time does not exist, or its unit is not one of time.
+pub fn read(path: &Path, reading: &Reading) -> Result<Record, DataError> {
     let shown = path.display().to_string();
     let bytes = fs::read(path).map_err(|source| DataError::Io { file: shown.clone(), source })?;
     let name = path.file_name().map_or(shown, |name| name.to_string_lossy().into_owned());
-    parse(&name, &bytes, time)
+    parse(&name, &bytes, reading)
 }
 
 /// Reads a record from a file's contents; `name` is the file's.
 ///
 /// # Errors
-/// As [`read_with`].
-pub fn parse(name: &str, bytes: &[u8], time: Option<&TimeColumn>) -> Result<Record, DataError> {
+/// As [`read`].
+pub fn parse(name: &str, bytes: &[u8], reading: &Reading) -> Result<Record, DataError> {
     let table = if bytes.starts_with(mdf4::MAGIC) || bytes.starts_with(mdf4::UNFINISHED) {
         mdf4::parse(name, bytes)?
     } else if matlab::is_matlab(bytes) {
         matlab::parse(name, bytes)?
+    } else if hdf5::is_hdf5(bytes) {
+        hdf5::parse(name, bytes)?
+    } else if parquet::is_parquet(bytes) {
+        parquet::parse(name, bytes)?
+    } else if spreadsheet::is_spreadsheet(bytes) {
+        spreadsheet::parse(name, bytes, reading)?
     } else {
-        csv::parse(name, bytes)?
+        csv::parse(name, bytes, reading)?
     };
-    table.into_record(time)
+    table.into_record(reading)
 }

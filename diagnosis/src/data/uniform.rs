@@ -1,7 +1,7 @@
 //! Evenly spaced records.
 //!
-//! Samples whose time stamps are on an even grid but for 5 % of the period keep their values. Others are
-//! interpolated (monotone cubic). Missing samples in short runs are interpolated linearly; longer runs split
+//! Samples whose time stamps are on an even grid but for 5 % of the period, or but for the rounding of their last digit, keep
+//! their values. Others are interpolated (monotone cubic). Missing samples in short runs are interpolated linearly; longer runs split
 //! the record into segments. Whatever was done is reported.
 
 use super::check::{describe, number};
@@ -12,6 +12,11 @@ use std::ops::Range;
 
 /// Deviation from the even grid, in periods, up to which a time stamp counts as on it.
 pub const ON_GRID: f64 = 0.05;
+/// Spread of time stamps about the fitted grid, in units of their last digit, that rounding can make: one digit, and a little for
+/// the error of the fit.
+const ROUNDED: f64 = 1.1;
+/// Decimals of seconds that are looked for in printed times: microseconds.
+const MOST_DECIMALS: i32 = 6;
 /// Missing samples in a row that are interpolated.
 pub const BRIDGED: usize = 5;
 /// Samples that a segment needs to be used.
@@ -156,6 +161,7 @@ impl Grid {
         let places = places(time, period);
         let fitted = fit(time, &places);
         let candidates = [snap(fitted).unwrap_or(fitted), fitted];
+        let rounding = rounding(time);
         let on_grid = candidates.into_iter().find_map(|step| {
             let offset = |(t, &place): (&f64, &usize)| t - step * place as f64;
             let (low, high) = time
@@ -165,7 +171,9 @@ impl Grid {
                 .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), offset| {
                     (low.min(offset), high.max(offset))
                 });
-            (high - low <= 2.0 * ON_GRID * step).then_some((0.5 * (low + high), step))
+            let allowed =
+                (2.0 * ON_GRID * step).max(if 2.0 * rounding < step { ROUNDED * rounding } else { 0.0 });
+            (high - low <= allowed).then_some((0.5 * (low + high), step))
         });
         Ok(match on_grid {
             Some((start, step)) => {
@@ -213,6 +221,23 @@ impl Grid {
         }
         Channel { name: channel.name.clone(), unit: channel.unit.clone(), values }
     }
+}
+
+/// The period of the even clock behind time stamps that would be uneven but for the rounding of their last digit, and that
+/// digit; none if they are even without it, or not even with it.
+pub(crate) fn rounded_clock(record: &Record) -> Option<(f64, f64)> {
+    let digit = rounding(&record.time);
+    let grid = Grid::of(record).ok()?;
+    let matters = digit > 2.0 * ON_GRID * grid.step && 2.0 * digit < grid.step;
+    (grid.places.is_some() && matters).then_some((grid.step, digit))
+}
+
+/// The last digit of printed times, in seconds: the largest power of ten of which all are multiples. Zero if it is
+/// less than a microsecond.
+fn rounding(time: &[f64]) -> f64 {
+    let is_multiple = |t: &f64, digit: f64| (t / digit - (t / digit).round()).abs() < 1e-4;
+    let digits = (0..=MOST_DECIMALS).map(|decimals| 10_f64.powi(-decimals));
+    digits.into_iter().find(|digit| time.iter().all(|t| is_multiple(t, *digit))).unwrap_or(0.0)
 }
 
 /// Median of the differences of the times; none for fewer than two.

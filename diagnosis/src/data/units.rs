@@ -68,7 +68,7 @@ const PREFIXED: [(&str, f64, Dimension); 16] = [
 ];
 
 /// Symbols that stand as they are.
-const PLAIN: [(&str, f64, Dimension); 39] = [
+const PLAIN: [(&str, f64, Dimension); 41] = [
     ("1", 1.0, NONE),
     ("-", 1.0, NONE),
     ("%", 0.01, NONE),
@@ -76,10 +76,12 @@ const PLAIN: [(&str, f64, Dimension); 39] = [
     ("t", 1e3, [0, 1, 0, 0, 0, 0]),
     ("in", 0.0254, LENGTH),
     ("inch", 0.0254, LENGTH),
+    ("inches", 0.0254, LENGTH),
     ("ft", 0.3048, LENGTH),
     ("mil", 25.4e-6, LENGTH),
     ("lbf", LBF, FORCE),
     ("lb", LBF, FORCE),
+    ("lbs", LBF, FORCE),
     ("kip", 1e3 * LBF, FORCE),
     ("kips", 1e3 * LBF, FORCE),
     ("kgf", GRAVITY, FORCE),
@@ -137,6 +139,15 @@ pub fn conversion(from: &str, to: &str) -> Result<Conversion, String> {
     }
     let scale = source.factor / target.factor;
     Ok(Conversion { scale, offset: (zero - target_zero) / target.factor })
+}
+
+/// A column's name and the unit at its end, as in `Time_ms` and `AccelZ_g`; none unless that is a unit of `wanted`.
+#[must_use]
+pub(crate) fn split_suffix<'a>(name: &'a str, wanted: &str) -> Option<(&'a str, &'a str)> {
+    let (name, unit) = name.trim().rsplit_once(['_', ' '])?;
+    // The 1 in `sensor_1` is no unit.
+    let is_word = unit.contains(|c: char| c.is_alphabetic() || c == '%');
+    (!name.is_empty() && is_word && conversion(unit, wanted).is_ok()).then_some((name, unit))
 }
 
 /// From a unit to SI, and what it measures.

@@ -10,9 +10,10 @@ use crate::data::{
 };
 use crate::dataset::recorded::{Dataset, Measured, Source};
 use crate::plant::Between;
-use crate::report::findings::DataProblem;
+use crate::report::findings::{DataProblem, RecordRead};
 use crate::rig::{Opposed, Rig};
 
+use super::columns::{doubt, follow, is_constant, others, read};
 use super::inverse::{self, Banded};
 
 /// Samples that a record needs.
@@ -27,6 +28,8 @@ struct Imported {
     recorded: Option<Dataset>,
     /// What is wrong with the data.
     problems: Vec<DataProblem>,
+    /// How the file was read.
+    read: RecordRead,
 }
 
 /// Records on a rig that can be compared with each other.
@@ -36,6 +39,8 @@ pub struct Loaded {
     pub records: Vec<Dataset>,
     /// What is wrong with the data.
     pub problems: Vec<DataProblem>,
+    /// How each file was read.
+    pub read: Vec<RecordRead>,
 }
 
 /// Reads all records of a diagnosis. How the rig is driven follows from what they have: inversely only if all of them can be
@@ -52,7 +57,7 @@ pub fn load(rig: &mut Rig, origins: &[&Origin], map: &Map) -> Result<Loaded, Str
             && let Some(Banded { records, note }) = inverse::banded(rig, &loaded.records, inverse)
         {
             let problems = loaded.problems.into_iter().chain([note]).collect();
-            return Ok(Loaded { records, problems });
+            return Ok(Loaded { records, problems, ..loaded });
         }
     }
     forward(rig, origins, map)
@@ -65,7 +70,7 @@ fn names<'a>(
     map: &'a Map,
 ) -> Result<impl Fn(&str) -> bool + use<'a>, String> {
     let first = origins.first().filter(|_| !rig.kind.drives.is_empty());
-    let record = first.map(|origin| origin.read(map.time.as_ref()).map_err(|error| error.to_string()));
+    let record = first.map(|origin| origin.read(&map.reading).map_err(|error| error.to_string()));
     let columns = record.transpose()?.map_or(Vec::new(), |it| it.channels);
     let columns: Vec<String> = columns.iter().map(|channel| plain(&channel.name)).collect();
     Ok(move |name: &str| map.signals.contains_key(name) || columns.contains(&plain(name)))
@@ -73,11 +78,12 @@ fn names<'a>(
 
 /// Reads all records as the rig is driven.
 fn forward(rig: &Rig, origins: &[&Origin], map: &Map) -> Result<Loaded, String> {
-    let (mut records, mut problems) = (Vec::new(), Vec::new());
+    let (mut records, mut problems, mut read) = (Vec::new(), Vec::new(), Vec::new());
     for origin in origins {
         let imported = import(rig, origin, map)?;
         problems.extend(imported.problems);
         records.extend(imported.recorded);
+        read.push(imported.read);
     }
     if problems.iter().any(|it| it.fatal) {
         records.clear();
@@ -85,7 +91,7 @@ fn forward(rig: &Rig, origins: &[&Origin], map: &Map) -> Result<Loaded, String> 
     if !records.is_empty() {
         align(&mut records)?;
     }
-    Ok(Loaded { records, problems })
+    Ok(Loaded { records, problems, read })
 }
 
 /// Reads a file and finds the rig's signals in it.
@@ -93,13 +99,17 @@ fn forward(rig: &Rig, origins: &[&Origin], map: &Map) -> Result<Loaded, String> 
 /// # Errors
 /// If the file cannot be read, or has not the signals that the rig needs: what to do.
 fn import(rig: &Rig, origin: &Origin, map: &Map) -> Result<Imported, String> {
-    let mut record = origin.read(map.time.as_ref()).map_err(|error| error.to_string())?;
+    let mut record = origin.read(&map.reading).map_err(|error| error.to_string())?;
     oppose(rig, &mut record, map);
-    let mapped = map.apply(record, &wanted(rig)).map_err(|error| error.to_string())?;
+    let mut mapped = map.apply(record, &wanted(rig)).map_err(|error| error.to_string())?;
     let name = mapped.record.name.clone();
     let unused: Vec<String> = mapped.unused.iter().map(Channel::title).collect();
     missing(rig, &mapped.record, &name, &unused)?;
+    let read = read(&mapped);
+    let turned = follow(rig, map, &mut mapped.record);
     let Checked { mut problems, unusable } = check(&mapped.record);
+    problems.extend(turned);
+    problems.extend(doubt(&mapped.record, &read));
     if !unused.is_empty() {
         problems.push(DataProblem {
             record: name.clone(),
@@ -111,7 +121,7 @@ fn import(rig: &Rig, origin: &Origin, map: &Map) -> Result<Imported, String> {
         });
     }
     if problems.iter().any(|problem| problem.fatal) {
-        return Ok(Imported { recorded: None, problems });
+        return Ok(Imported { recorded: None, problems, read });
     }
     let (uniform, resampled) = uniform(&mapped.record).map_err(|error| error.to_string())?;
     problems.extend(resampled);
@@ -177,7 +187,7 @@ fn import(rig: &Rig, origin: &Origin, map: &Map) -> Result<Imported, String> {
                 .into(),
             fatal: true,
         });
-        return Ok(Imported { recorded: None, problems });
+        return Ok(Imported { recorded: None, problems, read });
     }
     let sections = sections(&uniform.segments, uniform.step, rig.segment());
     Ok(Imported {
@@ -191,24 +201,8 @@ fn import(rig: &Rig, origin: &Origin, map: &Map) -> Result<Imported, String> {
             sections,
         }),
         problems,
+        read,
     })
-}
-
-/// Columns that no signal of the rig is, on the even grid of the record; none that is constant or has gaps.
-fn others(time: &[f64], unused: Vec<Channel>) -> Vec<Channel> {
-    let on_grid = |channel: Channel| {
-        let record = Record { name: String::new(), time: time.to_vec(), channels: vec![channel] };
-        let (even, _) = uniform(&record).ok()?;
-        let channel = even.channels.into_iter().next()?;
-        (channel.values.iter().all(|it| it.is_finite()) && !is_constant(&channel.values)).then_some(channel)
-    };
-    unused.into_iter().filter_map(on_grid).collect()
-}
-
-/// Whether a signal shows one value only.
-fn is_constant(values: &[f64]) -> bool {
-    let mut known = values.iter().filter(|value| value.is_finite());
-    known.next().is_some_and(|first| known.all(|value| value == first))
 }
 
 /// Takes away the values on the even grid that come from ranges of the file's samples, and tells how many there were.
@@ -351,7 +345,7 @@ mod tests {
         let time: Vec<f64> = (0..400).filter(|k| *k != 3).map(|k| 0.01 * f64::from(k)).collect();
         let values: Vec<f64> = time.iter().map(|t| t.sin()).collect();
         let channels = vec![Channel { name: "x".into(), unit: "m".into(), values }];
-        let (grid, _) = uniform(&Record { name: String::new(), time: time.clone(), channels }).unwrap();
+        let (grid, _) = uniform(&Record { time: time.clone(), channels, ..Record::default() }).unwrap();
         let mut values = grid.channels[0].values.clone();
         let wrong = [0..1, 9..12, 398..399];
         assert_eq!(leave_out(&mut values, &wrong, &time, &grid), 5);

@@ -92,6 +92,7 @@ impl Diagnosis<'_> {
             experiment,
             deciding_experiment: None,
             data_problems,
+            records: Vec::new(),
             candidates: self.candidates(),
             seconds,
             provenance: None,

@@ -3,6 +3,7 @@
 mod disagreement;
 mod experiment;
 mod pictures;
+mod records;
 
 use std::collections::BTreeMap;
 
@@ -16,6 +17,7 @@ pub use disagreement::{Disagreement, RecordValue};
 pub use experiment::{DecidingExperiment, Distinction, Drive, ExperimentLimit, Setting, SourceFmu, Value};
 pub(crate) use pictures::LARGEST;
 pub use pictures::{Binned, Coherence, Mark, Parity, Periodogram, Pictures, Spectrum, Trace};
+pub use records::{ColumnRead, DataProblem, RecordRead};
 
 /// Version of the format of `report.json`: raised when a reader of an older one would misunderstand it.
 pub const FORMAT: u32 = 3;
@@ -61,6 +63,8 @@ pub struct Findings {
     pub deciding_experiment: Option<DecidingExperiment>,
     /// What is wrong with the data.
     pub data_problems: Vec<DataProblem>,
+    /// How each record was read, in the order of estimation and validation records.
+    pub records: Vec<RecordRead>,
     /// Every candidate.
     pub candidates: Vec<Candidate>,
     /// What the pictures show.
@@ -96,6 +100,7 @@ impl Findings {
             experiment: None,
             deciding_experiment: None,
             data_problems: problems,
+            records: Vec::new(),
             candidates: Vec::new(),
             pictures: Pictures::default(),
             seconds: 0.0,
@@ -343,19 +348,6 @@ impl Curve {
     pub fn is_of_sensor(&self) -> bool {
         self.quantity == Self::RESPONSE
     }
-}
-
-/// Something wrong with the data.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct DataProblem {
-    /// The file.
-    pub record: String,
-    /// The signal, or `time`.
-    pub signal: String,
-    /// What is wrong, where, and what to do.
-    pub text: String,
-    /// Whether the diagnosis cannot go on with it.
-    pub fatal: bool,
 }
 
 /// A candidate that was looked at.

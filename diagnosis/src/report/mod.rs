@@ -18,7 +18,7 @@ pub(crate) mod words;
 pub use json::json;
 pub use page::html;
 pub use sheet::{rigs, sheet};
-pub use terminal::{shares, terminal};
+pub use terminal::{read, shares, terminal};
 
 use std::io;
 use std::path::{Path, PathBuf};

@@ -7,7 +7,8 @@ use super::words::{
     badge, capitalised, chance, count, digits, effect_name, effect_rank, headline, interval, located, number,
     percent, quantity, unit,
 };
-use crate::report::findings::{AccountItem, Effect, Findings, SignalAccount};
+use crate::report::findings::{AccountItem, Effect, Findings, RecordRead, SignalAccount};
+use crate::report::words;
 
 /// Columns that a line has at most.
 const WIDTH: usize = 100;
@@ -49,6 +50,17 @@ pub fn terminal(findings: &Findings) -> String {
             count(findings.test.len(), "validation record")
         ),
     );
+    lines.0.join("\n") + "\n"
+}
+
+/// How the records were read.
+pub fn read(records: &[RecordRead]) -> String {
+    let mut lines = Lines(Vec::new());
+    for record in records {
+        let (size, rest) = words::records::read(record);
+        lines.wrapped("", &format!("read {}: {size}", record.record));
+        rest.iter().for_each(|line| lines.wrapped("  ", line));
+    }
     lines.0.join("\n") + "\n"
 }
 

@@ -4,6 +4,7 @@ mod experiment;
 mod numbers;
 mod open;
 mod places;
+pub mod records;
 mod verdict;
 
 use unicode_width::UnicodeWidthStr;

@@ -1,16 +1,22 @@
-"""Makes the small MDF4 and MATLAB files beside it.
+"""Makes the small files of records beside it: MDF4, MATLAB, HDF5, Parquet and spreadsheets.
 
-    pip install asammdf scipy
+    pip install asammdf scipy h5py hdf5storage pandas pyarrow polars openpyxl odfpy
     python make_fixtures.py
 
-asammdf and scipy are independent writers: what the readers of the diagnosis understand of these files,
+These packages are independent writers: what the readers of the diagnosis understand of these files,
 they understand of other people's.
 """
 
+from datetime import datetime, timedelta
 from pathlib import Path
 
+import h5py
+import hdf5storage
 import numpy as np
+import pandas as pd
+import polars as pl
 from asammdf import MDF, Signal
+from openpyxl import Workbook
 from scipy.io import savemat
 
 HERE = Path(__file__).parent
@@ -60,5 +66,38 @@ columns = {"t": TIME, "force": FORCE.reshape(-1, 1), "counts": COUNTS, "single":
 savemat(HERE / "vectors.mat", columns, oned_as="column")
 savemat(HERE / "compressed.mat", columns, do_compression=True, oned_as="row")
 savemat(HERE / "struct.mat", {"run": {"time": TIME, "force": FORCE, "counts": COUNTS}}, do_compression=True)
-(HERE / "hdf5.mat").write_bytes(b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(124) + b"\x00\x02IM"
-                                + bytes(384) + b"\x89HDF\r\n\x1a\n")
+# Version 7.3: with MATLAB's own attributes, a struct and a text among the vectors.
+hdf5storage.savemat(str(HERE / "hdf5.mat"), {"run": {"t": TIME, "force": FORCE, "counts": COUNTS}, "rig": "number 3"},
+                    format="7.3", oned_as="column", truncate_existing=True)
+
+with h5py.File(HERE / "groups.h5", "w") as file:
+    group = file.create_group("run 1")
+    group.create_dataset("time", data=TIME, compression="gzip")
+    group.create_dataset("force", data=FORCE.astype(">f4"), chunks=(7,)).attrs["unit"] = "kN"
+    group.create_dataset("counts [mm]", data=COUNTS, shuffle=True, compression="gzip")
+    group.create_dataset("matrix", data=np.zeros((N, 3)))
+    file["remark"] = "none"
+
+STARTED = datetime(2025, 11, 14, 19, 45, 0)
+frame = {"time [s]": TIME, "force [N]": FORCE, "counts": COUNTS, "remark": ["start"] + [None] * (N - 1)}
+pd.DataFrame(frame).to_parquet(HERE / "pandas.parquet")
+gaps = pl.Series([None if i == 7 else value for i, value in enumerate(FORCE)], dtype=pl.Float32)
+stamps = [STARTED + timedelta(seconds=float(t)) for t in TIME]
+pl.DataFrame({"timestamp": stamps, "force [N]": gaps}).write_parquet(HERE / "polars.parquet")
+
+book = Workbook()
+book.active.title = "Info"
+book.active.append(["Test", "Run 3"])
+sheet = book.create_sheet("Data")
+sheet.append(["Shock dyno", None, None])
+sheet.append([])
+sheet.append(["Time", "Force", "Counts", "Remark"])
+sheet.append(["sec", "lbf", "mm", None])
+for i in range(N):
+    sheet.append([TIME[i], FORCE[i], int(COUNTS[i]), "start" if i == 0 else None])
+dates = book.create_sheet("Dates")
+dates.append(["Timestamp", "Force [N]"])
+for stamp, force in zip(stamps, FORCE):
+    dates.append([stamp, force])
+book.save(HERE / "book.xlsx")
+pd.DataFrame({"time [s]": TIME, "force [N]": FORCE}).to_excel(HERE / "sheet.ods", index=False)

@@ -138,7 +138,7 @@ mod tests {
             values: values.clone(),
         };
         let channels: Vec<Channel> = signals.iter().enumerate().map(channel).collect();
-        lines(&Record { name: "record".into(), time, channels }, |name| name == "0")
+        lines(&Record { name: "record".into(), time, channels, ..Record::default() }, |name| name == "0")
     }
 
     fn with_sine(signal: &[f64], amplitude: f64, frequency: f64) -> Vec<f64> {

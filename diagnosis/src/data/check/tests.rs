@@ -34,6 +34,7 @@ fn clean(seed: u64, sigma: f64) -> Record {
         name: "run.csv".into(),
         time,
         channels: vec![channel(1, "x", 1.0), channel(2, "y", 40.0), channel(3, "z", 1e-3)],
+        ..Record::default()
     }
 }
 
@@ -68,7 +69,7 @@ proptest! {
         let n = time.len();
         let time = if step { (0..n).map(|i| i as f64).collect() } else { time };
         let channel = Channel { name: "x".into(), unit: String::new(), values: values[..n].to_vec() };
-        let _ = check(&Record { name: "run.csv".into(), time, channels: vec![channel] });
+        let _ = check(&Record { name: "run.csv".into(), time, channels: vec![channel], ..Record::default() });
     }
 }
 

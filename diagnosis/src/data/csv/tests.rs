@@ -1,13 +1,13 @@
 use crate::data::csv::write;
-use crate::data::{Channel, Record, TimeColumn, parse};
+use crate::data::{Channel, Reading, Record, TimeColumn, parse};
 use proptest::prelude::*;
 
 fn read(text: &str) -> Record {
-    parse("run.csv", text.as_bytes(), None).unwrap()
+    parse("run.csv", text.as_bytes(), &Reading::default()).unwrap()
 }
 
 fn error(text: &str) -> String {
-    parse("run.csv", text.as_bytes(), None).unwrap_err().to_string()
+    parse("run.csv", text.as_bytes(), &Reading::default()).unwrap_err().to_string()
 }
 
 #[test]
@@ -51,33 +51,40 @@ fn timestamps_are_seconds_from_the_first() {
     let record = read("Zeit;F\n;N\n19:45:00;1,5\n19:45:01;2\n");
     assert_eq!((record.time[1], record.channels[0].values[0]), (1.0, 1.5));
     let message = error("t,F\n19:45:00,1\n2,2\n");
-    assert!(message.contains("`2` in `t` is not a time as in the first row"), "{message}");
+    assert!(
+        message.contains("t: this is the time, but `2` in line 3 is not a time as in the first row"),
+        "{message}"
+    );
+    assert!(message.contains("11/14/2025 07:45:00 PM"), "{message}");
 }
 
 #[test]
 fn latin_1_units() {
-    let record = parse("run.csv", b"t [s],a [m/s\xB2]\n0,1\n", None).unwrap();
+    let record = parse("run.csv", b"t [s],a [m/s\xB2]\n0,1\n", &Reading::default()).unwrap();
     assert_eq!(record.channels[0].unit, "m/s²");
 }
 
 #[test]
 fn errors_say_where() {
-    assert_eq!(
-        error("t,F\n0,1\n1,1.2.3\n"),
-        "run.csv, line 3, column 2: `1.2.3` in `F` is not a number: leave missing samples empty"
-    );
     assert!(
         error("t,F\n0,1\n1\n").starts_with("run.csv, line 3, column 1: the row has 1 cells, the header 2")
     );
     assert!(error("t,F\n0,1,2\n").starts_with("run.csv, line 2, column 2: the row has 3 cells"));
     assert!(error("0,1\n1,2\n").contains("has to name the columns"));
-    assert!(error("t F\n0 1\n").contains("only one column"));
+    assert!(
+        error("t|F\n0|1\n")
+            .starts_with("run.csv, line 1, column 1: no table of numbers in the first 2 rows (`t|F` …)")
+    );
     assert!(error("t,F,F\n0,1,2\n").starts_with("run.csv, line 1, column 3: a second column `F`"));
-    assert!(error("t,,F\n0,1,2\n").starts_with("run.csv, line 1, column 2: the column has no name"));
     assert!(error("").contains("is empty"));
     assert!(error("t,F\n").contains("no samples"));
     assert!(error("t [V],F\n0,1\n").contains("this is the time, but"));
-    assert!(parse("run.csv", &[0xFF, 0xFE, 65, 0], None).unwrap_err().to_string().contains("UTF-16"));
+    assert!(
+        parse("run.csv", &[0xFF, 0xFE, 65, 0], &Reading::default())
+            .unwrap_err()
+            .to_string()
+            .contains("UTF-16")
+    );
 }
 
 #[test]
@@ -87,11 +94,115 @@ fn a_file_without_time_says_how_to_map_it() {
     assert!(message.contains("no column of time among index, F"), "{message}");
     assert!(message.contains("time = { column = \"…\", unit = \"s\" }"), "{message}");
 
-    let time = TimeColumn { column: "index".into(), unit: Some("ms".into()) };
-    assert_eq!(parse("run.csv", text.as_bytes(), Some(&time)).unwrap().time, [0.0, 0.001]);
-    let time = TimeColumn { column: "indx".into(), unit: None };
-    let message = parse("run.csv", text.as_bytes(), Some(&time)).unwrap_err().to_string();
+    let named = |column: &str, unit: Option<&str>| {
+        let time = TimeColumn { column: column.into(), unit: unit.map(str::to_owned) };
+        parse("run.csv", text.as_bytes(), &Reading { time: Some(time), ..Reading::default() })
+    };
+    assert_eq!(named("index", Some("ms")).unwrap().time, [0.0, 0.001]);
+    let message = named("indx", None).unwrap_err().to_string();
     assert!(message.contains("did you mean `index`?"), "{message}");
+}
+
+#[test]
+fn a_rate_takes_the_place_of_a_column_of_time() {
+    let with = |text: &str, rate| {
+        parse("run.csv", text.as_bytes(), &Reading { rate: Some(rate), ..Reading::default() })
+    };
+    let record = with(",F [N]\n0,1\n1,2\n2,4\n", 100.0).unwrap();
+    assert_eq!(record.time, [0.0, 0.01, 0.02]);
+    let names: Vec<_> = record.channels.iter().map(|c| c.name.as_str()).collect();
+    assert_eq!(names, ["column 1", "F"]);
+    let record = with("Time,F [N]\n0,1\n3,2\n", 100.0).unwrap();
+    assert_eq!((record.time[1], record.unread[0].name.as_str()), (0.01, "Time"));
+    assert!(with("F,G\n1,2\n", -1.0).unwrap_err().to_string().contains("`rate` is -1"));
+}
+
+#[test]
+fn what_a_logger_writes_above_the_names_is_passed_over() {
+    let names = |record: &Record| {
+        record.channels.iter().map(|c| format!("{} [{}]", c.name, c.unit)).collect::<Vec<_>>()
+    };
+    for end in ["\n", "\r\n"] {
+        let lines = |lines: &[&str]| read(&lines.join(end));
+        let record = lines(&[
+            "Shock Dyno Export v6.3",
+            "Test:,Run 12 front left",
+            "Date:,2025-11-14",
+            "Gas pressure (psi):,100",
+            "",
+            "Time,Displacement,Force",
+            "sec,in,lbs",
+            "0.0,0.6,-108",
+            "0.1,0.5,-109",
+            "0.2,0.4,-110",
+            "",
+        ]);
+        assert_eq!(names(&record), ["Displacement [in]", "Force [lbs]"]);
+        assert_eq!(record.time, [0.0, 0.1, 0.2]);
+        let record = lines(&[
+            "Axis1",
+            "Number of sampling data,1024",
+            "Sampling time interval(ms),0.667",
+            "Time,Analog 1,Analog 2",
+            "ms,Servo motor speed,Torque",
+            "0.0,0.0,-1",
+            "0.667,0.0,-1",
+            "1.334,0.0,-1",
+            "",
+        ]);
+        assert_eq!(names(&record), ["Analog 1 [Servo motor speed]", "Analog 2 [Torque]"]);
+        assert!((record.time[1] - 0.000667).abs() < 1e-15);
+        let record = lines(&[
+            "Header Size:  7",
+            "Sampling Rate:  1000",
+            "Sample Number, Date/Time, CHANNEL0, Events",
+            " 1,   06/29/2022 04:05:36.674 PM, -0.0209, DAQ Start",
+            " 2,   06/29/2022 04:05:36.675 PM, -0.0221",
+            " 3,   06/29/2022 04:05:36.676 PM, -0.0222",
+            "",
+        ]);
+        assert_eq!(names(&record), ["Sample Number []", "CHANNEL0 []"]);
+        assert!((record.time[2] - 0.002).abs() < 1e-12);
+        assert_eq!(
+            record.unread[0].why,
+            "`DAQ Start` in line 4 is not a number: leave missing samples empty"
+        );
+    }
+}
+
+#[test]
+fn names_that_are_not_found_are_where_the_map_says() {
+    let text = "name,a,b,c\nrig 3,1,2,3\nt,x,y,z\n0,1,2,3\n1,2,3,4\n";
+    let at =
+        |skip| parse("run.csv", text.as_bytes(), &Reading { skip_rows: Some(skip), ..Reading::default() });
+    let record = at(2).unwrap();
+    assert_eq!((record.time.len(), record.channels[0].name.as_str()), (2, "x"));
+    assert!(at(9).unwrap_err().to_string().contains("skip"), "{}", at(9).unwrap_err());
+    let message = error("Run 3\n0,1,2\n1,2,3\n");
+    assert!(
+        message.starts_with("run.csv, line 2, column 1: the numbers begin here, with 3 cells"),
+        "{message}"
+    );
+    assert!(message.contains("skip_rows = 12"), "{message}");
+}
+
+#[test]
+fn numpy_writes_blanks_and_a_comment_for_the_names() {
+    let record = read("# t F\n0.0 1.0e+00\n0.1 -2.0e+00\n0.2 3\n");
+    assert_eq!((record.time[1], record.channels[0].values[1]), (0.1, -2.0));
+    assert_eq!(record.channels[0].name, "F");
+    let record = read("# time [s],F [N]\n0.0,1\n0.1,2\n");
+    assert_eq!(record.channels[0].unit, "N");
+}
+
+#[test]
+fn a_text_that_nobody_uses_is_left_out() {
+    let record = read("Zeit [s];Kraft [N];Bemerkung\n0,0;1,5;Start\n0,1;2,5;\n0,2;3,5;\n");
+    assert_eq!(record.channels.len(), 1);
+    assert_eq!(record.unread[0].name, "Bemerkung");
+    let record = read("t,F,G\n0,1,1\n1,1.2.3,2\n");
+    assert_eq!(record.unread[0].why, "`1.2.3` in line 3 is not a number: leave missing samples empty");
+    assert_eq!(record.channels[0].values, [1.0, 2.0]);
 }
 
 #[test]
@@ -116,10 +227,11 @@ proptest! {
                     values: rows.iter().map(|r| r.2.filter(|v| v.is_finite()).unwrap_or(f64::NAN)).collect(),
                 },
             ],
+            ..Record::default()
         };
         let mut bytes = Vec::new();
         write(&record, &mut bytes).unwrap();
-        let back = parse("run.csv", &bytes, None).unwrap();
+        let back = parse("run.csv", &bytes, &Reading::default()).unwrap();
         // NaN differs from itself: their bits are compared through the text.
         prop_assert_eq!(format!("{back:?}"), format!("{record:?}"));
     }
@@ -132,13 +244,13 @@ proptest! {
         let last = bytes.len() - 1;
         bytes[at.min(last)] = byte;
         bytes.truncate(cut);
-        if let Ok(record) = parse("run.csv", &bytes, None) {
+        if let Ok(record) = parse("run.csv", &bytes, &Reading::default()) {
             prop_assert!(record.channels.iter().all(|c| c.values.len() == record.time.len()));
         }
     }
 
     #[test]
     fn noise_is_no_panic(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
-        let _ = parse("run.csv", &bytes, None);
+        let _ = parse("run.csv", &bytes, &Reading::default());
     }
 }

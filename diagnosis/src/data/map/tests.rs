@@ -7,7 +7,12 @@ fn record(columns: &[(&str, &str, [f64; 4])]) -> Record {
         values: values.to_vec(),
     };
     let time = vec![0.0, 0.5, 1.0, 1.5];
-    Record { name: "run.csv".into(), time, channels: columns.iter().map(channel).collect() }
+    Record {
+        name: "run.csv".into(),
+        time,
+        channels: columns.iter().map(channel).collect(),
+        ..Record::default()
+    }
 }
 
 fn wanted(name: &str, unit: &str, aliases: &[&str]) -> Wanted {
@@ -68,10 +73,10 @@ fn scale_offset_unit_and_delay() {
 #[test]
 fn the_column_of_time() {
     let map = Map::parse("time = { column = \"Stamp\", unit = \"ms\" }").unwrap();
-    let record = crate::data::parse("run.csv", b"Stamp,x\n0,1\n5,2\n", map.time.as_ref()).unwrap();
+    let record = crate::data::parse("run.csv", b"Stamp,x\n0,1\n5,2\n", &map.reading).unwrap();
     assert_eq!(record.time, [0.0, 0.005]);
     let map = Map::parse("time = \"x\"").unwrap();
-    let record = crate::data::parse("run.csv", b"Stamp,x\n0,1\n5,2\n", map.time.as_ref()).unwrap();
+    let record = crate::data::parse("run.csv", b"Stamp,x\n0,1\n5,2\n", &map.reading).unwrap();
     assert_eq!(record.time, [1.0, 2.0]);
     assert!(Map::parse("time = { columns = \"x\" }").unwrap_err().to_string().contains("columns"));
 }
@@ -162,6 +167,7 @@ fn an_offset_at_rest_is_what_a_sensor_shows_while_nothing_moves() {
         name: "run.csv".into(),
         time: time.clone(),
         channels: vec![channel("F", 7.0), channel("x", 0.0)],
+        ..Record::default()
     };
     let map =
         Map::parse("[signals]\nforce = { column = \"F\", scale = -2.0, offset = \"at rest\" }").unwrap();
@@ -179,4 +185,46 @@ fn an_offset_at_rest_is_what_a_sensor_shows_while_nothing_moves() {
     let other =
         Map::parse("[signals]\nforce = { column = \"F\", offset = \"rest\" }").unwrap_err().to_string();
     assert!(other.contains("force"), "{other}");
+}
+
+#[test]
+fn a_unit_at_the_end_of_a_name_counts_where_it_fits() {
+    let file = "Time_ms,AccelZ_g,body_acceleration_g,path_m\n0,1,2,3\n5,1,2,3\n";
+    let record = crate::data::parse("run.csv", file.as_bytes(), &Reading::default()).unwrap();
+    assert_eq!((record.time[1], record.seconds_assumed), (0.005, false));
+    let map = Map::parse("[signals]\n\"wheel.acceleration\" = \"AccelZ_g\"").unwrap();
+    let wanted = [
+        wanted("wheel.acceleration", "m/s2", &[]),
+        wanted("body.acceleration", "m/s2", &[]),
+        wanted("path_m", "N", &[]),
+    ];
+    let mapped = map.apply(record, &wanted).unwrap();
+    let first: Vec<f64> = mapped.record.channels.iter().map(|it| it.values[0]).collect();
+    assert_eq!(first, [9.80665, 19.6133, 3.0]);
+    assert_eq!(mapped.taken.iter().map(|it| it.assumed).collect::<Vec<_>>(), [false, false, true]);
+}
+
+#[test]
+fn a_column_of_text_is_refused_where_it_is_wanted() {
+    let file = "t,F,remark\n0,1,a\n1,x,b\n2,2,c\n";
+    let record = crate::data::parse("run.csv", file.as_bytes(), &Reading::default()).unwrap_err().to_string();
+    assert!(record.contains("no signal beside it"), "{record}");
+    let file = "t,F,G,remark\n0,1,1,a\n1,x,2,b\n2,2,3,c\n";
+    let record = crate::data::parse("run.csv", file.as_bytes(), &Reading::default()).unwrap();
+    let message = Map::default().apply(record.clone(), &[wanted("f", "N", &[])]).unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "run.csv, F: this is `f`, but `x` in line 3 is not a number: leave missing samples empty"
+    );
+    let map = Map::parse("[signals]\nforce = \"F\"").unwrap();
+    let message = map.apply(record, &[wanted("force", "N", &[])]).unwrap_err().to_string();
+    assert!(message.contains("the map takes `force` from it, but `x` in line 3"), "{message}");
+}
+
+#[test]
+fn what_a_map_says_of_the_files() {
+    let map = Map::parse("rate = 100.0\nskip_rows = 3\nsheet = \"Run 3\"").unwrap();
+    let reading = Reading { rate: Some(100.0), skip_rows: Some(3), sheet: Some("Run 3".into()), time: None };
+    assert_eq!(map.reading, reading);
+    assert_eq!(map.reading.or(Some(10.0), None).rate, Some(10.0));
 }

@@ -1,13 +1,12 @@
-use crate::data::{Record, TimeColumn, parse};
+use crate::data::{Reading, Record, TimeColumn, parse};
 use proptest::prelude::*;
 
 const VECTORS: &[u8] = include_bytes!("../../../tests/data/vectors.mat");
 const COMPRESSED: &[u8] = include_bytes!("../../../tests/data/compressed.mat");
 const STRUCT: &[u8] = include_bytes!("../../../tests/data/struct.mat");
-const HDF5: &[u8] = include_bytes!("../../../tests/data/hdf5.mat");
 
 fn read(bytes: &[u8]) -> Record {
-    parse("run.mat", bytes, None).unwrap()
+    parse("run.mat", bytes, &Reading::default()).unwrap()
 }
 
 /// What make_fixtures.py has written.
@@ -36,15 +35,9 @@ fn what_scipy_writes() {
 #[test]
 fn the_map_names_the_time() {
     let time = TimeColumn { column: "force".into(), unit: Some("ms".into()) };
-    let record = parse("run.mat", VECTORS, Some(&time)).unwrap();
+    let record = parse("run.mat", VECTORS, &Reading { time: Some(time), ..Reading::default() }).unwrap();
     assert!((record.time[25] - 0.1).abs() < 1e-12);
     assert_eq!(record.channels[0].name, "t");
-}
-
-#[test]
-fn version_7_3_says_how_to_save() {
-    let message = parse("run.mat", HDF5, None).unwrap_err().to_string();
-    assert!(message.contains("save -v7"), "{message}");
 }
 
 /// An element with big-endian tag, padded.
@@ -78,12 +71,12 @@ fn big_endian_and_compactly_stored_doubles() {
 fn every_cut_is_refused_without_panic() {
     for bytes in [VECTORS, COMPRESSED, STRUCT] {
         for length in 0..bytes.len() {
-            let _ = parse("run.mat", &bytes[..length], None);
+            let _ = parse("run.mat", &bytes[..length], &Reading::default());
         }
     }
-    let message = parse("run.mat", &VECTORS[..128], None).unwrap_err().to_string();
+    let message = parse("run.mat", &VECTORS[..128], &Reading::default()).unwrap_err().to_string();
     assert!(message.contains("has no real numeric vectors"), "{message}");
-    let message = parse("run.mat", &VECTORS[..300], None).unwrap_err().to_string();
+    let message = parse("run.mat", &VECTORS[..300], &Reading::default()).unwrap_err().to_string();
     assert!(message.contains("is cut off or damaged"), "{message}");
 }
 
@@ -98,7 +91,7 @@ proptest! {
             let at = at.index(bytes.len());
             bytes[at] = byte;
         }
-        if let Ok(record) = parse("run.mat", &bytes, None) {
+        if let Ok(record) = parse("run.mat", &bytes, &Reading::default()) {
             prop_assert!(record.channels.iter().all(|c| c.values.len() == record.time.len()));
         }
     }
@@ -114,6 +107,6 @@ proptest! {
             let at = at.index(plain.len());
             plain[at] = byte;
         }
-        let _ = parse("run.mat", &[&STRUCT[..128], &plain].concat(), None);
+        let _ = parse("run.mat", &[&STRUCT[..128], &plain].concat(), &Reading::default());
     }
 }

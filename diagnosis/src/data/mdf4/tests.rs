@@ -1,4 +1,4 @@
-use crate::data::{Record, parse};
+use crate::data::{Reading, Record, parse};
 use proptest::prelude::*;
 
 const PLAIN: &[u8] = include_bytes!("../../../tests/data/plain.mf4");
@@ -8,11 +8,11 @@ const TWO_RATES: &[u8] = include_bytes!("../../../tests/data/two-rates.mf4");
 const TABLE: &[u8] = include_bytes!("../../../tests/data/table-conversion.mf4");
 
 fn read(bytes: &[u8]) -> Record {
-    parse("run.mf4", bytes, None).unwrap()
+    parse("run.mf4", bytes, &Reading::default()).unwrap()
 }
 
 fn error(bytes: &[u8]) -> String {
-    parse("run.mf4", bytes, None).unwrap_err().to_string()
+    parse("run.mf4", bytes, &Reading::default()).unwrap_err().to_string()
 }
 
 /// What make_fixtures.py has written.
@@ -161,7 +161,7 @@ fn unsorted_records_in_a_list_of_blocks() {
 fn every_cut_is_refused_without_panic() {
     for bytes in [PLAIN, DEFLATE, TRANSPOSED, TWO_RATES, &unsorted()] {
         for length in 0..bytes.len() {
-            let _ = parse("run.mf4", &bytes[..length], None);
+            let _ = parse("run.mf4", &bytes[..length], &Reading::default());
         }
     }
 }
@@ -178,7 +178,7 @@ proptest! {
             let at = at.index(bytes.len());
             bytes[at] = byte;
         }
-        if let Ok(record) = parse("run.mf4", &bytes, None) {
+        if let Ok(record) = parse("run.mf4", &bytes, &Reading::default()) {
             prop_assert!(record.channels.iter().all(|c| c.values.len() == record.time.len()));
         }
     }

@@ -11,6 +11,7 @@ fn record(time: Vec<f64>) -> Record {
         name: "run.csv".into(),
         time,
         channels: vec![Channel { name: "x".into(), unit: "m".into(), values }],
+        ..Record::default()
     }
 }
 
@@ -136,4 +137,21 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn stamps_that_are_even_but_for_their_last_digit_keep_their_values() {
+    let clock = |k: usize| k as f64 / 3004.8;
+    let rounded: Vec<f64> = (0..5000).map(|k| (1e4 * (10.0 + clock(k))).round() / 1e4).collect();
+    let uneven = record(rounded.clone());
+    let (even, problems) = uniform(&uneven).unwrap();
+    assert!(problems.is_empty() && even.len() == 5000, "{problems:?}");
+    assert!((even.step * 3004.8 - 1.0).abs() < 1e-4, "{}", 1.0 / even.step);
+    assert_eq!(even.channels[0].values, uneven.channels[0].values);
+    let (step, digit) = rounded_clock(&uneven).unwrap();
+    assert_eq!((step, digit), (even.step, 1e-4));
+    // A clock that jitters by more than its digit is no even one.
+    let jittering = rounded.iter().enumerate().map(|(k, t)| t + 1e-4 * [0.0, 1.0, -1.0][k * 7 % 3]).collect();
+    assert_eq!(rounded_clock(&record(jittering)), None);
+    assert_eq!(rounded_clock(&record(self::even(500, 1e-3))), None);
 }

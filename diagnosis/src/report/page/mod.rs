@@ -45,6 +45,7 @@ pub fn html(findings: &Findings) -> String {
                     @if !parameters_first { (tables::nominal_parameters(findings)) }
                     (pictures::section(findings))
                     (tables::candidates(findings))
+                    (tables::records(findings))
                     (tables::other_problems(findings))
                 }
                 (footer(findings))

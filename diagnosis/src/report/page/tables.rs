@@ -2,7 +2,8 @@
 
 use maud::{Markup, html};
 
-use crate::report::findings::{DataProblem, Findings, NominalParameter};
+use crate::report::findings::{DataProblem, Findings, NominalParameter, RecordRead};
+use crate::report::words::records::read;
 use crate::report::words::{capitalised, count, digits, interval, number, percent, place, unit};
 
 /// Rows that a table shows before the rest is folded away.
@@ -37,6 +38,25 @@ fn problems(findings: &Findings, fatal: bool, title: &str) -> Markup {
             section class=(if fatal { "fatal" } else { "" }) { h2 { (title) } (folded(&chosen, "problems", table)) }
         }
     }
+}
+
+/// How each record was read.
+pub fn records(findings: &Findings) -> Markup {
+    let all: Vec<&RecordRead> = findings.records.iter().collect();
+    let table = |records: &[&RecordRead]| {
+        html! {
+            table {
+                thead { tr { th { "Record" } th { "Size" } th { "Columns" } } }
+                tbody {
+                    @for record in records {
+                        @let (size, lines) = read(record);
+                        tr { td { code { (record.record) } } td { (size) } td { @for line in lines { p { (line) } } } }
+                    }
+                }
+            }
+        }
+    };
+    html! { @if !all.is_empty() { section { h2 { "Records" } (folded(&all, "records", table)) } } }
 }
 
 /// The first rows as a table, the others behind a line to click on.

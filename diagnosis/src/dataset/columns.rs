@@ -1,0 +1,111 @@
+//! The columns that were read of a file: what is to be told of them, and those that no signal of the rig comes from.
+
+use crate::data::map::{Map, Mapped, Taken};
+use crate::data::uniform::uniform;
+use crate::data::{Channel, Record};
+use crate::report::findings::{ColumnRead, DataProblem, RecordRead};
+use crate::report::words::digits;
+use crate::rig::Rig;
+
+/// Samples per second below which a time without a unit is not believed to be in seconds: a wheel hops at 10 to 15 Hz.
+const SLOWEST: f64 = 10.0;
+
+/// A rate that a file has beside its motion, where a map names the motion only: it was not asked for, and its sign is the
+/// motion's. What was turned over.
+pub fn follow(rig: &Rig, map: &Map, record: &mut Record) -> Vec<DataProblem> {
+    let is_mapped = |signal: &str| {
+        let names = std::iter::once(signal).chain(rig.kind.aliases(signal));
+        names.map(|name| name.trim_start_matches('-')).any(|name| map.signals.contains_key(name))
+    };
+    let mut turned = Vec::new();
+    for declared in &rig.plant.inputs {
+        let Some(motion) = rig.rate_of(&declared.name).map(|index| rig.plant.inputs[index].name.as_str())
+        else {
+            continue;
+        };
+        let values = |name: &str| record.channels.iter().position(|channel| channel.name == name);
+        let (Some(rate), Some(position)) = (values(&declared.name), values(motion)) else { continue };
+        if is_mapped(&declared.name) || !is_mapped(motion) {
+            continue;
+        }
+        let moved = record.channels[position].values.windows(2).zip(record.time.windows(2));
+        let product = |(rate, (moved, _)): (&f64, (&[f64], &[f64]))| rate * (moved[1] - moved[0]);
+        let products = record.channels[rate].values.iter().zip(moved).map(product);
+        if products.filter(|it| it.is_finite()).sum::<f64>() < 0.0 {
+            record.channels[rate].values.iter_mut().for_each(|it| *it = -*it);
+            turned.push(DataProblem {
+                record: record.name.clone(),
+                signal: declared.name.clone(),
+                text: format!(
+                    "its column goes against {motion}, which the map names: it is turned over. To take it otherwise, name \
+                     it in the map, too"
+                ),
+                fatal: false,
+            });
+        }
+    }
+    turned
+}
+
+/// That the unit of the time is in doubt: nobody says it, and in seconds no rig would be sampled so.
+pub fn doubt(record: &Record, read: &RecordRead) -> Option<DataProblem> {
+    (record.seconds_assumed && read.rate < SLOWEST).then(|| DataProblem {
+        record: record.name.clone(),
+        signal: "time".into(),
+        text: format!(
+            "the time has no unit, and in seconds that would be {} Hz for {} s, which no test of a suspension is: write the unit in \
+             the header, such as `time [ms]`, or in the map, `time = {{ column = \"…\", unit = \"ms\" }}`; if it is in \
+             seconds, `[s]`",
+            digits(read.rate, 3),
+            digits(read.seconds, 4)
+        ),
+        fatal: true,
+    })
+}
+
+/// What was read of a file.
+pub fn read(mapped: &Mapped) -> RecordRead {
+    let Record { name, time, unread, notes, .. } = &mapped.record;
+    let column = |taken: &Taken| ColumnRead {
+        signal: taken.signal.clone(),
+        column: taken.column.clone(),
+        unit: taken.unit.clone(),
+        unit_assumed: taken.assumed,
+    };
+    let seconds = time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first);
+    RecordRead {
+        record: name.clone(),
+        samples: time.len(),
+        seconds,
+        rate: if seconds > 0.0 { (time.len() - 1) as f64 / seconds } else { 0.0 },
+        columns: mapped.taken.iter().map(column).collect(),
+        unused: mapped.unused.iter().map(Channel::title).collect(),
+        left_out: unread.iter().map(|it| format!("{}: {}", it.name, it.why)).collect(),
+        notes: notes.clone(),
+    }
+}
+
+/// Columns that no signal of the rig is, on the even grid of the record; none that is constant, counts or has gaps.
+pub fn others(time: &[f64], unused: Vec<Channel>) -> Vec<Channel> {
+    let on_grid = |channel: Channel| {
+        let record = Record { time: time.to_vec(), channels: vec![channel], ..Record::default() };
+        let (even, _) = uniform(&record).ok()?;
+        let channel = even.channels.into_iter().next()?;
+        let says_something = !is_constant(&channel.values) && !is_count(&channel.values);
+        (channel.values.iter().all(|it| it.is_finite()) && says_something).then_some(channel)
+    };
+    unused.into_iter().filter_map(on_grid).collect()
+}
+
+/// Whether a signal shows one value only.
+pub fn is_constant(values: &[f64]) -> bool {
+    let mut known = values.iter().filter(|value| value.is_finite());
+    known.next().is_some_and(|first| known.all(|value| value == first))
+}
+
+/// Whether evenly sampled values count the samples: within one of them on the straight line from the first to the last.
+fn is_count(values: &[f64]) -> bool {
+    let [first, .., last] = *values else { return false };
+    let rise = (last - first) / (values.len() - 1) as f64;
+    values.iter().enumerate().all(|(k, value)| (value - first - rise * k as f64).abs() <= rise.abs())
+}
