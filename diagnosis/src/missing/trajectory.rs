@@ -16,6 +16,10 @@ use super::ports::{Entry, Port};
 pub const MEMORY: f64 = 0.3;
 /// Samples over which the states that matter are looked for.
 const LOOK: usize = 400;
+/// Samples by which two starts of a stretch are compared.
+const FIRST: usize = 100;
+/// Time in which a rig comes to rest where its inputs do, in seconds: two periods of a body on its springs.
+const SETTLING: f64 = 2.0;
 /// Standard deviations of its noise to which a sensor is believed: what filters and even sampling do to a signal is as large.
 const BELIEVED: f64 = 2.0;
 /// Resolution of a signal without noise, in shares of its root mean square.
@@ -199,7 +203,58 @@ impl<'a> Setting<'a> {
     ) -> Option<Window> {
         let own = &records[record];
         let drive = own.drive(&samples, &self.point.inputs);
-        let mut seeds = self.seeds(&drive);
+        let start = &self.start(own, &samples, start);
+        let (passed, mut trajectory) = self.passed(own, &samples, start);
+        let smooth: Vec<Smoothed> = smoothed(&passed);
+        for (whole, smooth) in trajectory.iter_mut().zip(&smooth) {
+            for (state, value) in self.active.iter().zip(&smooth.x) {
+                whole[*state] = *value;
+            }
+        }
+        if !trajectory.iter().flatten().all(|it| it.is_finite()) {
+            return None;
+        }
+        let seeds = self.seeds(&drive);
+        let wanted: Vec<usize> = own.measured.iter().map(|it| it.output).collect();
+        let mut about = About {
+            active: &self.active,
+            measured: own.measured.iter().map(|it| &it.values[samples.clone()]).collect(),
+            window: Window {
+                record,
+                samples: samples.clone(),
+                step: own.step,
+                states: self.active.len(),
+                outputs: wanted.len(),
+                width: seeds.len(),
+                trajectory,
+                next_slopes: Vec::new(),
+                output_slopes: Vec::new(),
+                defects: Vec::new(),
+                rates: Vec::new(),
+                predicted: Vec::new(),
+                residuals: Vec::new(),
+                drive: drive.clone(),
+                timing: Vec::new(),
+                lawful: None,
+                loose: (Vec::new(), Vec::new()),
+                pushes: Vec::new(),
+            },
+        };
+        self.dynamics.followed(&self.point.parameters, start, &drive, (&seeds, &wanted), &mut about);
+        let mut window = about.window;
+        window.pushes = self.moving().map(|port| self.pushes(own, &window, port)).collect();
+        Some(window)
+    }
+
+    /// An extended Kalman filter's way through some samples, and the states on it.
+    fn passed(
+        &self,
+        own: &Dataset,
+        samples: &Range<usize>,
+        start: &[f64],
+    ) -> (Vec<Passed>, Vec<Vec<f64>>) {
+        let drive = own.drive(samples, &self.point.inputs);
+        let seeds = self.seeds(&drive);
         let wanted: Vec<usize> = own.measured.iter().map(|it| it.output).collect();
         let (n, moving) = (self.active.len(), self.moving().count());
         let ports: Vec<f64> = self.moving().map(|(port, _)| self.free[port]).collect();
@@ -233,46 +288,63 @@ impl<'a> Setting<'a> {
             (&seeds[..n + moving], &wanted),
             &mut pass,
         );
-        let (passed, mut trajectory) = (pass.passed, pass.whole);
-        let smooth: Vec<Smoothed> = smoothed(&passed);
-        for (whole, smooth) in trajectory.iter_mut().zip(&smooth) {
-            for (state, value) in self.active.iter().zip(&smooth.x) {
-                whole[*state] = *value;
-            }
-        }
-        if !trajectory.iter().flatten().all(|it| it.is_finite()) {
-            return None;
-        }
-        let seeds = std::mem::take(&mut seeds);
-        let mut about = About {
-            active: &self.active,
-            measured: own.measured.iter().map(|it| &it.values[samples.clone()]).collect(),
-            window: Window {
-                record,
-                samples: samples.clone(),
-                step: own.step,
-                states: n,
-                outputs: wanted.len(),
-                width: seeds.len(),
-                trajectory,
-                next_slopes: Vec::new(),
-                output_slopes: Vec::new(),
-                defects: Vec::new(),
-                rates: Vec::new(),
-                predicted: Vec::new(),
-                residuals: Vec::new(),
-                drive: drive.clone(),
-                timing: Vec::new(),
-                lawful: None,
-                loose: (Vec::new(), Vec::new()),
-                pushes: Vec::new(),
-            },
-        };
-        self.dynamics.followed(&self.point.parameters, start, &drive, (&seeds, &wanted), &mut about);
-        let mut window = about.window;
-        window.pushes = self.moving().map(|port| self.pushes(own, &window, port)).collect();
-        Some(window)
+        (pass.passed, pass.whole)
     }
+
+    /// Where a stretch starts: at a given start, or where the model comes to rest under the inputs that it begins with. A wheel
+    /// that starts far above its road has left it, and no sensor shows where it is: of the two, the one from which the sensors
+    /// are predicted better.
+    fn start(&self, own: &Dataset, samples: &Range<usize>, given: &[f64]) -> Vec<f64> {
+        let first = samples.start..samples.end.min(samples.start + FIRST);
+        let surprise = |start: &[f64]| -> f64 {
+            let (passed, _) = self.passed(own, &first, start);
+            let each = passed.iter().flat_map(|it| &it.measured);
+            each.map(|(_, _, innovation, variance)| innovation * innovation / variance + variance.ln()).sum()
+        };
+        match self.at_rest(own, samples, given) {
+            Some(rest) if surprise(&rest) < surprise(given) => rest,
+            _ => given.to_vec(),
+        }
+    }
+
+    /// Where the model comes to rest under the inputs at the start of some samples; none if it does not, or is there already.
+    fn at_rest(&self, own: &Dataset, samples: &Range<usize>, start: &[f64]) -> Option<Vec<f64>> {
+        let mut drive = own.drive(&(samples.start..samples.end.min(samples.start + 2)), &self.point.inputs);
+        let steps = (SETTLING / own.step) as usize;
+        for (values, source) in drive.inputs.iter_mut().zip(&own.inputs) {
+            let value = if source.motion().is_some() { 0.0 } else { values[0] };
+            *values = vec![value; drive.finer * steps + 1];
+        }
+        let mut last = Last { halfway: steps / 2, ..Last::default() };
+        self.dynamics.followed(&self.point.parameters, start, &drive, (&[], &[]), &mut last);
+        let scale = |state: usize| self.nominal[state].abs().max(f64::MIN_POSITIVE);
+        let apart = |a: &[f64], b: &[f64]| {
+            a.iter().zip(b).enumerate().map(|(it, (a, b))| (a - b).abs() / scale(it)).fold(0.0, f64::max)
+        };
+        let moved = apart(&last.end, start);
+        (moved.is_finite() && moved > 0.0 && apart(&last.end, &last.middle) < 0.5 * moved).then_some(last.end)
+    }
+}
+
+/// The states halfway and at the end of a simulation.
+#[derive(Default)]
+struct Last {
+    halfway: usize,
+    middle: Vec<f64>,
+    end: Vec<f64>,
+}
+
+impl Follower for Last {
+    fn state(&mut self, _: usize, _: &mut [f64]) {}
+
+    fn seen(&mut self, sample: usize, _: Seen<'_>, state: &mut [f64]) {
+        if sample == self.halfway {
+            self.middle = state.to_vec();
+        }
+        self.end = state.to_vec();
+    }
+
+    fn advanced(&mut self, _: usize, _: &[f64], _: &[f64]) {}
 }
 
 fn magnitude(records: &[Dataset], row: usize) -> f64 {
