@@ -88,7 +88,7 @@ impl Case {
         }
         let origins = paths.map(Origin::File);
         let [train, test] = &origins;
-        let Loaded { mut records, problems } = load(&mut rig, &[train, test], &Map::default()).unwrap();
+        let Loaded { mut records, problems, .. } = load(&mut rig, &[train, test], &Map::default()).unwrap();
         assert_eq!(records.len(), 2, "{problems:?}");
         let test = records.split_off(1);
         let records = Split::new(&records, test);

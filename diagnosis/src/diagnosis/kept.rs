@@ -15,7 +15,8 @@ impl Baseline<'_> {
         let amount = |handle: Unknown| {
             let it = intervals.iter().find(|it| it.handle == handle)?;
             let value = it.value - found.base.point.get(handle);
-            Some(Amount { value, bounds: (f64::NEG_INFINITY, f64::INFINITY), half: it.half })
+            // A common scale that only the parameter set knows makes no amount zero.
+            Some(Amount { value, bounds: (f64::NEG_INFINITY, f64::INFINITY), half: it.half_of_data })
         };
         found.accepted.iter().rposition(|it| {
             let amounts: Vec<Amount> = self.sizes(it.term).into_iter().filter_map(amount).collect();

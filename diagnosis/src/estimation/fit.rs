@@ -52,8 +52,61 @@ pub struct FreeParameter {
     pub handle: Unknown,
     /// Smallest and largest value.
     pub bounds: (f64, f64),
-    /// What was known before, as mean and standard deviation.
-    pub prior: Option<(f64, f64)>,
+    /// What was known before.
+    pub prior: Option<Prior>,
+}
+
+/// What was known of an unknown before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Prior {
+    /// Its value, with a standard deviation.
+    Value {
+        /// The value.
+        mean: f64,
+        /// Standard deviation.
+        deviation: f64,
+    },
+    /// A value that is right within a factor: its logarithm has a standard deviation. Half of it is as far off as its double, so
+    /// that data which tell only the ratios of several parameters leave their common scale where it was.
+    Factor {
+        /// The value, positive.
+        mean: f64,
+        /// Standard deviation of the logarithm.
+        deviation: f64,
+    },
+    /// A value that nobody vouches for, positive: it holds what the data do not tell where it is, with no tolerance that could be
+    /// told.
+    Guess {
+        /// The value.
+        mean: f64,
+    },
+}
+
+/// Factor that is one standard deviation of a guess: a joint's inertia is a millionth of a carriage's mass.
+const GUESSED: f64 = 10.0;
+
+/// Smallest share of a value that a factor is asked of: what has a logarithm may be next to nothing.
+const NEXT_TO_NOTHING: f64 = 1e-3;
+
+impl Prior {
+    /// Distance of a value in standard deviations, and its derivative.
+    pub fn distance(self, value: f64) -> (f64, f64) {
+        let factor = |mean: f64, deviation: f64| {
+            let share = value / mean;
+            let slope = if share > NEXT_TO_NOTHING { (value * deviation).recip() } else { 0.0 };
+            (share.max(NEXT_TO_NOTHING).ln() / deviation, slope)
+        };
+        match self {
+            Self::Value { mean, deviation } => ((value - mean) / deviation, deviation.recip()),
+            Self::Factor { mean, deviation } => factor(mean, deviation),
+            Self::Guess { mean } => factor(mean, GUESSED.ln()),
+        }
+    }
+
+    /// Whether somebody vouches for it.
+    pub fn is_vouched_for(self) -> bool {
+        !matches!(self, Self::Guess { .. })
+    }
 }
 
 /// An estimate of all unknowns: parameters, distortions, and the states at the start of every segment.
@@ -241,8 +294,8 @@ impl<'a> Fit<'a> {
             scores.extend(part.scores);
         }
         for (index, coordinate) in self.coordinates.iter().enumerate() {
-            if let Some((_, deviation)) = coordinate.prior {
-                h[(index, index)] += deviation.powi(-2);
+            if let Some(prior) = coordinate.prior {
+                h[(index, index)] += prior.distance(point.get(coordinate.handle)).1.powi(2);
             }
         }
         Normal { h, g, scores }
@@ -275,8 +328,8 @@ pub fn contained(normal: &Normal, own: usize) -> Normal {
 /// Half the squared distance of a point from what was known of the coordinates before, in its standard deviations.
 pub fn strain(coordinates: &[FreeParameter], point: &Estimate) -> f64 {
     let each = coordinates.iter().filter_map(|coordinate| {
-        let (mean, deviation) = coordinate.prior?;
-        Some(0.5 * ((point.get(coordinate.handle) - mean) / deviation).powi(2))
+        let (distance, _) = coordinate.prior?.distance(point.get(coordinate.handle));
+        Some(0.5 * distance.powi(2))
     });
     each.sum()
 }
@@ -314,9 +367,10 @@ impl Problem for Fit<'_> {
             trace.sections.push(part.elimination);
         }
         for (index, coordinate) in self.coordinates.iter().enumerate() {
-            if let Some((mean, deviation)) = coordinate.prior {
-                h[(index, index)] += deviation.powi(-2);
-                g[index] += (point.get(coordinate.handle) - mean) * deviation.powi(-2);
+            if let Some(prior) = coordinate.prior {
+                let (distance, slope) = prior.distance(point.get(coordinate.handle));
+                h[(index, index)] += slope * slope;
+                g[index] += distance * slope;
             }
         }
         (Linear::by_cholesky(&h, &g), trace)

@@ -1,5 +1,6 @@
 //! What may be the matter: a set of terms that are added to the starting model, and the fit with them.
 
+use nalgebra::DVector;
 use strut_model::{Value, unit};
 
 use crate::catalogue::{self, Bounds, Effect, Element, Part, Scale, Signal, Table, Typical};
@@ -7,7 +8,7 @@ use crate::dataset::recorded::{Dataset, Source};
 use crate::dataset::split::Split;
 use crate::diagnosis::Options;
 use crate::estimation::deadline::Deadline;
-use crate::estimation::fit::{Estimate, Fit, FreeParameter, Residuals, Trace, Unknown};
+use crate::estimation::fit::{Estimate, Fit, FreeParameter, Prior, Residuals, Trace, Unknown};
 use crate::estimation::lsq::{self, Linear, Problem, Stop};
 use crate::plant::Dynamics;
 use crate::rig::Rig;
@@ -28,11 +29,13 @@ const IN_TIME: f64 = 2.5;
 /// Time over which the velocity at a section's start is guessed from a measured position, in seconds.
 const RATE: f64 = 0.02;
 
-/// What a data sheet says of a parameter: its standard deviation over its value, and the factor within which it is looked
-/// for if it must not be zero.
-const SHEET: (f64, f64) = (1.0, 20.0);
-/// The same of a model's start value, which says nothing of a rig: a joint's inertia is a millionth of a carriage's mass.
-const START: (f64, f64) = (10.0, f64::INFINITY);
+/// Standard deviation of the logarithm of a nominal parameter that is stated, before the data are seen: a data sheet's damping or
+/// tyre stiffness is right within a third.
+pub(crate) const TOLERANCE: f64 = 0.3;
+/// Factor within which a stated parameter is looked for if it must not be zero.
+const SHEET: f64 = 20.0;
+/// Standard deviation of a start value that may be negative, over its value.
+const SIGNED: f64 = 10.0;
 
 /// Something that is added to the starting model.
 #[derive(Clone, Copy, Debug)]
@@ -107,6 +110,25 @@ pub struct Fitted {
     pub train: Residuals,
     /// Errors on the validation data.
     pub test: Residuals,
+}
+
+impl Fitted {
+    /// Gradients of what was known before, each of which is off by its own standard deviation: all of it, or what somebody vouches
+    /// for.
+    pub fn priors(&self, vouched_for: bool) -> Vec<DVector<f64>> {
+        let slope = |coordinate: &FreeParameter| {
+            let prior = coordinate.prior.filter(|it| !vouched_for || it.is_vouched_for())?;
+            Some(prior.distance(self.point.get(coordinate.handle)).1)
+        };
+        let count = self.coordinates.len();
+        let slopes = self.coordinates.iter().map(slope).enumerate();
+        let gradient = |(index, slope): (usize, Option<f64>)| {
+            let mut gradient = DVector::zeros(count);
+            gradient[index] = slope?;
+            Some(gradient)
+        };
+        slopes.filter_map(gradient).collect()
+    }
 }
 
 impl<'a> Baseline<'a> {
@@ -226,7 +248,8 @@ impl Baseline<'_> {
             let (declared, value) = (&plant.parameters[index], self.rig.parameters[index]);
             let (low, high) =
                 (declared.min.unwrap_or(f64::NEG_INFINITY), declared.max.unwrap_or(f64::INFINITY));
-            let (deviation, around) = if self.rig.stated[index] { SHEET } else { START };
+            let stated = self.rig.stated[index];
+            let around = if stated { SHEET } else { f64::INFINITY };
             // Near zero, what must not be zero makes equations that nothing can integrate; but there may be no spring.
             let least = if declared.unit == unit::N_PER_M { low } else { low.max(value / around) };
             let bounds = if low > 0.0 { (least, high.min(value * around)) } else { (low, high) };
@@ -238,8 +261,13 @@ impl Baseline<'_> {
                 (low.max(mean - SURE * deviation), high.min(mean + SURE * deviation))
             });
             // It is right within a factor where the data do not know better; of what nobody knows it says zero.
-            let sheet = (value != 0.0).then_some((value, deviation * value.abs()));
-            let prior = known.map(|(_, mean, deviation)| (*mean, *deviation)).or(sheet);
+            let sheet = (value != 0.0).then_some(match (value > 0.0 && low >= 0.0, stated) {
+                (true, true) => Prior::Factor { mean: value, deviation: TOLERANCE },
+                (true, false) => Prior::Guess { mean: value },
+                (false, _) => Prior::Value { mean: value, deviation: SIGNED * value.abs() },
+            });
+            let known = known.map(|(_, mean, deviation)| Prior::Value { mean: *mean, deviation: *deviation });
+            let prior = known.or(sheet);
             coordinates.push(FreeParameter { handle: Unknown::Parameter(index), bounds, prior });
         }
         for measured in self.train.first().map_or(&[][..], |record| &record.measured) {
@@ -249,7 +277,11 @@ impl Baseline<'_> {
                 // A signal that is later than that has a fault, which is a term of its own.
                 let most = IN_TIME * deviation;
                 let bounds = (bounds.0.max(-most), bounds.1.min(most));
-                coordinates.push(FreeParameter { handle, bounds, prior: Some((0.0, deviation)) });
+                coordinates.push(FreeParameter {
+                    handle,
+                    bounds,
+                    prior: Some(Prior::Value { mean: 0.0, deviation }),
+                });
             }
         }
         for term in terms {
@@ -308,7 +340,7 @@ impl Baseline<'_> {
                         handle: Unknown::Parameter(index),
                         bounds: (table.law.bounds.0 * typical, table.law.bounds.1 * typical),
                         // A ridge: points that nothing reaches stay at zero.
-                        prior: Some((0.0, typical)),
+                        prior: Some(Prior::Value { mean: 0.0, deviation: typical }),
                     })
                     .collect()
             }
@@ -329,7 +361,7 @@ impl Baseline<'_> {
                 .map(|handle| FreeParameter {
                     handle,
                     bounds: self.fault_bounds(handle),
-                    prior: Some((0.0, UNKNOWN)),
+                    prior: Some(Prior::Value { mean: 0.0, deviation: UNKNOWN }),
                 })
                 .collect(),
         }

@@ -1,6 +1,7 @@
 //! How sure the coordinates of a fit are.
 //!
-//! Three things make a coordinate uncertain. Noise: the spread of its scores over blocks of the estimation data. Excitations:
+//! Four things make a coordinate uncertain. Noise: the spread of its scores over blocks of the estimation data. What was known
+//! before, where the data tell no more: the values of a parameter set have a tolerance of their own. Excitations:
 //! errors of a model that is not quite right pull its parameters differently in each; what each excitation on its own would
 //! say is compared, validation data included, and the variance between them, after DerSimonian and Laird (Meta-analysis in
 //! clinical trials, Controlled Clinical Trials 7, 1986), widens the interval. And what pulls alike in all excitations: small
@@ -12,6 +13,7 @@
 
 use std::ops::Range;
 
+use nalgebra::DMatrix;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::dataset::recorded::Dataset;
@@ -26,6 +28,8 @@ const EXCITATIONS: usize = 4;
 /// Share of the rise of the cost that a derivative promises over half an interval, below which the derivative tells nothing: near
 /// a limit of its own, a law's may be infinite.
 const BORNE_OUT: f64 = 0.01;
+/// Variance that the values of a parameter set bring, over that of the data, from which a coordinate is mostly theirs.
+const FROM_SET: f64 = 3.0;
 /// Quantile of the normal distribution for 95 % within.
 const NORMAL: f64 = 1.96;
 
@@ -38,6 +42,10 @@ pub struct Interval {
     pub value: f64,
     /// Half the interval that holds the true value with 95 %; infinite if nothing is known.
     pub half: f64,
+    /// The same if what was known before were exact: what the data alone tell, beside the scale of the parameter set.
+    pub half_of_data: f64,
+    /// Whether what was known before makes most of its uncertainty: the data tell it only together with others.
+    pub from_parameter_set: bool,
     /// What each record on its own would choose, estimation records first.
     pub wishes: Vec<Wish>,
     /// Effects that do on these records what the coordinate does.
@@ -78,6 +86,7 @@ impl Baseline<'_> {
     /// If the model refuses its settings.
     pub fn intervals(&self, fitted: &Fitted) -> Result<Vec<Interval>, String> {
         let own = fitted.linear.robust_covariance(&fitted.trace.scores);
+        let [before, vouched_for] = [false, true].map(|it| fitted.linear.sandwich(&fitted.priors(it)));
         let opinions = self.opinions(fitted)?;
         let dynamics = self.dynamics(&fitted.terms)?;
         let fit = self.fit(&*dynamics, self.train, fitted.coordinates.clone());
@@ -99,17 +108,20 @@ impl Baseline<'_> {
             let records = 0..self.train.len() + self.test.len();
             let wishes = records.filter_map(|record| wish(record, &said(record))).collect();
             let twins = twins[index].clone();
-            let mut half = variance.sqrt();
+            let mut half_of_data = variance.sqrt();
+            let of = |known: &DMatrix<f64>| NORMAL.powi(2) * known[(index, index)].max(0.0);
+            let from_parameter_set = of(&before) > FROM_SET * variance;
+            let mut half = (variance + of(&vouched_for)).sqrt();
             if amounts.contains(&handle) && half.is_finite() {
                 let step = if value + half <= bounds.1 { half } else { -half };
                 let mut moved = fitted.point.clone();
                 moved.set(handle, value + step);
                 let promised = 0.5 * (norms[index] * half).powi(2);
                 if fit.cost(&moved) - fitted.cost < BORNE_OUT * promised {
-                    half = f64::INFINITY;
+                    (half, half_of_data) = (f64::INFINITY, f64::INFINITY);
                 }
             }
-            Interval { handle, value, half, wishes, twins, bounds }
+            Interval { handle, value, half, half_of_data, from_parameter_set, wishes, twins, bounds }
         };
         Ok(fitted.coordinates.iter().enumerate().map(interval).collect())
     }

@@ -22,12 +22,12 @@ use rayon::prelude::*;
 use crate::catalogue;
 use crate::dataset::recorded::Dataset;
 use crate::estimation::fit::{Estimate, Unknown};
-use crate::estimation::hypothesis::{Baseline, TIMING, Term};
+use crate::estimation::hypothesis::{Baseline, TIMING, TOLERANCE, Term};
 use crate::plant::Dynamics;
 use crate::signal::distortion::Correction;
 
 use innovations::Column;
-use nominal::{About, TOLERANCE};
+use nominal::About;
 use ports::Port;
 use trajectory::{Setting, Window};
 

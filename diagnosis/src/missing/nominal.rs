@@ -3,14 +3,12 @@
 use std::ops::Range;
 
 use crate::estimation::fit::{Estimate, Unknown};
-use crate::estimation::hypothesis::Baseline;
+use crate::estimation::hypothesis::{Baseline, TOLERANCE};
 
 use super::Frame;
 use super::innovations::Noise;
 use super::likelihood::{Amounts, Sums};
 
-/// Standard deviation of a nominal parameter over its value, before the data are seen.
-pub(super) const TOLERANCE: f64 = 0.3;
 /// Least share of a nominal value that a parameter is believed to have, where it cannot be zero.
 const LEAST: f64 = 0.3;
 /// Share of each port's size that may be missing while stated parameters are corrected.

@@ -247,12 +247,7 @@ impl<'a> Setting<'a> {
     }
 
     /// An extended Kalman filter's way through some samples, and the states on it.
-    fn passed(
-        &self,
-        own: &Dataset,
-        samples: &Range<usize>,
-        start: &[f64],
-    ) -> (Vec<Passed>, Vec<Vec<f64>>) {
+    fn passed(&self, own: &Dataset, samples: &Range<usize>, start: &[f64]) -> (Vec<Passed>, Vec<Vec<f64>>) {
         let drive = own.drive(samples, &self.point.inputs);
         let seeds = self.seeds(&drive);
         let wanted: Vec<usize> = own.measured.iter().map(|it| it.output).collect();

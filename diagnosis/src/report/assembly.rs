@@ -114,19 +114,20 @@ impl Diagnosis<'_> {
                 low: -1.0,
                 high: -1.0,
                 mismatch: true,
+                from_parameter_set: false,
                 contradicted: false,
                 equivalent_effects: Vec::new(),
             })
             .collect();
         let base = rig.base();
         for interval in &self.intervals {
-            let (after, half) = (interval.value, interval.half);
+            let after = interval.value;
             if let Unknown::Parameter(index) = interval.handle
                 && base.contains(&index)
             {
                 let (before, declared) = (rig.parameters[index], &rig.plant.parameters[index]);
                 let change = (after - before).abs();
-                let mismatch = change > 1.5 * half && change > MISMATCH * before.abs();
+                let mismatch = change > 1.5 * interval.half_of_data && change > MISMATCH * before.abs();
                 let given = self.baseline.known.iter().find(|(known, _, _)| *known == index);
                 let contradicted = given.is_some_and(|(_, value, deviation)| {
                     (after - value).abs() > (1.0 - MISMATCH) * SURE * deviation
@@ -141,6 +142,7 @@ impl Diagnosis<'_> {
                     low: interval.low(),
                     high: interval.high(),
                     mismatch,
+                    from_parameter_set: given.is_none() && interval.from_parameter_set,
                     contradicted,
                     equivalent_effects: twins.map(|it| located(&it.name, &it.element)).collect(),
                 });

@@ -45,6 +45,7 @@ pub fn empty(verdict: Verdict) -> Findings {
         experiment: None,
         deciding_experiment: None,
         data_problems: vec![],
+        records: parts::records(),
         candidates: vec![],
         pictures: Pictures::default(),
         seconds: f64::NAN,

@@ -20,6 +20,7 @@ pub(super) fn of(findings: &Findings) -> String {
         open(findings),
         disagreements(findings),
         parameters(findings),
+        scale(findings),
         contradictions(findings),
         twins(findings),
         effects(findings),
@@ -140,6 +141,19 @@ fn parameters(findings: &Findings) -> Option<String> {
         })
         .collect();
     (!changed.is_empty()).then(|| format!("Parameters: {}.", changed.join("; ")))
+}
+
+/// That the data tell some nominal parameters only together.
+fn scale(findings: &Findings) -> Option<String> {
+    let held = findings.nominal_parameters.iter().filter(|it| it.from_parameter_set);
+    let held: Vec<String> = held.map(|it| it.name.clone()).collect();
+    (held.len() > 1).then(|| {
+        format!(
+            "These records tell only the ratios of {}. Their common scale, and that of the effects, is the parameter set's. \
+             Record a force, or weigh a mass and give it (--known).",
+            list(&held, "and")
+        )
+    })
 }
 
 /// A value that the user was sure of and that the data refuse: more likely it is wrong than all the data.
@@ -324,11 +338,13 @@ mod tests {
             low: 12.0,
             high: 18.0,
             mismatch: true,
+            from_parameter_set: false,
             contradicted: true,
             equivalent_effects: vec!["guide friction in the guide".into()],
         };
         let text = of(&Findings { nominal_parameters: vec![it], ..findings(Verdict::ParameterMismatch) });
         assert!(text.contains("The records contradict the given value of constant_load."), "{text}");
+        assert!(!text.contains("ratios"), "{text}");
         assert!(text.contains("cannot tell constant_load from guide friction in the guide."), "{text}");
     }
 

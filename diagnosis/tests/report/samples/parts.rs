@@ -1,9 +1,33 @@
 //! Parts of sample findings.
 
 use strut_diagnosis::report::findings::{
-    AccountItem, Candidate, Curve, DecidingExperiment, Distinction, Drive, Effect, EffectParameter, Evidence,
-    ExperimentLimit, NominalParameter, Setting, Signal, SignalAccount, SourceFmu, Unmodelled, Value,
+    AccountItem, Candidate, ColumnRead, Curve, DecidingExperiment, Distinction, Drive, Effect,
+    EffectParameter, Evidence, ExperimentLimit, NominalParameter, RecordRead, Setting, Signal, SignalAccount,
+    SourceFmu, Unmodelled, Value,
 };
+
+pub fn records() -> Vec<RecordRead> {
+    let column = |signal: &str, column: &str, unit: &str, unit_assumed: bool| ColumnRead {
+        signal: signal.into(),
+        column: column.into(),
+        unit: unit.into(),
+        unit_assumed,
+    };
+    let read = |record: &str| RecordRead {
+        record: record.into(),
+        samples: 30_000,
+        seconds: 29.999,
+        rate: 1000.0,
+        columns: vec![
+            column("road.position", "Laser_road", "mm", false),
+            column("suspension.deflection", "suspension.deflection", "m", true),
+        ],
+        unused: vec!["Temperature [degC]".into()],
+        left_out: vec!["Remark: `Start` in line 2 is not a number: leave missing samples empty".into()],
+        notes: vec![],
+    };
+    vec![read("monday.csv"), read("tuesday.csv")]
+}
 
 pub fn friction() -> Effect {
     Effect {
@@ -47,6 +71,7 @@ pub fn base(name: &str, unit: &str, before: f64, after: f64, half: f64, mismatch
         low,
         high,
         mismatch,
+        from_parameter_set: false,
         contradicted: false,
         equivalent_effects: vec![],
     }
