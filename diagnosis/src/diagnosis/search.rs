@@ -173,10 +173,11 @@ impl Baseline<'_> {
                 Choice::Named(scores) => (scores, 0.0),
             };
             // Where all accounts are closed, a fit is not worth its time that promises nothing visible. Where one is open, a share of
-            // the innovations says little: a nominal parameter may have taken the effect's place.
+            // the innovations says little: a nominal parameter may have taken the effect's place. A rough shape promises less than
+            // its fit holds.
             let open = self.is_open(&found.extended.test);
             let promised = |it: &Score| self.improvement(&found.extended, if open { 1.0 } else { it.share });
-            if scores.first().is_none_or(|it| promised(it) < CRITERIA.improvement) {
+            if scores.first().is_none_or(|it| promised(it) < CRITERIA.rough * CRITERIA.improvement) {
                 return Ok(curve.map_or(Next::Nothing, Next::Curve));
             }
             let mut proposals = compared.proposals(&scores, MOST_FITTED);

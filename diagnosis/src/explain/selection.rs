@@ -22,8 +22,7 @@ pub struct Score {
     pub candidate: usize,
     /// Share of the estimation records' sum of squares that it takes away, less what as many columns take away by chance.
     pub share: f64,
-    /// Share of what the validation records add to the sum of squares that the same amounts take away there. The nominal
-    /// parameters are the same in all records: what they have taken of the candidate on the estimation records shows here.
+    /// Share of the validation records' sum of squares that the same amounts take away there.
     pub validated: f64,
 }
 
@@ -115,14 +114,10 @@ impl Baseline<'_> {
         let first = own.len() + 1;
         let of = |train: bool| move |block: &&Block| (block.record < missing.train) == train;
         let train = Sums::of(blocks.iter().filter(of(true)))?;
-        let all = Sums::of(blocks.iter()).filter(|all| all.count > train.count);
+        let test = Sums::of(blocks.iter().filter(of(false)));
         let before = train.fitted(&own, &missing.precisions)?;
         let misses = before.left / (train.count as f64).max(1.0);
-        // What the validation records add to the sum of squares, the nominal parameters being those of all records.
-        let held_out = all.as_ref().and_then(|sums| {
-            let added = sums.fitted(&own, &missing.precisions)?.left - before.left;
-            Some((sums, added))
-        });
+        let held_out = test.as_ref().and_then(|sums| Some((sums, sums.fitted(&own, &missing.precisions)?)));
         let (mut named, mut features) = (Vec::new(), Vec::new());
         let (mut all_amounts, mut points) = (Vec::new(), Vec::new());
         for (number, candidate) in candidates.list.iter().enumerate() {
@@ -138,9 +133,9 @@ impl Baseline<'_> {
             let Some(fitted) = fitted else { continue };
             let chance = (candidate.columns.len() as f64) * (train.count as f64).ln();
             let gain = before.left - fitted.left - chance;
-            let validated = held_out.as_ref().map_or(0.0, |(sums, added)| {
-                added - (with_amounts(sums, missing, &columns, &fitted) - fitted.left)
-            });
+            let validated = held_out
+                .as_ref()
+                .map_or(0.0, |(sums, before)| before.left - with_amounts(sums, missing, &columns, &fitted));
             // Reductions of the sums of squares; shares need all candidates.
             let mut score = Score { candidate: number, share: gain, validated };
             match &candidate.kind {
@@ -164,7 +159,7 @@ impl Baseline<'_> {
         // Less than one, as no sensor is believed beyond its accuracy.
         let quiet = missing.setting.floors.iter().zip(&noise.outputs).map(|(floor, error)| floor / error);
         let quiet = quiet.sum::<f64>() / noise.outputs.len().max(1) as f64;
-        let held_out = held_out.map_or((0.0, 0), |(sums, added)| (added, sums.count - train.count));
+        let held_out = held_out.map_or((0.0, 0), |(sums, before)| (before.left, sums.count));
         in_shares(&mut [&mut named, &mut features], quiet, [(before.left, train.count), held_out]);
         Some(Compared {
             candidates,
@@ -234,7 +229,7 @@ fn is_possible(group: Group, amounts: &[f64], peaks: &[f64]) -> bool {
     !light && amounts.iter().zip(peaks).all(|(amount, peak)| amount.abs() * peak < CRITERIA.largest)
 }
 
-/// What is left of records with a candidate's amounts, nuisances being fitted to them.
+/// What is left of other records with a candidate's amounts, nuisances being fitted there.
 fn with_amounts(sums: &Sums, missing: &Missing<'_>, columns: &[usize], fitted: &Amounts) -> f64 {
     let known = missing.precisions.len();
     let mut moved = sums.clone();

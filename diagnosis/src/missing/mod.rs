@@ -13,6 +13,7 @@ mod look;
 pub mod motion;
 mod nominal;
 pub mod ports;
+mod start;
 pub mod trajectory;
 
 use std::ops::Range;
@@ -50,7 +51,7 @@ pub struct Missing<'a> {
     pub setting: Setting<'a>,
     /// The predictions about the trajectory.
     pub windows: Vec<Window>,
-    /// Laws of the parameter set.
+    /// Laws that go along the trajectory.
     stated: &'a [Law],
     /// What was known of each nuisance before: precisions of nominal parameters, then of the channels' timing, then of what was
     /// explained.
@@ -67,9 +68,9 @@ pub struct Frame {
     /// Whether those that nobody states may be off by decades.
     far: bool,
     dynamics: Box<dyn Dynamics>,
-    /// Laws of the parameter set.
+    /// Laws that go along the trajectory: of the parameter set, and those that were found and that the model has.
     stated: Vec<Law>,
-    /// Laws that were found.
+    /// Laws that were found and that another model has.
     found: Vec<Law>,
     ports: Vec<Port>,
     parameters: Vec<usize>,
@@ -149,7 +150,9 @@ impl Baseline<'_> {
         for term in found.iter().filter(|term| matches!(term, Term::Effect(_) | Term::Table(_))) {
             let handles: Vec<Unknown> = self.own_coordinates(*term).into_iter().map(|it| it.handle).collect();
             handles.iter().for_each(|handle| point.set(*handle, self.origin().get(*handle)));
-            laws.push(law(*term, handles)?);
+            // What a parameter switches on goes along as one that a parameter set states; the rest needs another model.
+            let of_this_model = matches!(term, Term::Effect(effect) if effect.setting.is_none());
+            if of_this_model { &mut stated } else { &mut laws }.push(law(*term, handles)?);
         }
         let mut parameters = self.rig.base();
         for (handle, _) in stated.iter().chain(&laws).flat_map(|it: &Law| &it.values) {
@@ -159,7 +162,7 @@ impl Baseline<'_> {
         Ok(Frame {
             records,
             point,
-            fresh: found.is_empty(),
+            fresh: true,
             far: false,
             dynamics: self.dynamics(&[])?,
             parameters,
@@ -225,6 +228,13 @@ impl Baseline<'_> {
             &frame.nominal,
             &frame.records,
         );
+        if setting.active.is_empty() {
+            return Err(
+                "the model does not run from its start, or no state of it shows in a measured output: without one, a \
+                 missing signal cannot be looked for. Measure another output"
+                    .into(),
+            );
+        }
         if let Some(errors) = about.errors {
             setting.noise = errors.to_vec();
         }

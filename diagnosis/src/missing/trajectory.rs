@@ -16,10 +16,6 @@ use super::ports::{Entry, Port};
 pub const MEMORY: f64 = 0.3;
 /// Samples over which the states that matter are looked for.
 const LOOK: usize = 400;
-/// Samples by which two starts of a stretch are compared.
-const FIRST: usize = 100;
-/// Time in which a rig comes to rest where its inputs do, in seconds: two periods of a body on its springs.
-const SETTLING: f64 = 2.0;
 /// Standard deviations of its noise to which a sensor is believed: what filters and even sampling do to a signal is as large.
 const BELIEVED: f64 = 2.0;
 /// Resolution of a signal without noise, in shares of its root mean square.
@@ -247,7 +243,12 @@ impl<'a> Setting<'a> {
     }
 
     /// An extended Kalman filter's way through some samples, and the states on it.
-    fn passed(&self, own: &Dataset, samples: &Range<usize>, start: &[f64]) -> (Vec<Passed>, Vec<Vec<f64>>) {
+    pub(super) fn passed(
+        &self,
+        own: &Dataset,
+        samples: &Range<usize>,
+        start: &[f64],
+    ) -> (Vec<Passed>, Vec<Vec<f64>>) {
         let drive = own.drive(samples, &self.point.inputs);
         let seeds = self.seeds(&drive);
         let wanted: Vec<usize> = own.measured.iter().map(|it| it.output).collect();
@@ -285,61 +286,6 @@ impl<'a> Setting<'a> {
         );
         (pass.passed, pass.whole)
     }
-
-    /// Where a stretch starts: at a given start, or where the model comes to rest under the inputs that it begins with. A wheel
-    /// that starts far above its road has left it, and no sensor shows where it is: of the two, the one from which the sensors
-    /// are predicted better.
-    fn start(&self, own: &Dataset, samples: &Range<usize>, given: &[f64]) -> Vec<f64> {
-        let first = samples.start..samples.end.min(samples.start + FIRST);
-        let surprise = |start: &[f64]| -> f64 {
-            let (passed, _) = self.passed(own, &first, start);
-            let each = passed.iter().flat_map(|it| &it.measured);
-            each.map(|(_, _, innovation, variance)| innovation * innovation / variance + variance.ln()).sum()
-        };
-        match self.at_rest(own, samples, given) {
-            Some(rest) if surprise(&rest) < surprise(given) => rest,
-            _ => given.to_vec(),
-        }
-    }
-
-    /// Where the model comes to rest under the inputs at the start of some samples; none if it does not, or is there already.
-    fn at_rest(&self, own: &Dataset, samples: &Range<usize>, start: &[f64]) -> Option<Vec<f64>> {
-        let mut drive = own.drive(&(samples.start..samples.end.min(samples.start + 2)), &self.point.inputs);
-        let steps = (SETTLING / own.step) as usize;
-        for (values, source) in drive.inputs.iter_mut().zip(&own.inputs) {
-            let value = if source.motion().is_some() { 0.0 } else { values[0] };
-            *values = vec![value; drive.finer * steps + 1];
-        }
-        let mut last = Last { halfway: steps / 2, ..Last::default() };
-        self.dynamics.followed(&self.point.parameters, start, &drive, (&[], &[]), &mut last);
-        let scale = |state: usize| self.nominal[state].abs().max(f64::MIN_POSITIVE);
-        let apart = |a: &[f64], b: &[f64]| {
-            a.iter().zip(b).enumerate().map(|(it, (a, b))| (a - b).abs() / scale(it)).fold(0.0, f64::max)
-        };
-        let moved = apart(&last.end, start);
-        (moved.is_finite() && moved > 0.0 && apart(&last.end, &last.middle) < 0.5 * moved).then_some(last.end)
-    }
-}
-
-/// The states halfway and at the end of a simulation.
-#[derive(Default)]
-struct Last {
-    halfway: usize,
-    middle: Vec<f64>,
-    end: Vec<f64>,
-}
-
-impl Follower for Last {
-    fn state(&mut self, _: usize, _: &mut [f64]) {}
-
-    fn seen(&mut self, sample: usize, _: Seen<'_>, state: &mut [f64]) {
-        if sample == self.halfway {
-            self.middle = state.to_vec();
-        }
-        self.end = state.to_vec();
-    }
-
-    fn advanced(&mut self, _: usize, _: &[f64], _: &[f64]) {}
 }
 
 fn magnitude(records: &[Dataset], row: usize) -> f64 {

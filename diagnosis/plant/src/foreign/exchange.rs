@@ -12,6 +12,9 @@ use tempfile::TempDir;
 use super::Foreign;
 use super::units::{Conversion, coherent};
 
+/// Share of its start value that a positive parameter without a lower bound has at least.
+const LEAST: f64 = 1e-6;
+
 /// A loaded FMU.
 pub struct Fmu {
     pub name: String,
@@ -162,6 +165,10 @@ impl Fmu {
         let parameters = self.parameters.iter_mut().zip(&self.of_parameters.conversions);
         for ((declared, conversion), value) in parameters.zip(values) {
             declared.start = conversion.si(value);
+            // A mass that would be zero ends some FMUs' process; few have bounds for it.
+            if declared.min.is_none() && declared.start > 0.0 {
+                declared.min = Some(LEAST * declared.start);
+            }
         }
         for ((declared, conversion), value) in self.states.iter_mut().zip(&self.of_states).zip(states) {
             declared.start = conversion.si(value);
@@ -240,13 +247,22 @@ impl Drop for Fmu {
 
 impl Drop for Session {
     fn drop(&mut self) {
-        self.fmu.release(self.instance);
+        // An instance that has failed is not used again.
+        match self.failed {
+            true => self.fmu.library.free(self.instance),
+            false => self.fmu.release(self.instance),
+        }
     }
 }
 
 impl Session {
-    /// Puts it at a time, with states and inputs in base units.
+    /// Puts it at a time, with states and inputs in base units. What is not a number is not handed over, and after a failure
+    /// nothing is asked any more: some FMUs abort the process that asks them nevertheless.
     pub fn place(&mut self, time: f64, states: &[f64], inputs: &[f64]) {
+        self.failed |= !states.iter().all(|it| it.is_finite());
+        if self.failed {
+            return;
+        }
         let (fmu, instance) = (&*self.fmu, self.instance);
         self.failed |= !fine(fmu.library.set_time(instance, fmu.start + time));
         if !states.is_empty() {
@@ -259,7 +275,8 @@ impl Session {
     /// Sets the inputs, in base units.
     pub fn drive(&mut self, inputs: &[f64]) {
         let access = &self.fmu.of_inputs;
-        if !inputs.is_empty() {
+        self.failed |= !inputs.iter().all(|it| it.is_finite());
+        if !inputs.is_empty() && !self.failed {
             own(&mut self.own, &access.conversions, inputs);
             self.failed |= !fine(self.fmu.library.set_reals(self.instance, &access.references, &self.own));
         }
@@ -267,7 +284,7 @@ impl Session {
 
     /// The rates of change of all states there, in base units; not a number after a failure.
     pub fn rates(&mut self, rates: &mut [f64]) {
-        if !rates.is_empty() {
+        if !rates.is_empty() && !self.failed {
             self.failed |= !fine(self.fmu.library.rates(self.instance, rates));
         }
         for (rate, conversion) in rates.iter_mut().zip(&self.fmu.of_states) {
@@ -278,7 +295,8 @@ impl Session {
     /// The outputs there, in base units; not a number after a failure.
     pub fn outputs(&mut self, outputs: &mut [f64]) {
         let access = &self.fmu.of_outputs;
-        self.failed |= !fine(self.fmu.library.reals(self.instance, &access.references, outputs));
+        self.failed =
+            self.failed || !fine(self.fmu.library.reals(self.instance, &access.references, outputs));
         for (output, conversion) in outputs.iter_mut().zip(&access.conversions) {
             *output = if self.failed { f64::NAN } else { conversion.si(*output) };
         }
@@ -289,7 +307,7 @@ impl Session {
         let access = &self.fmu.of_outputs;
         let mut value = [f64::NAN];
         let reference = &access.references[index..=index];
-        self.failed |= !fine(self.fmu.library.reals(self.instance, reference, &mut value));
+        self.failed = self.failed || !fine(self.fmu.library.reals(self.instance, reference, &mut value));
         if self.failed { f64::NAN } else { access.conversions[index].si(value[0]) }
     }
 
@@ -297,12 +315,15 @@ impl Session {
     pub fn settle(&mut self, states: &mut [f64]) -> bool {
         let (fmu, instance) = (&*self.fmu, self.instance);
         let mut event = false;
+        if self.failed {
+            return false;
+        }
         if !fmu.silent {
             let (status, wanted) = fmu.library.completed_step(instance);
             self.failed |= !fine(status);
             event = wanted;
         }
-        if fmu.indicators > 0 {
+        if fmu.indicators > 0 && !self.failed {
             let [now, before] = &mut self.indicators;
             self.failed |= !fine(fmu.library.array("fmi2GetEventIndicators", instance, now));
             event |= before.iter().zip(&*now).any(|(before, now)| (*before > 0.0) != (*now > 0.0));
