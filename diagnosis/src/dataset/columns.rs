@@ -109,3 +109,69 @@ fn is_count(values: &[f64]) -> bool {
     let rise = (last - first) / (values.len() - 1) as f64;
     values.iter().enumerate().all(|(k, value)| (value - first - rise * k as f64).abs() <= rise.abs())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(columns: &[(&str, Vec<f64>)]) -> Record {
+        let channel = |(name, values): &(&str, Vec<f64>)| Channel {
+            name: (*name).into(),
+            unit: String::new(),
+            values: values.clone(),
+        };
+        let time = (0..columns[0].1.len()).map(|k| 0.01 * k as f64).collect();
+        let channels = columns.iter().map(channel).collect();
+        Record { name: "run.csv".into(), time, channels, ..Record::default() }
+    }
+
+    #[test]
+    fn a_count_says_nothing_and_a_ramp_with_noise_does() {
+        let count: Vec<f64> = (0..50).map(|k| 7.0 + f64::from(k)).collect();
+        assert!(is_count(&count) && !is_count(&[1.0]));
+        let rough = count.iter().map(|it| it + 3.0 * (1.3 * it).sin()).collect::<Vec<_>>();
+        assert!(!is_count(&rough));
+        let time: Vec<f64> = (0..50).map(|k| 0.01 * f64::from(k)).collect();
+        let channel =
+            |name: &str, values: Vec<f64>| Channel { name: name.into(), unit: String::new(), values };
+        let kept = others(&time, vec![channel("Sample Number", count), channel("Temperature", rough)]);
+        assert_eq!(kept.iter().map(|it| it.name.as_str()).collect::<Vec<_>>(), ["Temperature"]);
+    }
+
+    #[test]
+    fn a_velocity_beside_a_position_that_is_mapped_has_its_sign() {
+        let rig = Rig::published("element-dyno").unwrap();
+        let position: Vec<f64> = (0..200).map(|k| (0.1 * f64::from(k)).sin()).collect();
+        let against: Vec<f64> = (0..200).map(|k| -10.0 * (0.1 * f64::from(k)).cos()).collect();
+        let columns = [("motion.position", position), ("motion.velocity", against.clone())];
+        let mut given = record(&columns);
+        let map = Map::parse("[signals]\n\"motion.position\" = \"Weg\"").unwrap();
+        let told = follow(&rig, &map, &mut given);
+        assert!(told.len() == 1 && told[0].text.contains("turned over"), "{told:?}");
+        assert!(given.channels[1].values.iter().zip(&against).all(|(turned, it)| *turned == -it));
+        // Now it goes with the position; and what the map names is taken as it is.
+        assert!(follow(&rig, &map, &mut given).is_empty());
+        let both =
+            Map::parse("[signals]\n\"motion.position\" = \"Weg\"\n\"motion.velocity\" = \"v\"").unwrap();
+        assert!(follow(&rig, &both, &mut record(&columns)).is_empty());
+        assert!(follow(&rig, &Map::default(), &mut record(&columns)).is_empty());
+    }
+
+    #[test]
+    fn seconds_that_no_rig_would_take_are_doubted() {
+        let read = |rate| RecordRead {
+            record: "run.csv".into(),
+            samples: 3000,
+            seconds: 3000.0 / rate,
+            rate,
+            columns: vec![],
+            unused: vec![],
+            left_out: vec![],
+            notes: vec![],
+        };
+        let assumed = Record { seconds_assumed: true, ..Record::default() };
+        let doubted = doubt(&assumed, &read(0.3)).unwrap();
+        assert!(doubted.fatal && doubted.text.contains("0.300 Hz for"), "{}", doubted.text);
+        assert!(doubt(&assumed, &read(100.0)).is_none() && doubt(&Record::default(), &read(0.3)).is_none());
+    }
+}

@@ -402,3 +402,31 @@ impl Problem for Fit<'_> {
         &self.bounds
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn half_and_double_are_equally_far_and_nothing_is_not_infinitely_far() {
+        let prior = Prior::Factor { mean: 350.0, deviation: 0.3 };
+        let [half, double] = [175.0, 700.0].map(|value| prior.distance(value).0);
+        assert!((half + double).abs() < 1e-12 && (double - 2.0_f64.ln() / 0.3).abs() < 1e-12);
+        assert!(prior.distance(0.0).0.is_finite() && prior.distance(-1.0).1 == 0.0);
+        assert_eq!(Prior::Value { mean: 1.0, deviation: 0.5 }.distance(2.0), (2.0, 2.0));
+        assert!(prior.is_vouched_for() && !Prior::Guess { mean: 1.0 }.is_vouched_for());
+    }
+
+    proptest! {
+        #[test]
+        fn the_slope_is_the_derivative(mean in 0.1_f64..1e3, share in 0.01_f64..20.0, deviation in 0.05_f64..3.0) {
+            for prior in [Prior::Factor { mean, deviation }, Prior::Guess { mean }, Prior::Value { mean, deviation }] {
+                let (at, by) = (share * mean, 1e-6 * share * mean);
+                let [low, high] = [at - by, at + by].map(|value| prior.distance(value).0);
+                let slope = prior.distance(at).1;
+                prop_assert!(((high - low) / (2.0 * by) / slope - 1.0).abs() < 1e-4);
+            }
+        }
+    }
+}

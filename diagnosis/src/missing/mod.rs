@@ -63,8 +63,6 @@ pub struct Frame {
     /// Estimation records, then validation records, freed of what sensors are known to do.
     records: Vec<Dataset>,
     point: Estimate,
-    /// Whether nominal parameters start from the data sheet.
-    fresh: bool,
     /// Whether those that nobody states may be off by decades.
     far: bool,
     dynamics: Box<dyn Dynamics>,
@@ -162,7 +160,6 @@ impl Baseline<'_> {
         Ok(Frame {
             records,
             point,
-            fresh: true,
             far: false,
             dynamics: self.dynamics(&[])?,
             parameters,
@@ -194,8 +191,7 @@ impl Baseline<'_> {
         precisions.extend(timing.iter().map(|_| (DELAY / TIMING).powi(2)));
         precisions.extend(frame.stated.iter().map(|_| TOLERANCE.powi(-2)));
         precisions.extend(frame.found.iter().map(|_| 0.0));
-        let point =
-            if frame.fresh { self.nominal_by_balance(&about, &precisions) } else { frame.point.clone() };
+        let point = self.nominal_by_balance(&about, &precisions);
         let (setting, windows) = self.along(&about, &point)?;
         let (records, train) = (&frame.records[..], self.train.len());
         let mut missing = Missing { records, train, stated: &frame.stated, setting, windows, precisions };

@@ -68,3 +68,63 @@ impl Follower for Last {
 
     fn advanced(&mut self, _: usize, _: &[f64], _: &[f64]) {}
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dataset::recorded::{Measured, Source};
+    use crate::estimation::fit::Estimate;
+    use crate::plant::{Between, Drive};
+    use crate::rig::Rig;
+    use crate::signal::distortion::Correction;
+
+    /// A car that stands on a road of 40 mm, and swings a little: from zero its tyre would hang in the air.
+    #[test]
+    fn a_stretch_starts_on_its_road() {
+        let rig = Rig::published("quarter-car").unwrap();
+        let plant = &rig.plant;
+        let dynamics = plant.prepare(&rig.choices).unwrap();
+        let [road, rate] = ["road.position", "road.velocity"].map(|name| plant.input(name).unwrap());
+        let step = 2.5e-3;
+        let height: Vec<f64> = (0..400).map(|k| 0.04 + 1e-3 * (0.05 * f64::from(k)).sin()).collect();
+        let inputs: Vec<Source> = (0..plant.inputs.len())
+            .map(|input| match input {
+                it if it == road => Source::Measured(height.clone()),
+                it if it == rate => Source::DerivativeOf(road),
+                _ => Source::Constant(0.0),
+            })
+            .collect();
+        let place = |name: &str| plant.states.iter().position(|it| it.name == name).unwrap();
+        let [body, wheel] = [place("body.position"), place("wheel.position")];
+        let mut there = rig.start.clone();
+        (there[body], there[wheel]) = (0.04, 0.04);
+        let mut record = Dataset {
+            name: String::new(),
+            step,
+            inputs,
+            between: Between::Lines,
+            measured: vec![],
+            others: vec![],
+            sections: std::iter::once(0..400).collect(),
+        };
+        let drive: Drive = record.drive(&(0..400), &vec![Correction::default(); plant.inputs.len()]);
+        let seen = dynamics.outputs(&rig.parameters, &there, &drive);
+        record.measured = ["body.acceleration", "wheel.acceleration"]
+            .map(|name| plant.outputs.iter().position(|it| it.name == name).unwrap())
+            .map(|output| Measured { output, values: seen[output].clone(), noise_floor: 1e-3 })
+            .to_vec();
+        let point = Estimate {
+            parameters: rig.parameters.clone(),
+            inputs: vec![Correction::default(); plant.inputs.len()],
+            outputs: vec![Correction::default(); plant.outputs.len()],
+            starts: vec![],
+        };
+        let nominal: Vec<f64> = plant.states.iter().map(|it| it.nominal.unwrap_or(1.0)).collect();
+        let records = [record];
+        let setting = Setting::new(&*dynamics, (&point, &rig.start), &[], &[], &nominal, &records);
+        let start = setting.start(&records[0], &(0..400), &rig.start);
+        assert!((start[body] - 0.04).abs() < 2e-3 && (start[wheel] - 0.04).abs() < 1e-3, "{start:?}");
+        // A start that predicts the sensors better is kept.
+        assert_eq!(setting.start(&records[0], &(0..400), &there), there);
+    }
+}

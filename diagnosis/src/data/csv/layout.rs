@@ -164,7 +164,7 @@ fn uncommented(row: &StringRecord) -> StringRecord {
         if plain.is_empty() && *first != plain {
             cells.remove(0);
         } else {
-            *first = plain
+            *first = plain;
         }
     }
     let mut plain = StringRecord::from(cells);

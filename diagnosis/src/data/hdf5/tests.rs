@@ -8,7 +8,7 @@ const GROUPS: &[u8] = include_bytes!("../../../tests/data/groups.h5");
 fn what_hdf5storage_and_h5py_write() {
     for (bytes, titles) in [(MATLAB, ["counts", "force"]), (GROUPS, ["counts [mm]", "force [kN]"])] {
         let record = parse("run", bytes, &Reading::default()).unwrap();
-        assert_eq!(record.channels.iter().map(|it| it.title()).collect::<Vec<_>>(), titles);
+        assert_eq!(record.channels.iter().map(crate::data::Channel::title).collect::<Vec<_>>(), titles);
         assert_eq!(record.time.len(), 50);
         for k in 0..50 {
             let force = 100.0 * (std::f64::consts::TAU * 0.01 * k as f64).sin();

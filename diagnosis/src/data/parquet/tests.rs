@@ -11,7 +11,10 @@ fn force(k: usize) -> f64 {
 #[test]
 fn what_pandas_writes() {
     let record = parse("run.parquet", PANDAS, &Reading::default()).unwrap();
-    assert_eq!(record.channels.iter().map(|it| it.title()).collect::<Vec<_>>(), ["force [N]", "counts"]);
+    assert_eq!(
+        record.channels.iter().map(crate::data::Channel::title).collect::<Vec<_>>(),
+        ["force [N]", "counts"]
+    );
     assert_eq!(record.unread[0].why, "row 1 holds no number");
     for k in 0..50 {
         assert_eq!(record.channels[1].values[k], (k * 37 % 200) as f64 - 100.0);

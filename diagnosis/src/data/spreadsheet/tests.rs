@@ -23,7 +23,7 @@ fn the_first_sheet_with_a_table_below_what_a_logger_writes() {
     let record = read(EXCEL, None);
     verify(&record);
     assert_eq!(
-        record.channels.iter().map(|it| it.title()).collect::<Vec<_>>(),
+        record.channels.iter().map(crate::data::Channel::title).collect::<Vec<_>>(),
         ["Force [lbf]", "Counts [mm]"]
     );
     assert_eq!(record.unread[0].why, "`start` in line 5 is not a number: leave missing samples empty");
