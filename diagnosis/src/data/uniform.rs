@@ -135,6 +135,8 @@ struct Grid {
     length: usize,
     /// The grid point of each sample, if all are on the grid.
     places: Option<Vec<usize>>,
+    /// How far the stamps are spread about the grid, in seconds.
+    spread: f64,
 }
 
 impl Grid {
@@ -173,18 +175,18 @@ impl Grid {
                 });
             let allowed =
                 (2.0 * ON_GRID * step).max(if 2.0 * rounding < step { ROUNDED * rounding } else { 0.0 });
-            (high - low <= allowed).then_some((0.5 * (low + high), step))
+            (high - low <= allowed).then_some((0.5 * (low + high), step, high - low))
         });
         Ok(match on_grid {
-            Some((start, step)) => {
+            Some((start, step, spread)) => {
                 // Rounding of the stamps is no reason for a start of 1e-17 s.
                 let start = if (start - first).abs() < 1e-9 * step { first } else { start };
-                Self { start, step, length: places[places.len() - 1] + 1, places: Some(places) }
+                Self { start, step, length: places[places.len() - 1] + 1, places: Some(places), spread }
             }
             None => {
                 let step = snap(period).unwrap_or(period);
                 let length = ((last - first) / step * (1.0 + 1e-12)) as usize + 1;
-                Self { start: first, step, length, places: None }
+                Self { start: first, step, length, places: None, spread: f64::INFINITY }
             }
         })
     }
@@ -228,8 +230,8 @@ impl Grid {
 pub(crate) fn rounded_clock(record: &Record) -> Option<(f64, f64)> {
     let digit = rounding(&record.time);
     let grid = Grid::of(record).ok()?;
-    let matters = digit > 2.0 * ON_GRID * grid.step && 2.0 * digit < grid.step;
-    (grid.places.is_some() && matters).then_some((grid.step, digit))
+    let uneven = grid.spread > 2.0 * ON_GRID * grid.step;
+    (grid.places.is_some() && uneven).then_some((grid.step, digit))
 }
 
 /// The last digit of printed times, in seconds: the largest power of ten of which all are multiples. Zero if it is

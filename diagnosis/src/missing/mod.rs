@@ -224,10 +224,10 @@ impl Baseline<'_> {
             &frame.nominal,
             &frame.records,
         );
-        if setting.active.is_empty() {
+        if setting.active.is_empty() && setting.ports.iter().all(Port::is_sensor) {
             return Err(
-                "the model does not run from its start, or no state of it shows in a measured output: without one, a \
-                 missing signal cannot be looked for. Measure another output"
+                "the model does not run from its start, or no state of it shows in a measured output: a missing signal cannot \
+                 be looked for without a state or an element. Measure another output"
                     .into(),
             );
         }
