@@ -161,8 +161,9 @@ def diagnose(
 ) -> Diagnosis:
     """Estimates from records what the rig's model lacks: where, how much, and which known effect explains it.
 
-    :param train: Estimation data: a path (CSV, Excel, MDF 4, MATLAB, HDF5, Parquet), a frame of pandas or polars, or a list of them. Columns
-        are called as the rig's signals, with units in brackets: ``"suspension.deflection [mm]"``. Without a unit, SI.
+    :param train: Estimation data: a path (CSV, Excel, MDF 4, MATLAB, HDF5, Parquet), a frame of pandas or polars, or a list
+        of them. Columns are called as the rig's signals, with units in brackets: ``"suspension.deflection [mm]"``. Without a
+        unit, SI.
     :param test: Validation data, of another excitation.
     :param rig: A name of :func:`rigs`.
     :param parameters: Parameter set (TOML) of the starting model in place of the rig's.
