@@ -66,9 +66,9 @@ pub struct Frame {
     /// Whether those that nobody states may be off by decades.
     far: bool,
     dynamics: Box<dyn Dynamics>,
-    /// Laws that go along the trajectory: of the parameter set, and those that were found and that the model has.
+    /// Laws that go along the trajectory: those of the parameter set, and friction that was found.
     stated: Vec<Law>,
-    /// Laws that were found and that another model has.
+    /// Other laws that were found.
     found: Vec<Law>,
     ports: Vec<Port>,
     parameters: Vec<usize>,
@@ -148,9 +148,9 @@ impl Baseline<'_> {
         for term in found.iter().filter(|term| matches!(term, Term::Effect(_) | Term::Table(_))) {
             let handles: Vec<Unknown> = self.own_coordinates(*term).into_iter().map(|it| it.handle).collect();
             handles.iter().for_each(|handle| point.set(*handle, self.origin().get(*handle)));
-            // What a parameter switches on goes along as one that a parameter set states; the rest needs another model.
-            let of_this_model = matches!(term, Term::Effect(effect) if effect.setting.is_none());
-            if of_this_model { &mut stated } else { &mut laws }.push(law(*term, handles)?);
+            // Friction goes along as if a parameter set stated it: within the trajectory's accuracy it may have either sign.
+            let is_friction = matches!(term, Term::Effect(effect) if effect.is_friction());
+            if is_friction { &mut stated } else { &mut laws }.push(law(*term, handles)?);
         }
         let mut parameters = self.rig.base();
         for (handle, _) in stated.iter().chain(&laws).flat_map(|it: &Law| &it.values) {
