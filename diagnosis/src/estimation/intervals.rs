@@ -28,6 +28,9 @@ const EXCITATIONS: usize = 4;
 /// Share of the rise of the cost that a derivative promises over half an interval, below which the derivative tells nothing: near
 /// a limit of its own, a law's may be infinite.
 const BORNE_OUT: f64 = 0.01;
+/// Standard deviation that the data leave of what was known before, in that, from which they tell a coordinate only together with
+/// others: a scale that six parameters share leaves two fifths.
+const OPEN: f64 = 0.1;
 /// Variance that the values of a parameter set bring, over that of the data, from which a coordinate is mostly theirs.
 const FROM_SET: f64 = 3.0;
 /// Quantile of the normal distribution for 95 % within.
@@ -110,7 +113,10 @@ impl Baseline<'_> {
             let twins = twins[index].clone();
             let mut half_of_data = variance.sqrt();
             let of = |known: &DMatrix<f64>| NORMAL.powi(2) * known[(index, index)].max(0.0);
-            let from_parameter_set = of(&before) > FROM_SET * variance;
+            // Of what was known before, the data have to leave some uncertainty, too.
+            let slope = coordinate.prior.map_or(f64::INFINITY, |it| it.distance(value).1);
+            let is_open = before[(index, index)].sqrt() * slope > OPEN;
+            let from_parameter_set = of(&before) > FROM_SET * variance && is_open;
             let mut half = (variance + of(&vouched_for)).sqrt();
             if amounts.contains(&handle) && half.is_finite() {
                 let step = if value + half <= bounds.1 { half } else { -half };

@@ -247,11 +247,7 @@ impl Drop for Fmu {
 
 impl Drop for Session {
     fn drop(&mut self) {
-        // An instance that has failed is not used again.
-        match self.failed {
-            true => self.fmu.library.free(self.instance),
-            false => self.fmu.release(self.instance),
-        }
+        self.fmu.release(self.instance);
     }
 }
 
