@@ -15,7 +15,7 @@ pub(super) struct Vector {
 /// another has it too.
 ///
 /// # Errors
-/// There is none, or two of one name.
+/// The file has no vectors, or two of one name.
 pub(super) fn table(file: &str, mut vectors: Vec<Vector>) -> Result<Table, DataError> {
     let length = vectors
         .iter()

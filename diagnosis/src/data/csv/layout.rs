@@ -31,7 +31,7 @@ impl Layout {
     /// Looks for the table. `skip` is the number of lines above the row of names, where somebody gives it.
     ///
     /// # Errors
-    /// There is none: what is missing and what to do.
+    /// The text has no table, or no row that names its columns: the message says what to do.
     pub fn find(file: &str, text: &str, skip: Option<usize>) -> Result<Self, DataError> {
         let heads = SEPARATORS.map(|separator| (separator, head(text, separator)));
         let tables = heads.iter().filter_map(|(separator, rows)| {
