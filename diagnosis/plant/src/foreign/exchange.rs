@@ -56,6 +56,8 @@ pub struct Session {
     own: Vec<f64>,
     indicators: [Vec<f64>; 2],
     failed: bool,
+    /// Whether a state or an input where it was put is not a number.
+    is_nowhere: bool,
 }
 
 impl std::fmt::Debug for Fmu {
@@ -234,7 +236,14 @@ impl Fmu {
             return None;
         }
         let indicators = [vec![0.0; self.indicators], Vec::new()];
-        Some(Session { fmu: self.clone(), instance, own: Vec::new(), indicators, failed: false })
+        Some(Session {
+            fmu: self.clone(),
+            instance,
+            own: Vec::new(),
+            indicators,
+            failed: false,
+            is_nowhere: false,
+        })
     }
 }
 
@@ -247,16 +256,25 @@ impl Drop for Fmu {
 
 impl Drop for Session {
     fn drop(&mut self) {
-        self.fmu.release(self.instance);
+        // Some FMUs crash where an instance that has failed is used again.
+        match self.failed {
+            true => self.fmu.library.free(self.instance),
+            false => self.fmu.release(self.instance),
+        }
     }
 }
 
 impl Session {
-    /// Puts it at a time, with states and inputs in base units. What is not a number is not handed over, and after a failure
-    /// nothing is asked any more: some FMUs abort the process that asks them nevertheless.
+    /// Whether nothing is asked of it: after a failure, and where it was put at what is not a number. Some FMUs abort the process
+    /// that asks them nevertheless.
+    fn is_silent(&self) -> bool {
+        self.failed || self.is_nowhere
+    }
+
+    /// Puts it at a time, with states and inputs in base units.
     pub fn place(&mut self, time: f64, states: &[f64], inputs: &[f64]) {
-        self.failed |= !states.iter().all(|it| it.is_finite());
-        if self.failed {
+        self.is_nowhere = !states.iter().all(|it| it.is_finite());
+        if self.is_silent() {
             return;
         }
         let (fmu, instance) = (&*self.fmu, self.instance);
@@ -271,8 +289,8 @@ impl Session {
     /// Sets the inputs, in base units.
     pub fn drive(&mut self, inputs: &[f64]) {
         let access = &self.fmu.of_inputs;
-        self.failed |= !inputs.iter().all(|it| it.is_finite());
-        if !inputs.is_empty() && !self.failed {
+        self.is_nowhere |= !inputs.iter().all(|it| it.is_finite());
+        if !inputs.is_empty() && !self.is_silent() {
             own(&mut self.own, &access.conversions, inputs);
             self.failed |= !fine(self.fmu.library.set_reals(self.instance, &access.references, &self.own));
         }
@@ -280,21 +298,22 @@ impl Session {
 
     /// The rates of change of all states there, in base units; not a number after a failure.
     pub fn rates(&mut self, rates: &mut [f64]) {
-        if !rates.is_empty() && !self.failed {
+        if !rates.is_empty() && !self.is_silent() {
             self.failed |= !fine(self.fmu.library.rates(self.instance, rates));
         }
         for (rate, conversion) in rates.iter_mut().zip(&self.fmu.of_states) {
-            *rate = if self.failed { f64::NAN } else { conversion.si_rate(*rate) };
+            *rate = if self.is_silent() { f64::NAN } else { conversion.si_rate(*rate) };
         }
     }
 
     /// The outputs there, in base units; not a number after a failure.
     pub fn outputs(&mut self, outputs: &mut [f64]) {
         let access = &self.fmu.of_outputs;
-        self.failed =
-            self.failed || !fine(self.fmu.library.reals(self.instance, &access.references, outputs));
+        if !self.is_silent() {
+            self.failed |= !fine(self.fmu.library.reals(self.instance, &access.references, outputs));
+        }
         for (output, conversion) in outputs.iter_mut().zip(&access.conversions) {
-            *output = if self.failed { f64::NAN } else { conversion.si(*output) };
+            *output = if self.is_silent() { f64::NAN } else { conversion.si(*output) };
         }
     }
 
@@ -303,15 +322,17 @@ impl Session {
         let access = &self.fmu.of_outputs;
         let mut value = [f64::NAN];
         let reference = &access.references[index..=index];
-        self.failed = self.failed || !fine(self.fmu.library.reals(self.instance, reference, &mut value));
-        if self.failed { f64::NAN } else { access.conversions[index].si(value[0]) }
+        if !self.is_silent() {
+            self.failed |= !fine(self.fmu.library.reals(self.instance, reference, &mut value));
+        }
+        if self.is_silent() { f64::NAN } else { access.conversions[index].si(value[0]) }
     }
 
     /// Completes a step and handles an event there; whether there was one, so that states and rates may have jumped.
     pub fn settle(&mut self, states: &mut [f64]) -> bool {
         let (fmu, instance) = (&*self.fmu, self.instance);
         let mut event = false;
-        if self.failed {
+        if self.is_silent() {
             return false;
         }
         if !fmu.silent {
