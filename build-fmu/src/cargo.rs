@@ -6,6 +6,7 @@ use std::io::{BufReader, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use cargo_metadata::camino::Utf8Path;
 use cargo_metadata::{CrateType, Message, Metadata, MetadataCommand};
 
 use crate::failure::{Failure, Result, similar};
@@ -64,11 +65,16 @@ pub fn workspace_manifest() -> Option<PathBuf> {
 /// The libraries of packages, by package name.
 pub type Libraries = BTreeMap<String, PathBuf>;
 
-/// Builds the shared libraries of packages by a toolchain, in one go.
+/// Builds the shared libraries of packages by a toolchain, in one go, in a target folder.
 ///
 /// # Errors
 /// If a package is missing or the build fails.
-pub fn build(metadata: &Metadata, packages: &[String], toolchain: &Toolchain) -> Result<Libraries> {
+pub fn build(
+    metadata: &Metadata,
+    packages: &[String],
+    toolchain: &Toolchain,
+    target: &Utf8Path,
+) -> Result<Libraries> {
     for package in packages {
         if !metadata.packages.iter().any(|other| other.name.as_str() == package) {
             let names = metadata.packages.iter().map(|package| package.name.as_str());
@@ -86,7 +92,7 @@ pub fn build(metadata: &Metadata, packages: &[String], toolchain: &Toolchain) ->
     let mut command = Command::new(program());
     command.arg(toolchain.subcommand());
     command.args(SHIPPED).args(["--lib", "--message-format=json-render-diagnostics", "--manifest-path"]);
-    command.arg(metadata.workspace_root.join("Cargo.toml"));
+    command.arg(metadata.workspace_root.join("Cargo.toml")).arg("--target-dir").arg(target);
     for package in packages {
         command.args(["--package", package]);
     }

@@ -151,7 +151,14 @@ impl<'a> Origin<'a> {
         let Found { platform, mut libraries, missing, toolchain } = found;
         // Told of no package, cargo would build the workspace.
         if !missing.is_empty() {
-            libraries.extend(cargo::build(self.metadata()?, &missing, &toolchain)?);
+            let metadata = self.metadata()?;
+            let target = match self.project.source {
+                Source::Workspace { .. } => metadata.target_directory.clone(),
+                // The packager links the crate's Rust library. A shared library that is built beside it takes its place, as
+                // cargo gives both one name, and the next packager is not compiled.
+                Source::Package { .. } => metadata.target_directory.join("build-fmu/libraries"),
+            };
+            libraries.extend(cargo::build(metadata, &missing, &toolchain, &target)?);
         }
         Ok((platform, libraries))
     }
