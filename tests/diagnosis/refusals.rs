@@ -29,11 +29,7 @@ const REFUSED: &[Refused] = &[
     Refused {
         name: "a record with a word among its numbers",
         arguments: &["--rig", RIG, "--train", "@good.csv", "--test", "@word.csv"],
-        says: &[
-            "word.csv, line 3, column 2",
-            "`much` in `road.position` is not a number",
-            "leave missing samples empty",
-        ],
+        says: &["word.csv, road.position: `much` in line 3 is not a number: leave missing samples empty"],
     },
     Refused {
         name: "an unknown rig",

@@ -268,7 +268,10 @@ impl Map {
                 plain(column) == plain(name) || without_unit.is_some_and(|it| it == plain(name))
             };
             if let Some(unread) = record.unread.iter().find(|it| called(&it.name)) {
-                let text = format!("this is `{}`, but {}", wanted.name, unread.why);
+                let text = match unread.name == wanted.name {
+                    true => unread.why.clone(),
+                    false => format!("this is `{}`, but {}", wanted.name, unread.why),
+                };
                 return Err(DataError::signal(&record.name, &unread.name, text));
             }
             if let Some(index) = only(record, wanted, None, |column| called(&column.name))? {

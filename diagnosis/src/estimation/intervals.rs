@@ -119,11 +119,16 @@ impl Baseline<'_> {
             let from_parameter_set = of(&before) > FROM_SET * variance && is_open;
             let mut half = (variance + of(&vouched_for)).sqrt();
             if amounts.contains(&handle) && half.is_finite() {
-                let step = if value + half <= bounds.1 { half } else { -half };
-                let mut moved = fitted.point.clone();
-                moved.set(handle, value + step);
                 let promised = 0.5 * (norms[index] * half).powi(2);
-                if fit.cost(&moved) - fitted.cost < BORNE_OUT * promised {
+                // On either side: on one, the integration may take other steps, and the cost may jump with that.
+                let borne_out = [value - half, value + half].into_iter().any(|moved| {
+                    let mut point = fitted.point.clone();
+                    point.set(handle, moved);
+                    bounds.0 <= moved
+                        && moved <= bounds.1
+                        && fit.cost(&point) - fitted.cost >= BORNE_OUT * promised
+                });
+                if !borne_out {
                     (half, half_of_data) = (f64::INFINITY, f64::INFINITY);
                 }
             }

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use crate::Drive;
-use crate::pace::{LONGEST_STEP, MOST_STEPS, STABLE};
+use crate::pace::{ACCURATE, LONGEST_STEP, MOST_STEPS};
 
 use super::beside::{Beside, Set};
 use super::exchange::Session;
@@ -124,6 +124,6 @@ impl<'a> Walk<'a> {
         let finite = jacobian.iter().all(|it| it.is_finite());
         let eigenvalues = (finite && states > 0).then(|| jacobian.complex_eigenvalues());
         let fastest = eigenvalues.map_or(0.0, |all| all.iter().map(|it| it.norm()).fold(0.0, f64::max));
-        (drive.step * (fastest / STABLE).max(1.0 / LONGEST_STEP)).ceil().clamp(1.0, MOST_STEPS) as usize
+        (drive.step * (fastest / ACCURATE).max(1.0 / LONGEST_STEP)).ceil().clamp(1.0, MOST_STEPS) as usize
     }
 }
