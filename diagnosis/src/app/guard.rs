@@ -14,6 +14,8 @@ use crate::rig::{Kind, MADE, fmu_of, is_fmu, is_manifest};
 /// In the process that runs the FMU: the file that its output goes to. Its own standard output is the FMU's, of which some
 /// print there.
 const INSIDE: &str = "STRUT_RUNS_FMU";
+/// In the same process: the number of threads of everything that runs in parallel.
+const THREADS: &str = "RAYON_NUM_THREADS";
 /// How much longer than the time limit the process may live: the report and the page are written afterwards.
 const GRACE: Duration = Duration::from_secs(60);
 
@@ -28,7 +30,17 @@ pub fn elsewhere(arguments: &Arguments) -> Option<ExitCode> {
         Ok(fmu) => fmu,
         Err(text) => return Some(failed(&text)),
     };
-    Some(match run(&fmu, limit.saturating_add(GRACE)) {
+    let limit = limit.saturating_add(GRACE);
+    let mut end = run(&fmu, limit, None);
+    // Libraries of some exporters keep global state, though they allow several instances.
+    let several = arguments.diagnosis.as_ref().is_some_and(|it| it.jobs.is_none());
+    if several && end.as_ref().is_ok_and(|it| it.code().is_none()) {
+        eprintln!(
+            "note: the FMU crashed while several threads used it; trying once more with one thread, as `--jobs 1` does"
+        );
+        end = run(&fmu, limit, Some(1));
+    }
+    Some(match end {
         Ok(status) => match told(status, &fmu) {
             None => ExitCode::from(u8::try_from(status.code().unwrap_or(1)).unwrap_or(1)),
             Some(text) => failed(&text),
@@ -68,13 +80,14 @@ fn failed(text: &str) -> ExitCode {
     ExitCode::FAILURE
 }
 
-/// This very command line in another process; its end.
-fn run(fmu: &Path, limit: Duration) -> Result<ExitStatus, String> {
+/// This very command line in another process, with so many threads; its end.
+fn run(fmu: &Path, limit: Duration, threads: Option<usize>) -> Result<ExitStatus, String> {
     let started = |error: std::io::Error| format!("cannot start a process for the FMU: {error}");
     let program = env::current_exe().map_err(started)?;
     let told = tempfile::NamedTempFile::new().map_err(started)?;
     let mut command = Command::new(program);
     command.args(env::args_os().skip(1)).env(INSIDE, told.path()).env(MADE, fmu).stdout(Stdio::null());
+    command.envs(threads.map(|number| (THREADS, number.to_string())));
     let end = command.spawn().map_err(started).and_then(|mut child| ended(&mut child, limit));
     // Whoever closed the pipe has read enough; what was not written has its error in the other process.
     let _ = std::io::copy(&mut told.as_file(), &mut std::io::stdout());

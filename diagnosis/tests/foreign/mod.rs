@@ -95,6 +95,22 @@ fn nothing_is_found_beside_the_fmu_where_nothing_is_hidden() {
 }
 
 #[test]
+fn an_fmu_that_cannot_be_used_by_several_threads_is_used_by_one() {
+    if LIBRARY.is_none() {
+        return println!("skipped: FMI 2.0 has no name for this platform that this test knows");
+    }
+    if std::thread::available_parallelism().is_ok_and(|it| it.get() < 2) {
+        return println!("skipped: there is only one processor");
+    }
+    let (folder, rig) = rig(&["-DALONE"], |text| text);
+    let (train, test) = records("none", folder.path());
+    let output = diagnosed(&rig, (&train, &test), &folder.path().join("report"));
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && told.contains("once more with one thread"), "{told}");
+    assert!(String::from_utf8_lossy(&output.stdout).contains("NO EFFECT"));
+}
+
+#[test]
 fn what_a_rig_file_and_its_fmu_lack_is_told_at_once() {
     if LIBRARY.is_none() {
         return println!("skipped: FMI 2.0 has no name for this platform that this test knows");

@@ -1,6 +1,7 @@
 /* A quarter car as somebody else would export it: FMI 2.0, model exchange, written by hand, with names, units and signs of
  * its own. The deflection comes in millimetres. It has no friction, no stops, nothing of a catalogue. */
 #include <math.h>
+#include <sched.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -94,8 +95,17 @@ Status fmi2GetDerivatives(void *m, double *rates, size_t n) {
 #ifdef NOT_A_NUMBER
     ((Model *)m)->r[K_S] = NAN;
 #endif
+#ifdef ALONE
+    /* As libraries with global state: one instance at a time. */
+    static int inside;
+    if (__atomic_fetch_add(&inside, 1, __ATOMIC_SEQ_CST)) abort();
+    sched_yield();
+#endif
     equations(m);
     memcpy(rates, ((Model *)m)->r + DX, n * sizeof *rates);
+#ifdef ALONE
+    __atomic_fetch_sub(&inside, 1, __ATOMIC_SEQ_CST);
+#endif
     return OK;
 }
 Status fmi2GetEventIndicators(void *m, double *indicators, size_t n) { return n ? ERROR : OK; }
