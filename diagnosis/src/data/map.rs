@@ -110,7 +110,7 @@ enum Found {
 pub struct Wanted {
     /// The model's name.
     pub name: String,
-    /// The model's unit, SI.
+    /// The model's unit, SI; empty where the model states none.
     pub unit: String,
     /// Other names that a column may have; with a leading `-` the column is its negative.
     pub aliases: Vec<String>,
@@ -122,6 +122,14 @@ impl Wanted {
         std::iter::once(&self.name)
             .chain(&self.aliases)
             .map(|name| name.strip_prefix('-').map_or((name.as_str(), 1.0), |name| (name, -1.0)))
+    }
+
+    /// How a value in a column's unit becomes the model's. A model that states no unit counts in those of the SI.
+    fn conversion(&self, unit: &str) -> Result<units::Conversion, String> {
+        match self.unit.is_empty() {
+            true => units::si(unit).map(|(conversion, _)| conversion),
+            false => units::conversion(unit, &self.unit),
+        }
     }
 }
 
@@ -294,7 +302,7 @@ fn only(
         (0..record.channels.len()).filter(|it| called(&record.channels[*it])).collect();
     let fits = |index: &&usize| {
         let unit = unit.unwrap_or(&record.channels[**index].unit).trim();
-        unit.is_empty() || units::conversion(unit, &wanted.unit).is_ok()
+        unit.is_empty() || wanted.conversion(unit).is_ok()
     };
     let fitting: Vec<&usize> = of_the_name.iter().filter(fits).collect();
     if let [one, other, ..] = fitting[..] {
@@ -333,7 +341,7 @@ fn converted(
     let header = Some(column.unit.trim()).filter(|unit| !unit.is_empty());
     let suffix = || units::split_suffix(&column.name, &wanted.unit).map(|(_, unit)| unit);
     let unit = source.unit.as_deref().or(header).or_else(suffix);
-    let conversion = units::conversion(unit.unwrap_or(&wanted.unit), &wanted.unit).map_err(|problem| {
+    let conversion = wanted.conversion(unit.unwrap_or(&wanted.unit)).map_err(|problem| {
         let text = format!(
             "{problem}: `{}` is wanted in {}; correct the header, or give the column's unit in the map",
             wanted.name, wanted.unit

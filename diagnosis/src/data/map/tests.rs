@@ -20,6 +20,14 @@ fn wanted(name: &str, unit: &str, aliases: &[&str]) -> Wanted {
     Wanted { name: name.into(), unit: unit.into(), aliases }
 }
 
+#[test]
+fn a_model_without_units_counts_in_those_of_the_si() {
+    let record =
+        crate::data::parse("run.csv", b"t [s],z [mm]\n0,0\n1,1\n2,2\n", &Reading::default()).unwrap();
+    let mapped = Map::default().apply(record, &[wanted("z", "", &[])]).unwrap();
+    assert_eq!(mapped.record.channels[0].values, [0.0, 1e-3, 2e-3]);
+}
+
 const RAMP: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
 
 fn error(map: &str, record: Record, wanted: &[Wanted]) -> String {
