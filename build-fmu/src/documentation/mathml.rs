@@ -73,9 +73,10 @@ fn word(rest: &str) -> usize {
     if first == "a" && follows.len() > 1 && letters(follows) > 1 && word(follows) > 0 {
         return end;
     }
-    let symbol = first.chars().count() < 2 || greek(first).is_some();
-    if symbol || ["sum", "ln"].contains(&first) || first.chars().count() == 2 && rest[end..].starts_with('_')
-    {
+    let length = first.chars().count();
+    let capital = length == 2 && first.starts_with(char::is_uppercase);
+    let symbol = length < 2 || capital || greek(first).is_some();
+    if symbol || ["sum", "ln"].contains(&first) || length == 2 && rest[end..].starts_with('_') {
         return 0;
     }
     while inner(&rest[end..]) {
@@ -160,6 +161,7 @@ mod tests {
         is_set("<x - 1>", "<mo>⟨</mo><mi>x</mi><mo>−</mo><mn>1</mn><mo>⟩</mo>");
         is_set("a <= -b", "<mi>a</mi><mo>≤</mo><mo>−</mo><mi>b</mi>");
         is_set("4e13 u", "<mn>4</mn><mo>×</mo><msup><mn>10</mn><mn>13</mn></msup><mi>u</mi>");
+        is_set("max( , 0)", "<mi>max</mi><mo>(</mo><mi>·</mi><mo>,</mo><mn>0</mn><mo>)</mo>");
         is_set("sum F_i", "<mo>∑</mo><msub><mi>F</mi><mi>i</mi></msub>");
         let row = |a, b| format!("<mtr><mtd><mi>{a}</mi></mtd><mtd><mi>{b}</mi></mtd></mtr>");
         is_set(

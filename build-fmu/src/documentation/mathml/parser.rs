@@ -172,7 +172,7 @@ impl<'a> Parser<'a> {
                     @if index > 0 { mo { ";" } }
                     @for (index, cell) in row.iter().enumerate() {
                         @if index > 0 { mo { "," } }
-                        (line(cell, false))
+                        @if cell.is_empty() && row.len() > 1 { mi { "·" } } @else { (line(cell, false)) }
                     }
                 }
             }

@@ -21,7 +21,9 @@ impl Parser<'_> {
             '(' => self.group(depth, ')'),
             '[' => self.group(depth, ']'),
             '|' => self.group(depth, '|'),
-            '<' if self.take("< >") => Node::operand(html! { mo { "⟨" } mo { "⟩" } }, Kind::Compound),
+            '<' if self.take("< >") => {
+                Node::operand(html! { mrow { mo { "⟨" } mi { "·" } mo { "⟩" } } }, Kind::Compound)
+            }
             '<' if !self.rest()[1..].starts_with([' ', '=']) => self.group(depth, '>'),
             '.' if self.rest().starts_with("..") => {
                 self.take_while(|sign| sign == '.');
