@@ -135,7 +135,10 @@ fn sources(page: &Page) -> Markup {
                 ul {
                     @for work in cited {
                         @let [authors, title, rest] = work.parts();
-                        li { strong { (work.key) } ": " (authors) em { (title) } (rest) }
+                        li {
+                            strong { (work.key) } ": " (authors) em { (title) } (rest)
+                            @if let Some((doi, address)) = work.doi() { ". " a href=(address) { (doi) } }
+                        }
                     }
                 }
             }

@@ -31,10 +31,18 @@ impl Work {
         [Some(who.as_str()), self.field("year")].into_iter().flatten().collect::<Vec<_>>().join(" ")
     }
 
-    /// In Markdown: authors, title, where it appeared, and when.
+    /// In Markdown: authors, title, where it appeared, when, and its DOI.
     pub fn listed(&self) -> String {
         let [authors, title, rest] = self.parts();
-        format!("{authors}*{title}*{rest}")
+        let link = self.doi().map_or_else(String::new, |(doi, address)| format!(". [{doi}]({address})"));
+        format!("{authors}*{title}*{rest}{link}")
+    }
+
+    /// The DOI as it is written, and the address that it leads to.
+    pub fn doi(&self) -> Option<(String, String)> {
+        let doi = self.field("doi")?;
+        let address = doi.replace('(', "%28").replace(')', "%29");
+        Some((format!("doi:{doi}"), format!("https://doi.org/{address}")))
     }
 
     /// What stands before the title, the title, and what stands behind it.
@@ -82,12 +90,15 @@ mod tests {
     fn a_work_is_cited_by_its_authors_and_its_year() {
         let list = "@book{One,\n  author = {Solo, A. B.},\n  title = {A Book},\n  publisher = {House},\n  year = {1999}\n}\n\
                     @article{Two,\n  author = {Uno, A. and Due, B.},\n  title = {On it},\n  journal = {J},\n  volume = {3},\n  \
-                    year = {2001}\n}\n@manual{None,\n  title = {Guide}\n}\n";
+                    year = {2001},\n  doi = {10.1/a(3)4}\n}\n@manual{None,\n  title = {Guide}\n}\n";
         let works = works(list);
         let cited: Vec<String> = works.iter().map(Work::cited).collect();
         assert_eq!(cited, ["Solo 1999", "Uno and Due 2001", "None"]);
         assert_eq!(works[0].listed(), "Solo, A. B. *A Book*. House, 1999");
-        assert_eq!(works[1].listed(), "Uno, A.; Due, B. *On it*. J 3, 2001");
+        assert_eq!(
+            works[1].listed(),
+            "Uno, A.; Due, B. *On it*. J 3, 2001. [doi:10.1/a(3)4](https://doi.org/10.1/a%283%294)"
+        );
         assert_eq!(works[2].listed(), "*Guide*");
     }
 
@@ -105,6 +116,11 @@ mod tests {
             assert!(work.field("title").is_some_and(|it| !it.is_empty()), "{}", work.key);
             assert!(!work.listed().contains(['{', '}', '\\']), "{}", work.listed());
             assert_eq!(all.iter().filter(|it| it.key == work.key).count(), 1, "{}", work.key);
+            if let Some(doi) = work.field("doi") {
+                let signs = |sign: char| sign.is_ascii_alphanumeric() || "./-():".contains(sign);
+                assert!(doi.starts_with("10.") && doi.contains('/') && doi.chars().all(signs), "{doi}");
+                assert_eq!(all.iter().filter(|it| it.field("doi") == Some(doi)).count(), 1, "{doi}");
+            }
         }
     }
 }
