@@ -22,8 +22,13 @@ const NOISE: f64 = 60.0;
 /// A record of a strut on a bench: its lower end moves, its force is measured with noise.
 fn record(rig: &Rig, parameters: &[f64], motion: Vec<f64>, seed: u64) -> Dataset {
     let (count, velocity) = (motion.len(), derivative(&motion, STEP));
-    let drive =
-        Drive { step: STEP, inputs: vec![motion.clone(), velocity], finer: 1, between: Between::Lines };
+    let drive = Drive {
+        start: 0.0,
+        step: STEP,
+        inputs: vec![motion.clone(), velocity],
+        finer: 1,
+        between: Between::Lines,
+    };
     let outputs = rig.plant.prepare(&rig.choices).unwrap().outputs(parameters, &rig.start, &drive);
     let (output, mut noise) = (rig.plant.output("force").unwrap(), noise(seed));
     let values = outputs[output].iter().map(|force| force + NOISE * noise()).collect();

@@ -20,6 +20,7 @@ pub(super) struct Run<'a, M: Model, R: Scalar> {
     state: M::State<R>,
     /// Which states are measured, as (state, output).
     measured: Vec<(usize, usize)>,
+    start: f64,
     step: f64,
     pub pace: Pace,
     period: Option<f64>,
@@ -48,10 +49,12 @@ impl<'a, M: Model, R: Scalar> Run<'a, M, R> {
             memory: Bundle::from_fn(|i| R::from(memory[i].start)),
             state,
             measured: measured.zip(outputs..).collect(),
+            start: drive.start,
             step: drive.step,
             pace: Pace::of(model, &plain, drive),
             period,
-            ticks: 0,
+            // The tick at the start or the last one before it is made first.
+            ticks: period.map_or(0, |period| (drive.start / period + 1e-6) as u64),
         }
     }
 
@@ -79,7 +82,8 @@ impl<'a, M: Model, R: Scalar> Run<'a, M, R> {
         input: impl Fn(usize, f64) -> R,
         mut put: impl FnMut(usize, R),
     ) -> (M::Input<R>, M::State<R>) {
-        let (time, first) = (sample as f64 * self.step, M::Input::<R>::from_fn(|i| input(i, 0.0)));
+        let (time, first) =
+            (self.start + sample as f64 * self.step, M::Input::<R>::from_fn(|i| input(i, 0.0)));
         self.tick_at(time, &first);
         let (rates, output) = self.equations(R::from(time), &self.state, &first);
         output.for_each(&mut put);
@@ -142,7 +146,7 @@ impl<'a, M: Model, R: Scalar> Run<'a, M, R> {
         let h = self.step / steps;
         for part in 0..self.pace.steps {
             let share = |offset: f64| (part as f64 + offset) / steps;
-            let time = |offset: f64| (sample as f64 + share(offset)) * self.step;
+            let time = |offset: f64| self.start + (sample as f64 + share(offset)) * self.step;
             let now = [time(0.0), time(0.5), time(1.0)];
             if part > 0 {
                 self.tick_at(now[0], &first);

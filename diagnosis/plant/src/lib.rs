@@ -149,6 +149,8 @@ impl Between {
 /// What drives a plant: one signal for each input, evenly sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
+    /// Time of the first sample in seconds: a damper that fades has faded by then.
+    pub start: f64,
     /// Time between two samples in seconds.
     pub step: f64,
     /// Values of each input, so many for each step and a last one.
@@ -295,6 +297,7 @@ mod tests {
     #[test]
     fn between_samples_there_may_be_values() {
         let drive = Drive {
+            start: 0.0,
             step: 1.0,
             inputs: vec![vec![0.0, 1.0, 5.0, 6.0, 7.0]],
             finer: 2,

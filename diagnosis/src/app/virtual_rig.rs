@@ -111,7 +111,7 @@ pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String,
             inputs[index] = derivative(&inputs[position], step);
         }
     }
-    let drive = Drive { step, inputs, finer: 1, between: Between::Lines };
+    let drive = Drive { start: 0.0, step, inputs, finer: 1, between: Between::Lines };
     let outputs = dynamics.outputs(&parameters, &rig.start, &drive);
     let declared = rig.plant.inputs.iter().chain(&rig.plant.outputs);
     let signals: Vec<(String, Vec<f64>)> = declared

@@ -136,7 +136,13 @@ impl Dataset {
                 inputs[index] = self.rate(&inputs[other], source);
             }
         }
-        Drive { step: self.step, inputs, finer, between: self.between }
+        Drive {
+            start: section.start as f64 * self.step,
+            step: self.step,
+            inputs,
+            finer,
+            between: self.between,
+        }
     }
 
     /// The derivative of an input: as a file's reader takes it, nearly that of the curve through the samples, or that of the

@@ -74,7 +74,7 @@ fn drive(rig: &Rig) -> Drive {
         (0..SAMPLES).map(|k| declared.start + size * (TAU * turns * k as f64).sin()).collect()
     };
     let inputs = rig.plant.inputs.iter().enumerate().map(sine).collect();
-    Drive { step: STEP, inputs, finer: 1, between: Between::Lines }
+    Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines }
 }
 
 /// Root mean square of the difference over that of a signal's own motion; zero for signals that rest.

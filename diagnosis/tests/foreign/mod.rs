@@ -186,7 +186,7 @@ fn an_fmu_predicts_as_the_same_model_of_the_library_does() {
         for (name, signal) in names.into_iter().zip([&road, &rate, &force]) {
             inputs[plant.input(name).unwrap()].clone_from(signal);
         }
-        Drive { step: 1e-3, inputs, finer: 1, between: Between::Lines }
+        Drive { start: 0.0, step: 1e-3, inputs, finer: 1, between: Between::Lines }
     };
     let outputs = [("z_rel", "suspension.deflection"), ("a_s", "body.acceleration"), ("F_t", "wheel.force")];
     let linearised = |plant: &Plant, drive: &Drive, values: &[f64], seeds: &[Seed], wanted: &[usize]| {

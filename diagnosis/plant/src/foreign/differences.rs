@@ -91,10 +91,10 @@ impl Differences {
     }
 
     /// A model on its way, with these parameters; none if it refuses them.
-    pub(super) fn walk(&self, parameters: &[f64]) -> Option<Walk<'_>> {
+    pub(super) fn walk(&self, parameters: &[f64], start: f64) -> Option<Walk<'_>> {
         let (own, further) = parameters.split_at(self.fmu.parameters.len());
         let beside = self.beside.as_ref().map(|it| (it, it.set(further)));
-        Some(Walk::new(self.fmu.open(own)?, beside, self.typical[1].len()))
+        Some(Walk::new(self.fmu.open(own)?, beside, self.typical[1].len(), start))
     }
 
     /// The outputs of a model that is changed; not a number from where it cannot be run.
@@ -102,7 +102,7 @@ impl Differences {
         let count = self.fmu.outputs.len();
         let mut signals = vec![Vec::with_capacity(drive.len()); count];
         let mut state = changed.start.clone();
-        let mut walk = self.walk(&changed.parameters);
+        let mut walk = self.walk(&changed.parameters, drive.start);
         let steps = steps.unwrap_or_else(|| walk.as_mut().map_or(1, |walk| walk.steps(&state, drive)));
         let (mut rates, mut outputs) = (vec![0.0; state.len()], vec![f64::NAN; count]);
         for sample in 0..drive.len() {

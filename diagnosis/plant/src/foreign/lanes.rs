@@ -38,7 +38,7 @@ impl<'a> Lanes<'a> {
             let walk = if lanes.first().is_some_and(same) {
                 0
             } else {
-                walks.push(model.walk(&changed.parameters)?);
+                walks.push(model.walk(&changed.parameters, drive.start)?);
                 walks.len() - 1
             };
             let set = model.beside.as_ref().map(|it| it.set(&changed.parameters[own..]));

@@ -14,6 +14,8 @@ pub struct Walk<'a> {
     beside: Option<(&'a Beside, Set)>,
     /// How many states are the instance's.
     own: usize,
+    /// Time of the first sample for the element; the instance has a time of its own, as it begins anew.
+    start: f64,
     inputs: Vec<f64>,
     /// Slopes of a step's stages.
     slopes: [Vec<f64>; 4],
@@ -22,10 +24,10 @@ pub struct Walk<'a> {
 
 impl<'a> Walk<'a> {
     /// Of an instance whose parameters are set.
-    pub fn new(session: Session, beside: Option<(&'a Beside, Set)>, states: usize) -> Self {
+    pub fn new(session: Session, beside: Option<(&'a Beside, Set)>, states: usize, start: f64) -> Self {
         let own = states - beside.as_ref().map_or(0, |(beside, _)| beside.states.len());
         let slopes = std::array::from_fn(|_| vec![0.0; states]);
-        Self { session, beside, own, inputs: Vec::new(), slopes, middle: vec![0.0; states] }
+        Self { session, beside, own, start, inputs: Vec::new(), slopes, middle: vec![0.0; states] }
     }
 
     /// Other parameters of the element.
@@ -50,7 +52,7 @@ impl<'a> Walk<'a> {
         self.session.place(time, own, &self.inputs);
         let (rates, of_memory) = rates.split_at_mut(self.own);
         if let Some((beside, set)) = &self.beside {
-            beside.act(set, time, &mut self.session, (&mut self.inputs, memory, of_memory));
+            beside.act(set, self.start + time, &mut self.session, (&mut self.inputs, memory, of_memory));
         }
         self.session.rates(rates);
         if let Some(outputs) = outputs {

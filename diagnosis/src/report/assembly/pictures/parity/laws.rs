@@ -146,8 +146,13 @@ mod tests {
         let road_velocity = derivative(&road, step);
         let force = wave(11.0, 50.0);
         let between = Between::Lines;
-        let drive =
-            Drive { step, inputs: vec![road.clone(), road_velocity, force.clone()], finer: 1, between };
+        let drive = Drive {
+            start: 0.0,
+            step,
+            inputs: vec![road.clone(), road_velocity, force.clone()],
+            finer: 1,
+            between,
+        };
         let names: Vec<&str> = rig.plant.inputs.iter().map(|it| it.name.as_str()).collect();
         assert_eq!(names, ["road.position", "road.velocity", "actuator.force"]);
         let dynamics = rig.plant.prepare(&rig.choices).unwrap();
@@ -156,6 +161,7 @@ mod tests {
         let laws = Laws::of(&rig, &rig.choices, &rig.parameters).unwrap();
         let negative = |values: &[f64]| values.iter().map(|it| -it).collect::<Vec<_>>();
         let moved = |name: &str, rate: Vec<f64>| Drive {
+            start: 0.0,
             step,
             inputs: vec![negative(signal(name)), rate],
             finer: 1,

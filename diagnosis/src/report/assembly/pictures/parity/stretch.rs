@@ -204,6 +204,7 @@ impl Stretch {
             in_band(values, self.step, self.band, order).into_iter().map(|it| sign * it).collect()
         };
         Some(Drive {
+            start: 0.0,
             step: self.step,
             inputs: vec![motion(0), motion(1)],
             finer: 1,
