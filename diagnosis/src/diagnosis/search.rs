@@ -168,7 +168,7 @@ impl Baseline<'_> {
                 Choice::Nothing => return Ok(Next::Nothing),
                 Choice::Unmodelled(score) => {
                     curve = Some(score);
-                    (compared.likely(&names), CRITERIA.fitted * score.share)
+                    (compared.likely(&names, &score), CRITERIA.fitted * score.share)
                 }
                 Choice::Named(scores) => (scores, 0.0),
             };

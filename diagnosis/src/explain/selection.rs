@@ -273,10 +273,13 @@ impl Compared {
         own.is_some_and(|it| it.share >= CRITERIA.background_share && it.is_confirmed())
     }
 
-    /// Names that explain anything of both data, the best first.
-    pub fn likely(&self, names: &[Score]) -> Vec<Score> {
-        let mut likely: Vec<Score> =
-            names.iter().filter(|it| it.share > 0.0 && it.validated > 0.0).copied().collect();
+    /// Names that may be what free features describe, the best first: those that explain anything of both data, and those that
+    /// explain nearly as much of the estimation data. What the validation data say of a rough shape is little where they excite it
+    /// less; they judge the fit.
+    pub fn likely(&self, names: &[Score], features: &Score) -> Vec<Score> {
+        let enough = CRITERIA.rough * features.share;
+        let is_likely = |it: &&Score| it.share > 0.0 && (it.validated > 0.0 || it.share >= enough);
+        let mut likely: Vec<Score> = names.iter().filter(is_likely).copied().collect();
         likely.sort_by(|a, b| b.share.total_cmp(&a.share));
         likely
     }
