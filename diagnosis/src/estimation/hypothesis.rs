@@ -415,7 +415,12 @@ impl Baseline<'_> {
         let minima = starts.iter().filter(|start| fit.cost(start).is_finite());
         let minima = minima.map(|start| lsq::minimise(&fit, fit.settled(start.clone()), stop));
         let best = minima.min_by(|a, b| a.cost.total_cmp(&b.cost));
-        let best = best.ok_or("the simulation diverges from every start")?;
+        let mut best = best.ok_or("the simulation diverges from every start")?;
+        if let Some(point) = self.out_of_reach(&fit, terms, &best.point) {
+            best.cost = fit.cost(&point);
+            (best.linear, best.trace) = fit.linearise(&point);
+            best.point = point;
+        }
         let train = fit.residuals(&best.point);
         let test = self.held_out(&*dynamics, &best.point);
         Ok(Fitted {
@@ -428,6 +433,33 @@ impl Baseline<'_> {
             train,
             test,
         })
+    }
+
+    /// The point with thresholds beyond all deflections and speeds that the estimation records do not show: other records may reach
+    /// further, and nothing is known of what is there. None if there are none.
+    fn out_of_reach(&self, fit: &Fit<'_>, terms: &[Term], point: &Estimate) -> Option<Estimate> {
+        let samples: usize = self.train.iter().map(|it| it.len() * it.measured.len()).sum();
+        // What one number more makes better by chance, in the Bayesian information criterion.
+        let most = fit.cost(point) + 0.5 * (samples as f64).ln();
+        let thresholds = terms.iter().filter_map(|term| match term {
+            Term::Effect(effect) => Some((*term, effect.parts.iter().filter(|it| it.beyond.is_some()))),
+            Term::Table(_) | Term::Fault(_) | Term::Response(_) => None,
+        });
+        let mut farthest: Option<Estimate> = None;
+        for (term, parts) in thresholds {
+            let own = self.own_coordinates(term);
+            let handles =
+                parts.filter_map(|it| self.rig.plant.parameter(it.parameter)).map(Unknown::Parameter);
+            for handle in handles {
+                let mut moved = farthest.as_ref().unwrap_or(point).clone();
+                let Some(coordinate) = own.iter().find(|it| it.handle == handle) else { continue };
+                moved.set(handle, coordinate.bounds.1);
+                if moved.get(handle) != point.get(handle) && fit.cost(&moved) <= most {
+                    farthest = Some(moved);
+                }
+            }
+        }
+        farthest
     }
 
     /// The point of the validation data: the same parameters, states at the start of their own.
