@@ -78,6 +78,11 @@ impl Evidence {
         self.doubt().or_else(|| self.smallness())
     }
 
+    /// Whether it is there, and too small to matter.
+    pub fn is_small(&self) -> bool {
+        self.doubt().is_none() && self.smallness().is_some()
+    }
+
     /// Whether it passes beside another effect that has passed: whether anything is there is no question then, and its gains
     /// may be less steady.
     pub fn passes_beside_another(&self) -> bool {

@@ -120,13 +120,20 @@ impl Diagnosis<'_> {
             })
             .collect();
         let base = rig.base();
+        let common =
+            common_factor(self.intervals.iter().filter(|it| it.from_parameter_set).filter_map(|it| {
+                let Unknown::Parameter(index) = it.handle else { return None };
+                Some((it.value / rig.parameters[index], it.half_of_data / rig.parameters[index]))
+            }));
         for interval in &self.intervals {
             let after = interval.value;
             if let Unknown::Parameter(index) = interval.handle
                 && base.contains(&index)
             {
                 let (before, declared) = (rig.parameters[index], &rig.plant.parameters[index]);
-                let change = (after - before).abs();
+                // Of values that the records tell only together, their common factor is the parameter set's matter.
+                let common = if interval.from_parameter_set { common } else { 1.0 };
+                let change = (after - before).abs().min((after - common * before).abs());
                 let mismatch = change > 1.5 * interval.half_of_data && change > MISMATCH * before.abs();
                 let given = self.baseline.known.iter().find(|(known, _, _)| *known == index);
                 let contradicted = given.is_some_and(|(_, value, deviation)| {
@@ -308,6 +315,17 @@ impl Diagnosis<'_> {
     }
 }
 
+/// The factor that parameters have in common, from each one's ratio to its starting value and half the interval of that: the mean of
+/// the logarithms, each by how well the records tell it.
+fn common_factor(ratios: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let told = ratios.filter(|(ratio, half)| *ratio > 0.0 && *half > 0.0 && half.is_finite());
+    let (sum, weights) = told.fold((0.0, 0.0), |(sum, weights), (ratio, half)| {
+        let weight = (ratio / half).powi(2);
+        (sum + weight * ratio.ln(), weights + weight)
+    });
+    if weights > 0.0 { (sum / weights).exp() } else { 1.0 }
+}
+
 /// Root mean square of the difference of the first two records with the same excitation, over √2: no model can do
 /// better than a repetition does.
 fn repeatability(records: &[Dataset], row: usize) -> Option<f64> {
@@ -319,4 +337,16 @@ fn repeatability(records: &[Dataset], row: usize) -> Option<f64> {
     let values = one.measured[row].values.iter().zip(&two.measured[row].values);
     let differences: Vec<f64> = values.map(|(one, two)| one - two).collect();
     Some(root_mean_square(&differences) / 2.0_f64.sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::common_factor;
+
+    #[test]
+    fn the_common_factor_is_that_of_what_is_told_best() {
+        let ratios = [(1.05, 0.001), (1.05, 0.001), (0.7, 0.5), (f64::NAN, 0.1), (1.2, f64::INFINITY)];
+        assert!((common_factor(ratios.into_iter()) - 1.05).abs() < 1e-4);
+        assert_eq!(common_factor([].into_iter()), 1.0);
+    }
 }

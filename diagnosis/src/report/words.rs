@@ -5,6 +5,7 @@ mod numbers;
 mod open;
 mod places;
 pub mod records;
+mod small;
 mod verdict;
 
 use unicode_width::UnicodeWidthStr;
@@ -13,6 +14,7 @@ pub use experiment::{chance, experiment, pair, source};
 pub use numbers::{digits, fit, interval, labelled, number, percent, quantity, trimmed, unit, value};
 pub use open::{open_signal, open_signals};
 pub use places::{Part, effect_name, effect_rank, element, located, part, place, sized};
+pub use small::none_beyond;
 pub use verdict::{badge, headline};
 
 /// `a, b and c`.

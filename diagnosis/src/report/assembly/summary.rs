@@ -5,7 +5,8 @@ use crate::report::findings::{
     Candidate, Effect, Findings, NominalParameter, RecordValue, Signal, Unmodelled, Verdict,
 };
 use crate::report::words::{
-    count, digits, effect_name, fit, interval, list, located, open_signals, percent, sized, unit, value,
+    count, digits, effect_name, fit, interval, list, located, none_beyond, open_signals, percent, sized,
+    unit, value,
 };
 
 /// Fit that the noise of the inputs costs, to be worth a sentence.
@@ -66,8 +67,8 @@ fn disagreements(findings: &Findings) -> Option<String> {
 fn effects(findings: &Findings) -> Option<String> {
     let effects = &findings.effects;
     match findings.verdict {
-        Verdict::NoEffect => Some("No effect beyond the model improves the fit.".to_owned()),
-        Verdict::ParameterMismatch => Some("No effect beyond these parameters improves the fit.".to_owned()),
+        Verdict::NoEffect => Some(none_beyond(findings, "the model")),
+        Verdict::ParameterMismatch => Some(none_beyond(findings, "these parameters")),
         Verdict::ModelInadequate => Some(
             "The model predicts too little of the validation data. No effect of the catalogue explains the rest. \
              Check the rig, the signal names, the units and the signs. If they are right, an effect outside the \
