@@ -219,11 +219,12 @@ fn a_damper_alone_has_no_spring() {
 
 /// In records of several stretches, each of which has the record's time.
 #[test]
+#[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]
 fn a_damper_that_fades_is_found_in_a_long_record() {
-    let case = Case { step: 4e-3, length: 24.0, ..Case::of("element-dyno") };
+    let case = Case { step: 4e-3, length: 24.0, ..Case::of("quarter-car") };
     let said = case.diagnosed(&[("strut.fade.ratio", 0.25), ("strut.fade.time", 8.0)]);
     assert_eq!(said.terms, ["10 strut"]);
-    said.covers("strut.fade.ratio", 0.25, 0.1);
+    said.covers("strut.fade.ratio", 0.25, 0.15);
 }
 
 #[test]
