@@ -147,7 +147,8 @@ pub(super) const EFFECTS: &[Effect] = &[
         onset: Onset::Threshold,
         prevalence: Prevalence::Background,
         parts: &[
-            part("strut.stop.stiffness", Scale::STIFFNESS, (0.0, 300.0), &[2.0]),
+            // What is softer than the spring beside it is a curved spring, and no stop.
+            part("strut.stop.stiffness", Scale::STIFFNESS, (1.0, 300.0), &[2.0]),
             beyond(
                 part("strut.stop.compression_clearance", Scale::DEFLECTION, (0.3, 20.0), CLEARANCES),
                 Beyond::Compression("compression stop"),
