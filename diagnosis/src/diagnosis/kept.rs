@@ -49,9 +49,15 @@ impl Baseline<'_> {
         let mut point = Estimate { starts: self.starts(measured), ..point.within(&self.rig.plant) };
         // An importer's simulation of the extended model has no timing of channels, except where the report gives it: a
         // signal's delay and lag go together.
-        let told: Vec<Channel> = terms.iter().filter_map(timed).collect();
+        let output = |term: &Term| match term {
+            Term::Fault(Unknown::Output(output, Fault::Delay | Fault::Lag)) | Term::Response(output) => {
+                Some(*output)
+            }
+            _ => None,
+        };
+        let told: Vec<usize> = terms.iter().filter_map(output).collect();
         for handle in fitted.coordinates.iter().map(|it| it.handle) {
-            let kept = timed(&Term::Fault(handle)).is_some_and(|it| told.contains(&it));
+            let kept = output(&Term::Fault(handle)).is_some_and(|it| told.contains(&it));
             if self.usual(handle).is_some() && !kept {
                 point.set(handle, 0.0);
             }
@@ -69,24 +75,6 @@ impl Baseline<'_> {
         let kept = |curve: Term| found.accepted.iter().any(|it| it.term == curve);
         found.unmodelled.retain(|it| it.curve.is_some_and(kept));
         found.extended = found.stages.last().unwrap_or(&found.base).clone();
-    }
-}
-
-/// A channel of the records.
-#[derive(PartialEq)]
-enum Channel {
-    Input(usize),
-    Output(usize),
-}
-
-/// The channel whose timing a term is about.
-fn timed(term: &Term) -> Option<Channel> {
-    match term {
-        Term::Fault(Unknown::Output(output, Fault::Delay | Fault::Lag)) | Term::Response(output) => {
-            Some(Channel::Output(*output))
-        }
-        Term::Fault(Unknown::Input(input, Fault::Delay | Fault::Lag)) => Some(Channel::Input(*input)),
-        _ => None,
     }
 }
 

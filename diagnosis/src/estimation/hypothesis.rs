@@ -234,26 +234,10 @@ impl Baseline<'_> {
     pub fn usual(&self, handle: Unknown) -> Option<f64> {
         let filtered = |output: usize| self.rig.plant.outputs[output].name.ends_with("acceleration");
         match handle {
-            Unknown::Output(_, Fault::Delay) | Unknown::Input(_, Fault::Delay) => Some(TIMING),
+            Unknown::Output(_, Fault::Delay) => Some(TIMING),
             Unknown::Output(output, Fault::Lag) if filtered(output) => Some(TIMING),
             _ => None,
         }
-    }
-
-    /// Timing of every recorded channel. If one signal drives the rig alone, it is late by as much as all others are early.
-    fn timing(&self) -> Vec<Unknown> {
-        let Some(record) = self.train.first() else { return Vec::new() };
-        let inputs = record.inputs.iter().enumerate().filter(|(_, source)| match source {
-            Source::Measured(values) => values.windows(2).any(|pair| pair[0] != pair[1]),
-            Source::Constant(_) | Source::DerivativeOf(_) | Source::RateOf(_) => false,
-        });
-        let inputs: Vec<Unknown> = inputs.map(|(index, _)| Unknown::Input(index, Fault::Delay)).collect();
-        let outputs = record
-            .measured
-            .iter()
-            .flat_map(|it| [Fault::Delay, Fault::Lag].map(|fault| Unknown::Output(it.output, fault)));
-        let several = inputs.len() > 1;
-        inputs.into_iter().filter(|_| several).chain(outputs).collect()
     }
 
     /// What is fitted with the terms: nominal parameters first, then the terms' own, each once.
@@ -286,14 +270,19 @@ impl Baseline<'_> {
             let prior = known.or(sheet);
             coordinates.push(FreeParameter { handle: Unknown::Parameter(index), bounds, prior });
         }
-        for handle in self.timing() {
-            let bounds = self.fault_bounds(handle);
-            let Some(deviation) = self.usual(handle) else { continue };
-            // A signal that is later than that has a fault, which is a term of its own.
-            let most = IN_TIME * deviation;
-            let bounds = (bounds.0.max(-most), bounds.1.min(most));
-            let prior = Some(Prior::Value { mean: 0.0, deviation });
-            coordinates.push(FreeParameter { handle, bounds, prior });
+        for measured in self.train.first().map_or(&[][..], |record| &record.measured) {
+            for handle in [Fault::Delay, Fault::Lag].map(|fault| Unknown::Output(measured.output, fault)) {
+                let bounds = self.fault_bounds(handle);
+                let Some(deviation) = self.usual(handle) else { continue };
+                // A signal that is later than that has a fault, which is a term of its own.
+                let most = IN_TIME * deviation;
+                let bounds = (bounds.0.max(-most), bounds.1.min(most));
+                coordinates.push(FreeParameter {
+                    handle,
+                    bounds,
+                    prior: Some(Prior::Value { mean: 0.0, deviation }),
+                });
+            }
         }
         for term in terms {
             for coordinate in self.own_coordinates(*term) {

@@ -25,7 +25,7 @@ use crate::dataset::recorded::Dataset;
 use crate::estimation::fit::{Estimate, Unknown};
 use crate::estimation::hypothesis::{Baseline, TIMING, TOLERANCE, Term};
 use crate::plant::Dynamics;
-use crate::signal::distortion::{Correction, Fault};
+use crate::signal::distortion::Correction;
 
 use innovations::Column;
 use nominal::About;
@@ -126,11 +126,6 @@ impl Baseline<'_> {
                 }
             }
         }
-        for (input, distortion) in point.inputs.iter_mut().enumerate() {
-            if !found.iter().any(|it| matches!(it, Term::Fault(Unknown::Input(of, _)) if *of == input)) {
-                distortion.set(Fault::Delay, 0.0);
-            }
-        }
         let law = |term: Term, handles: Vec<Unknown>| {
             let values = handles.into_iter().map(|handle| (handle, at.get(handle))).collect();
             Ok::<_, String>(Law { term, dynamics: self.dynamics(&[term])?, values })
@@ -189,7 +184,7 @@ impl Baseline<'_> {
     /// If the model diverges along every stretch.
     pub fn missing_with<'b>(&self, frame: &'b Frame, errors: Option<&[f64]>) -> Result<Missing<'b>, String> {
         let timing = self.coordinates(&[]).into_iter().map(|it| it.handle);
-        let timing: Vec<Unknown> = timing.filter(|it| !matches!(it, Unknown::Parameter(_))).collect();
+        let timing: Vec<Unknown> = timing.filter(|it| matches!(it, Unknown::Output(..))).collect();
         let stretches = stretches(&frame.records);
         let about = About { frame, errors, stretches: &stretches, timing: &timing };
         let mut precisions = self.precisions(&frame.parameters);
