@@ -217,6 +217,20 @@ fn a_damper_alone_has_no_spring() {
     assert!((said.value("strut.stiffness") - 200.0).abs() < 50.0, "{}", said.value("strut.stiffness"));
 }
 
+/// The records reach the compression stop only. Records of longer rebound must not meet a stop that nobody has seen.
+#[test]
+fn a_stop_that_is_not_reached_stays_out_of_reach() {
+    let hidden = [
+        ("strut.stop.stiffness", 2e5),
+        ("strut.stop.compression_clearance", 0.006),
+        ("strut.stop.rebound_clearance", 0.2),
+    ];
+    let said = Case::of("element-dyno").diagnosed(&hidden);
+    assert_eq!(said.terms, ["09 strut"]);
+    said.meets("strut.stop.compression_clearance", 0.006, 0.05);
+    assert!(said.value("strut.stop.rebound_clearance") > 0.05, "{:?}", said.values);
+}
+
 /// In records of several stretches, each of which has the record's time.
 #[test]
 #[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]

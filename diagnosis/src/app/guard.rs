@@ -80,7 +80,7 @@ fn failed(text: &str) -> ExitCode {
     ExitCode::FAILURE
 }
 
-/// This very command line in another process, with so many threads; its end.
+/// Runs this command line in another process, with a number of threads if one is given.
 fn run(fmu: &Path, limit: Duration, threads: Option<usize>) -> Result<ExitStatus, String> {
     let started = |error: std::io::Error| format!("cannot start a process for the FMU: {error}");
     let program = env::current_exe().map_err(started)?;

@@ -10,7 +10,7 @@ use super::tables::{TABLES, UNNAMED};
 use super::{
     Bounds, Distortion, Effect, Element, Onset, Part, Prevalence, RESPONSE, Scale, Signal, all, is_replaced,
 };
-use crate::estimation::hypothesis::POINTS;
+use crate::estimation::coordinates::POINTS;
 use crate::plant::Plant;
 use crate::rig::Rig;
 

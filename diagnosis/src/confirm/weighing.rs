@@ -6,8 +6,9 @@ use crate::dataset::recorded::Dataset;
 use crate::decision::account::account;
 use crate::decision::evidence::Evidence;
 use crate::estimation::comparison::{Errors, Student, student};
+use crate::estimation::coordinates::TIMING;
 use crate::estimation::fit::{Residuals, Unknown, strain};
-use crate::estimation::hypothesis::{Baseline, Fitted, TIMING, Term};
+use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::screening::{bent_rms, rms};
 use crate::signal::distortion::Fault;
 

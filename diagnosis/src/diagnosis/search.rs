@@ -6,7 +6,7 @@ use crate::estimation::deadline::Stage;
 use crate::estimation::fit::Estimate;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::explain::describe::{MissingSignal, Unmodelled};
-use crate::explain::selection::{Choice, Compared, MOST_FITTED, Score, choose};
+use crate::explain::selection::{Choice, Compared, MOST_FITTED, Score, choose, likely};
 use crate::missing::innovations::Noise;
 use crate::missing::locate::Location;
 use crate::missing::motion::outputs;
@@ -168,7 +168,7 @@ impl Baseline<'_> {
                 Choice::Nothing => return Ok(Next::Nothing),
                 Choice::Unmodelled(score) => {
                     curve = Some(score);
-                    (compared.likely(&names, &score), CRITERIA.fitted * score.share)
+                    (likely(&names, &score), CRITERIA.fitted * score.share)
                 }
                 Choice::Named(scores) => (scores, 0.0),
             };

@@ -7,8 +7,9 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::confirm::worth;
 use crate::decision::criteria::CRITERIA;
+use crate::estimation::coordinates::POINTS;
 use crate::estimation::fit::{Normal, Unknown};
-use crate::estimation::hypothesis::{Baseline, Fitted, POINTS, Term};
+use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::screening::TriedOut;
 use crate::signal::distortion::Fault;
 

@@ -1,41 +1,21 @@
 //! What may be the matter: a set of terms that are added to the starting model, and the fit with them.
 
 use nalgebra::DVector;
-use strut_model::{Value, unit};
+use strut_model::Value;
 
-use crate::catalogue::{self, Bounds, Effect, Element, Part, Scale, Signal, Table, Typical};
-use crate::dataset::recorded::{Dataset, Source};
+use crate::catalogue::{Effect, Element, Table, Typical};
+use crate::dataset::recorded::Dataset;
 use crate::dataset::split::Split;
 use crate::diagnosis::Options;
 use crate::estimation::deadline::Deadline;
-use crate::estimation::fit::{Estimate, Fit, FreeParameter, Prior, Residuals, Trace, Unknown};
+use crate::estimation::fit::{Estimate, Fit, FreeParameter, Residuals, Trace, Unknown};
 use crate::estimation::lsq::{self, Linear, Problem, Stop};
 use crate::plant::Dynamics;
 use crate::rig::Rig;
-use crate::signal::distortion::{AFTER, Correction, Fault, UNKNOWN};
-
-/// Points of a table without a name.
-pub const POINTS: usize = 11;
-
-/// Standard deviation of a channel's timing in seconds: multiplexers and buses make such delays, and the filters of
-/// accelerometers have such time constants. They are no fault.
-pub const TIMING: f64 = 4e-4;
-
-/// Standard deviations within which a value is that was measured otherwise.
-pub(crate) const SURE: f64 = 3.0;
-/// Standard deviations of a channel's timing within which a signal is in time.
-const IN_TIME: f64 = 2.5;
+use crate::signal::distortion::Correction;
 
 /// Time over which the velocity at a section's start is guessed from a measured position, in seconds.
 const RATE: f64 = 0.02;
-
-/// Standard deviation of the logarithm of a nominal parameter that is stated, before the data are seen: a data sheet's damping or
-/// tyre stiffness is right within a third.
-pub(crate) const TOLERANCE: f64 = 0.3;
-/// Factor within which a stated parameter is looked for if it must not be zero.
-const SHEET: f64 = 20.0;
-/// Standard deviation of a start value that may be negative, over its value.
-const SIGNED: f64 = 10.0;
 
 /// Something that is added to the starting model.
 #[derive(Clone, Copy, Debug)]
@@ -230,168 +210,6 @@ impl Baseline<'_> {
         Fit::new(&self.rig.plant, dynamics, records, coordinates, self.sigma.clone())
     }
 
-    /// Standard deviation of what any measurement does to a signal; none for what would be a fault.
-    pub fn usual(&self, handle: Unknown) -> Option<f64> {
-        let filtered = |output: usize| self.rig.plant.outputs[output].name.ends_with("acceleration");
-        match handle {
-            Unknown::Output(_, Fault::Delay) => Some(TIMING),
-            Unknown::Output(output, Fault::Lag) if filtered(output) => Some(TIMING),
-            _ => None,
-        }
-    }
-
-    /// What is fitted with the terms: nominal parameters first, then the terms' own, each once.
-    pub fn coordinates(&self, terms: &[Term]) -> Vec<FreeParameter> {
-        let plant = &self.rig.plant;
-        let mut coordinates: Vec<FreeParameter> = Vec::new();
-        for index in self.rig.base() {
-            let (declared, value) = (&plant.parameters[index], self.rig.parameters[index]);
-            let (low, high) =
-                (declared.min.unwrap_or(f64::NEG_INFINITY), declared.max.unwrap_or(f64::INFINITY));
-            let stated = self.rig.stated[index];
-            let around = if stated { SHEET } else { f64::INFINITY };
-            // Near zero, what must not be zero makes equations that nothing can integrate; but there may be no spring.
-            let least = if declared.unit == unit::N_PER_M { low } else { low.max(value / around) };
-            let bounds = if low > 0.0 { (least, high.min(value * around)) } else { (low, high) };
-            let bounds = self.sought(index).map_or(bounds, |(from, to)| (from.min(value), to.max(value)));
-            // However many samples a model that is not quite right has to say otherwise with.
-            let known = self.known.iter().find(|(of, _, _)| *of == index);
-            let bounds = known.map_or(bounds, |(_, mean, deviation)| {
-                let (low, high) = (bounds.0.min(*mean), bounds.1.max(*mean));
-                (low.max(mean - SURE * deviation), high.min(mean + SURE * deviation))
-            });
-            // It is right within a factor where the data do not know better; of what nobody knows it says zero.
-            let sheet = (value != 0.0).then_some(match (value > 0.0 && low >= 0.0, stated) {
-                (true, true) => Prior::Factor { mean: value, deviation: TOLERANCE },
-                (true, false) => Prior::Guess { mean: value },
-                (false, _) => Prior::Value { mean: value, deviation: SIGNED * value.abs() },
-            });
-            let known = known.map(|(_, mean, deviation)| Prior::Value { mean: *mean, deviation: *deviation });
-            let prior = known.or(sheet);
-            coordinates.push(FreeParameter { handle: Unknown::Parameter(index), bounds, prior });
-        }
-        for measured in self.train.first().map_or(&[][..], |record| &record.measured) {
-            for handle in [Fault::Delay, Fault::Lag].map(|fault| Unknown::Output(measured.output, fault)) {
-                let bounds = self.fault_bounds(handle);
-                let Some(deviation) = self.usual(handle) else { continue };
-                // A signal that is later than that has a fault, which is a term of its own.
-                let most = IN_TIME * deviation;
-                let bounds = (bounds.0.max(-most), bounds.1.min(most));
-                coordinates.push(FreeParameter {
-                    handle,
-                    bounds,
-                    prior: Some(Prior::Value { mean: 0.0, deviation }),
-                });
-            }
-        }
-        for term in terms {
-            for coordinate in self.own_coordinates(*term) {
-                match coordinates.iter_mut().find(|other| other.handle == coordinate.handle) {
-                    Some(other) => *other = coordinate,
-                    None => coordinates.push(coordinate),
-                }
-            }
-        }
-        coordinates
-    }
-
-    /// The bounds of a velocity that nobody states and that is part of an effect's law: where it would be looked for if the rig did
-    /// not have the effect already. Of friction that turns over in no time at all, no derivative tells anything.
-    fn sought(&self, index: usize) -> Option<(f64, f64)> {
-        if self.rig.stated[index] {
-            return None;
-        }
-        let plant = &self.rig.plant;
-        let mut parts = catalogue::effects(plant).flat_map(|it| it.parts.iter().map(move |part| (it, part)));
-        let own =
-            |part: &Part| part.scale == Scale::VELOCITY && plant.parameter(part.parameter) == Some(index);
-        let (effect, part) = parts.find(|(_, part)| own(part))?;
-        let unit = part.scale.of(&self.typical(effect.element));
-        Some((part.bounds.0 * unit, part.bounds.1 * unit))
-    }
-
-    /// The coordinates that a term brings.
-    pub fn own_coordinates(&self, term: Term) -> Vec<FreeParameter> {
-        let plant = &self.rig.plant;
-        match term {
-            Term::Effect(effect) => {
-                let typical = self.typical(effect.element);
-                let parts = effect.parts.iter().filter_map(|part| {
-                    let (index, unit) = (plant.parameter(part.parameter)?, part.scale.of(&typical));
-                    let declared = &plant.parameters[index];
-                    let low = (part.bounds.0 * unit).max(declared.min.unwrap_or(f64::NEG_INFINITY));
-                    let within = part.within.map_or(f64::INFINITY, |(scale, most)| most * scale.of(&typical));
-                    let high = (part.bounds.1 * unit).min(declared.max.unwrap_or(f64::INFINITY)).min(within);
-                    let high = high.max(low);
-                    Some(FreeParameter {
-                        handle: Unknown::Parameter(index),
-                        bounds: (low, high),
-                        prior: None,
-                    })
-                });
-                parts.collect()
-            }
-            Term::Table(table) => {
-                let typical = table.law.point.of(&self.typical(table.element));
-                let points =
-                    (1..=POINTS).filter_map(|number| plant.parameter(&format!("{}[{number}]", table.points)));
-                points
-                    .map(|index| FreeParameter {
-                        handle: Unknown::Parameter(index),
-                        bounds: (table.law.bounds.0 * typical, table.law.bounds.1 * typical),
-                        // A ridge: points that nothing reaches stay at zero.
-                        prior: Some(Prior::Value { mean: 0.0, deviation: typical }),
-                    })
-                    .collect()
-            }
-            Term::Fault(handle) => {
-                let with = match handle {
-                    Unknown::Output(output, fault) => {
-                        let with = catalogue::distortion(fault).at(Signal::Output).with;
-                        with.map(|fault| Unknown::Output(output, fault))
-                    }
-                    Unknown::Input(..) | Unknown::Parameter(_) => None,
-                };
-                let of = |handle| FreeParameter { handle, bounds: self.fault_bounds(handle), prior: None };
-                std::iter::once(handle).chain(with).map(of).collect()
-            }
-            Term::Response(output) => (0..AFTER.len())
-                .map(|point| Unknown::Output(output, Fault::Response(point)))
-                // A ridge, as a table has one.
-                .map(|handle| FreeParameter {
-                    handle,
-                    bounds: self.fault_bounds(handle),
-                    prior: Some(Prior::Value { mean: 0.0, deviation: UNKNOWN }),
-                })
-                .collect(),
-        }
-    }
-
-    /// Largest magnitude of a measured input on the estimation data.
-    pub fn largest(&self, input: usize) -> f64 {
-        let values = self.train.iter().filter_map(|record| match &record.inputs[input] {
-            Source::Measured(values) => Some(values),
-            Source::DerivativeOf(_) | Source::RateOf(_) | Source::Constant(_) => None,
-        });
-        values.flatten().filter(|it| it.is_finite()).fold(0.0, |most, it| it.abs().max(most))
-    }
-
-    fn fault_bounds(&self, handle: Unknown) -> (f64, f64) {
-        let fault = match handle {
-            Unknown::Input(_, fault) | Unknown::Output(_, fault) => fault,
-            Unknown::Parameter(_) => return (f64::NEG_INFINITY, f64::INFINITY),
-        };
-        match (catalogue::distortion(fault).bounds, handle) {
-            (Bounds::Between(low, high), _) => (low, high),
-            (Bounds::OfLargest(low, high), Unknown::Input(input, _)) => {
-                let largest = self.largest(input);
-                (low * largest, high * largest)
-            }
-            (Bounds::OfLargest(..), _) => (0.0, f64::INFINITY),
-            (Bounds::Free, _) => (f64::NEG_INFINITY, f64::INFINITY),
-        }
-    }
-
     /// Fits a hypothesis from several points and keeps the best.
     ///
     /// # Errors
@@ -405,7 +223,7 @@ impl Baseline<'_> {
         let minima = minima.map(|start| lsq::minimise(&fit, fit.settled(start.clone()), stop));
         let best = minima.min_by(|a, b| a.cost.total_cmp(&b.cost));
         let mut best = best.ok_or("the simulation diverges from every start")?;
-        if let Some(point) = self.out_of_reach(&fit, terms, &best.point) {
+        if let Some(point) = self.out_of_reach(&fit, terms, (&best.point, best.cost)) {
             best.cost = fit.cost(&point);
             (best.linear, best.trace) = fit.linearise(&point);
             best.point = point;
@@ -424,12 +242,17 @@ impl Baseline<'_> {
         })
     }
 
-    /// The point with thresholds beyond all deflections and speeds that the estimation records do not show: other records may reach
-    /// further, and nothing is known of what is there. None if there are none.
-    fn out_of_reach(&self, fit: &Fit<'_>, terms: &[Term], point: &Estimate) -> Option<Estimate> {
+    /// A minimum with its unreached thresholds moved to their upper bounds, if it has any. The estimation records tell nothing of
+    /// a stop that they do not reach, and other records may move further.
+    fn out_of_reach(
+        &self,
+        fit: &Fit<'_>,
+        terms: &[Term],
+        (point, cost): (&Estimate, f64),
+    ) -> Option<Estimate> {
         let samples: usize = self.train.iter().map(|it| it.len() * it.measured.len()).sum();
-        // What one number more makes better by chance, in the Bayesian information criterion.
-        let most = fit.cost(point) + 0.5 * (samples as f64).ln();
+        // The Bayesian information criterion asks this of one parameter more.
+        let most = cost + 0.5 * (samples as f64).ln();
         let thresholds = terms.iter().filter_map(|term| match term {
             Term::Effect(effect) => Some((*term, effect.parts.iter().filter(|it| it.beyond.is_some()))),
             Term::Table(_) | Term::Fault(_) | Term::Response(_) => None,

@@ -2,6 +2,7 @@
 
 pub mod beside;
 pub mod comparison;
+pub mod coordinates;
 pub mod deadline;
 pub mod fit;
 pub mod held;

@@ -78,6 +78,16 @@ pub fn choose(misses: f64, named: &[Score], features: &[Score]) -> Choice {
     }
 }
 
+/// Names worth a fit although free features explain more, the best first: each explains some of both data, or nearly as much of the
+/// estimation data as the features. A rough shape may fail on validation data that excite it less. Its fit is judged there, too.
+pub fn likely(named: &[Score], features: &Score) -> Vec<Score> {
+    let enough = CRITERIA.rough * features.share;
+    let is_likely = |it: &&Score| it.share > 0.0 && (it.validated > 0.0 || it.share >= enough);
+    let mut likely: Vec<Score> = named.iter().filter(is_likely).copied().collect();
+    likely.sort_by(|a, b| b.share.total_cmp(&a.share));
+    likely
+}
+
 /// A name to be fitted, and from where.
 #[derive(Clone, Debug)]
 pub struct Proposal {
@@ -273,17 +283,6 @@ impl Compared {
         own.is_some_and(|it| it.share >= CRITERIA.background_share && it.is_confirmed())
     }
 
-    /// Names that may be what free features describe, the best first: those that explain anything of both data, and those that
-    /// explain nearly as much of the estimation data. What the validation data say of a rough shape is little where they excite it
-    /// less; they judge the fit.
-    pub fn likely(&self, names: &[Score], features: &Score) -> Vec<Score> {
-        let enough = CRITERIA.rough * features.share;
-        let is_likely = |it: &&Score| it.share > 0.0 && (it.validated > 0.0 || it.share >= enough);
-        let mut likely: Vec<Score> = names.iter().filter(is_likely).copied().collect();
-        likely.sort_by(|a, b| b.share.total_cmp(&a.share));
-        likely
-    }
-
     /// The columns of the best candidate, one list for each window.
     pub fn best(&self) -> Option<Vec<Vec<Column>>> {
         let all = self.named.iter().chain(&self.features);
@@ -376,6 +375,14 @@ mod tests {
         let named = [score(0, 0.2, 0.2)];
         let features = [score(1, 0.6, 0.5), score(2, 0.7, -0.1)];
         assert_eq!(choose(2.0, &named, &features), Choice::Unmodelled(features[0]));
+    }
+
+    #[test]
+    fn a_name_that_only_the_validation_data_deny_is_fitted_if_it_explains_nearly_all_else() {
+        let features = score(0, 0.8, 0.7);
+        let [gentle, small, denied, none] =
+            [score(1, 0.66, -7.8), score(2, 0.1, 0.05), score(3, 0.3, -0.1), score(4, -0.1, 0.5)];
+        assert_eq!(likely(&[small, denied, none, gentle], &features), [gentle, small]);
     }
 
     #[test]

@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
+use crate::estimation::coordinates::TOLERANCE;
 use crate::estimation::fit::{Estimate, Unknown};
-use crate::estimation::hypothesis::{Baseline, TOLERANCE};
+use crate::estimation::hypothesis::Baseline;
 
 use super::Frame;
 use super::innovations::Noise;

@@ -18,8 +18,9 @@ use crate::dataset::recorded::Dataset;
 use crate::dataset::witness::same_excitation;
 use crate::decision::verdict::{Facts, verdict};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
+use crate::estimation::coordinates::SURE;
 use crate::estimation::fit::{Estimate, Residuals, Unknown};
-use crate::estimation::hypothesis::{Fitted, SURE, Term};
+use crate::estimation::hypothesis::{Fitted, Term};
 use crate::explain::selection::Score;
 use crate::report::findings::{
     Answer, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, FittedValue, NominalParameter,

@@ -2,8 +2,9 @@
 
 use crate::catalogue::{Element, Scale, Table, Unnamed};
 use crate::diagnosis::Diagnosis;
+use crate::estimation::coordinates::POINTS;
 use crate::estimation::fit::Unknown;
-use crate::estimation::hypothesis::{Fitted, POINTS, Term};
+use crate::estimation::hypothesis::{Fitted, Term};
 use crate::estimation::intervals::Interval;
 use crate::explain::describe::{self as described, MissingSignal};
 use crate::report::findings::{Curve, Missing, PlaceLikelihood, Unmodelled};
