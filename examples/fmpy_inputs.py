@@ -3,7 +3,7 @@
     python examples/fmpy_inputs.py fmus/QuarterCar.fmu
 
 FMPy 0.3.32 sets the inputs of model exchange once in each internal step of its solver, and not where that asks for rates. The
-inputs lag by a step. `with_inputs` makes an instance that sets its inputs whenever it is told the time, and FMPy takes it as it is.
+inputs lag by a step. The instance from `with_inputs` sets its inputs with each new time. FMPy needs no change for that.
 """
 
 import shutil

@@ -38,7 +38,7 @@ impl Work {
         format!("{authors}*{title}*{rest}{link}")
     }
 
-    /// The DOI as it is written, and the address that it leads to.
+    /// The DOI and its address.
     pub fn doi(&self) -> Option<(String, String)> {
         let doi = self.field("doi")?;
         let address = doi.replace('(', "%28").replace(')', "%29");

@@ -90,7 +90,7 @@ class Fmpy:
 
 
 class FmpyWithInputs(Fmpy):
-    """FMPy as it is, with an instance that sets its inputs with its time. The remaining error is the FMU's."""
+    """FMPy unchanged, with an instance that sets its inputs with each new time. The remaining error is the FMU's."""
 
     name, tolerance = "FMPy, inputs with the time", INTEGRATED
 

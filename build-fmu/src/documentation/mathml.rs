@@ -3,7 +3,7 @@
 //! The notation: blanks multiply, `_` and `^` lower and raise, primes are time derivatives, and Greek letters have
 //! their names. A fraction has no blanks at its `/`, and its denominator ends at the next blank: `V_c/2pi omega`. A
 //! comma without a blank belongs to a subscript: `F_act,i`. A name before `(` without a blank is a function. `<x>` is
-//! zero for negative x. `[a, b; c, d]` is a matrix. Other words are prose. What is not understood stays as it is.
+//! zero for negative x. `[a, b; c, d]` is a matrix. Other words are prose. Unknown signs stay unchanged.
 //!
 //! Browsers do not break lines within `<math>`. So prose is text, and a long statement is one `<math>` for each term.
 
