@@ -6,6 +6,7 @@ mod file;
 mod kind;
 mod own;
 mod stand_in;
+mod undriven;
 
 use std::sync::Arc;
 
@@ -17,7 +18,7 @@ use crate::data::table::did_you_mean;
 use crate::plant::{Plant, models};
 
 pub use draft::{Draft, SAME};
-pub use kind::{DrivenBy, ElementSignals, ForceOf, Given, Inverse, Kind, Missing, Opposed};
+pub use kind::{DrivenBy, ElementSignals, ForceOf, Given, Inverse, Kind, Missing, Opposed, Undriven};
 pub use own::{MADE, fmu_of, is_fmu, is_manifest};
 pub use stand_in::difference;
 
@@ -47,6 +48,8 @@ pub struct Rig {
     pub known: Vec<(usize, f64, f64)>,
     /// What the diagnosis has to know of the model.
     pub kind: Arc<Kind>,
+    /// The rig that it stands for, if nobody measured what drove that.
+    pub of: Option<Arc<Rig>>,
 }
 
 impl Rig {
@@ -149,7 +152,7 @@ impl Rig {
         let dynamics = plant.prepare(&choices)?;
         dynamics.check(&parameters)?;
         let (taken, known) = (Vec::new(), Vec::new());
-        Ok(Self { name, fmu, plant, parameters, stated, choices, start, taken, known, kind })
+        Ok(Self { name, fmu, plant, parameters, stated, choices, start, taken, known, kind, of: None })
     }
 
     /// How it is driven; none if there is one way only.
@@ -172,7 +175,9 @@ impl Rig {
             let any = |signal: &str| self.kind.called(signal).any(&has);
             // An accelerometer sees what differentiation loses.
             let inverse = it.inverse.as_ref();
-            let force = inverse.is_some_and(|inverse| any(&inverse.force) && !any(&inverse.instead));
+            let force = inverse.is_some_and(|inverse| {
+                any(&inverse.force) && !inverse.instead.iter().any(|signal| any(signal))
+            });
             force && (has(&it.input) || by_column(it))
         };
         let forward = || drives.iter().filter(|it| it.inverse.is_none());
@@ -217,11 +222,12 @@ impl Rig {
 
     /// Whether an input does nothing, since the plant is driven by another one.
     pub fn is_idle(&self, input: &str) -> bool {
-        // A rate drives with its motion.
-        if let Some(motion) = self.rate_of(input) {
-            return self.is_idle(&self.plant.inputs[motion].name);
+        let mut ways = self.kind.drives.iter().filter(|it| it.input == input).peekable();
+        match self.rate_of(input) {
+            // A rate drives with its motion, unless it drives itself.
+            Some(motion) if ways.peek().is_none() => self.is_idle(&self.plant.inputs[motion].name),
+            _ => ways.any(|it| !self.is_driven(it)),
         }
-        self.kind.drives.iter().any(|it| it.input == input && !self.is_driven(it))
     }
 
     /// The state that an output shows.

@@ -1,13 +1,14 @@
 //! The models that can be diagnosed: their equations with derivatives are compiled here and nowhere else.
 
 use strut_physics::actuators::{ExcitationMotor, PumpHydraulicActuator};
-use strut_physics::rigs::{ElementDyno, LinearDrive, QuarterCar, SasRig, ServoSuspension};
+use strut_physics::rigs::{ElementDyno, LinearDrive, QuarterCar, SasRig, ServoSuspension, SprungMass};
 
 use crate::Plant;
 
 /// The models of the library.
-const ALL: [fn() -> Plant; 7] = [
+const ALL: [fn() -> Plant; 8] = [
     Plant::of::<QuarterCar>,
+    Plant::of::<SprungMass>,
     Plant::of::<ElementDyno>,
     Plant::of::<LinearDrive>,
     Plant::of::<ExcitationMotor>,

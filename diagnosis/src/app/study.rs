@@ -37,8 +37,6 @@ pub struct Study {
     pub test: Vec<Origin>,
     /// Names, units, signs and delays of the records' columns.
     pub map: Map,
-    /// Independently measured parameters: index, value and standard deviation.
-    pub known: Vec<(usize, f64, f64)>,
     /// Numbers of the effects that are looked at; none: all.
     pub effects: Vec<String>,
     /// Limits of a deciding experiment.
@@ -67,7 +65,7 @@ impl Study {
     /// A diagnosis of a rig from estimation and validation records, with nothing else known.
     pub fn new(rig: Rig, train: Vec<Origin>, test: Vec<Origin>) -> Self {
         let (map, limits) = (Map::default(), Limits::default());
-        Self { rig, train, test, map, known: Vec::new(), effects: Vec::new(), limits }
+        Self { rig, train, test, map, effects: Vec::new(), limits }
     }
 
     /// Takes a parameter as measured independently, e.g. `sprung_mass=94.4±0.5` (or with `+-`), in its SI unit.
@@ -75,7 +73,8 @@ impl Study {
     /// # Errors
     /// If the text is of another form, the rig fits no parameter of the name, or the value is out of its bounds.
     pub fn know(&mut self, text: &str) -> Result<(), String> {
-        self.known.push(known(&self.rig, text)?);
+        let known = known(&self.rig, text)?;
+        self.rig.known.push(known);
         Ok(())
     }
 
@@ -128,8 +127,7 @@ impl Study {
         }
         let test: Vec<Dataset> = records.split_off(self.train.len());
         problems.extend(witness::notes(&records, &test));
-        let known = [&self.rig.known[..], &self.known].concat();
-        let options = Options { known, only: self.effects.clone(), deadline };
+        let options = Options { known: self.rig.known.clone(), only: self.effects.clone(), deadline };
         progress("removing the noise of the inputs");
         let whole = Split::new(&records, test);
         progress("comparing each column with the model");

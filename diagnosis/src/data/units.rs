@@ -144,10 +144,21 @@ pub fn conversion(from: &str, to: &str) -> Result<Conversion, String> {
 /// A column's name and the unit at its end, as in `Time_ms` and `AccelZ_g`; none unless that is a unit of `wanted`.
 #[must_use]
 pub(crate) fn split_suffix<'a>(name: &'a str, wanted: &str) -> Option<(&'a str, &'a str)> {
+    suffix(name).filter(|(_, unit)| conversion(unit, wanted).is_ok())
+}
+
+/// A column's name without the unit at its end; none unless there is one.
+#[must_use]
+pub(crate) fn without_suffix(name: &str) -> Option<&str> {
+    suffix(name).filter(|(_, unit)| parse(unit).is_ok()).map(|(name, _)| name)
+}
+
+/// A name and the word at its end.
+fn suffix(name: &str) -> Option<(&str, &str)> {
     let (name, unit) = name.trim().rsplit_once(['_', ' '])?;
     // The 1 in `sensor_1` is no unit.
     let is_word = unit.contains(|c: char| c.is_alphabetic() || c == '%');
-    (!name.is_empty() && is_word && conversion(unit, wanted).is_ok()).then_some((name, unit))
+    (!name.is_empty() && is_word).then_some((name, unit))
 }
 
 /// From a unit to SI, and what it measures.

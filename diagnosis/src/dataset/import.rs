@@ -7,11 +7,12 @@ use crate::data::map::{Map, Wanted, plain};
 use crate::data::{
     Channel, Origin, Record,
     uniform::{Uniform, uniform},
+    units,
 };
 use crate::dataset::recorded::{Dataset, Measured, Source};
 use crate::plant::Between;
 use crate::report::findings::{DataProblem, RecordRead};
-use crate::rig::{Opposed, Rig};
+use crate::rig::{DrivenBy, Opposed, Rig, Undriven};
 
 use super::columns::{doubt, follow, is_constant, others, read};
 use super::inverse::{self, Banded};
@@ -44,12 +45,47 @@ pub struct Loaded {
 }
 
 /// Reads all records of a diagnosis. How the rig is driven follows from what they have: inversely only if all of them can be
-/// compared so.
+/// compared so. Where no column has what drove it, the rig becomes the one that stands for it then.
 ///
 /// # Errors
 /// If a file cannot be read, or has not the signals that the rig needs: what to do.
 pub fn load(rig: &mut Rig, origins: &[&Origin], map: &Map) -> Result<Loaded, String> {
     let has = names(rig, origins, map)?;
+    let note = stand_in(rig, &has)?;
+    let mut loaded = as_driven(rig, origins, map, has)?;
+    loaded.problems.splice(0..0, note);
+    Ok(loaded)
+}
+
+/// Makes of the rig the one that stands for it, if no column has what drove it and one has what drives that; what the user has
+/// to know of it.
+fn stand_in(rig: &mut Rig, has: impl Fn(&str) -> bool) -> Result<Option<DataProblem>, String> {
+    let Some(Undriven { input, .. }) = &rig.kind.undriven else { return Ok(None) };
+    let is_driven = rig.kind.called(input).any(|name| has(name.trim_start_matches('-')));
+    let Some(part) = rig.undriven()?.filter(|_| !is_driven) else { return Ok(None) };
+    let drives = |by: &DrivenBy| has(&by.input) || by.columns.iter().any(|it| has(it));
+    let Some(by) = part.kind.drives.iter().find(|by| drives(by)) else { return Ok(None) };
+    let note = DataProblem {
+        record: "all".into(),
+        signal: input.clone(),
+        text: format!(
+            "no column has it, so that a {} stands for the rig, driven by {}: strut and body are judged, what is below the strut is \
+             not. If {input} was at rest, give it a column of zeros",
+            part.plant.name, by.input
+        ),
+        fatal: false,
+    };
+    *rig = part;
+    Ok(Some(note))
+}
+
+/// Reads all records in the first of the rig's ways in which they can be compared.
+fn as_driven(
+    rig: &mut Rig,
+    origins: &[&Origin],
+    map: &Map,
+    has: impl Fn(&str) -> bool,
+) -> Result<Loaded, String> {
     for by in rig.ways(&has) {
         rig.drive_by(&by, &has)?;
         let Some(inverse) = &by.inverse else { break };
@@ -63,16 +99,20 @@ pub fn load(rig: &mut Rig, origins: &[&Origin], map: &Map) -> Result<Loaded, Str
     forward(rig, origins, map)
 }
 
-/// Whether the first of some files has a signal or a column of a name.
+/// Whether the first of some files has a signal or a column of a name, with or without its unit at the end.
 fn names<'a>(
     rig: &Rig,
     origins: &[&Origin],
     map: &'a Map,
 ) -> Result<impl Fn(&str) -> bool + use<'a>, String> {
-    let first = origins.first().filter(|_| !rig.kind.drives.is_empty());
+    let first = origins.first().filter(|_| !rig.kind.drives.is_empty() || rig.kind.undriven.is_some());
     let record = first.map(|origin| origin.read(&map.reading).map_err(|error| error.to_string()));
     let columns = record.transpose()?.map_or(Vec::new(), |it| it.channels);
-    let columns: Vec<String> = columns.iter().map(|channel| plain(&channel.name)).collect();
+    let called = |channel: &Channel| {
+        let name = channel.name.as_str();
+        std::iter::once(name).chain(units::without_suffix(name)).map(plain).collect::<Vec<_>>()
+    };
+    let columns: Vec<String> = columns.iter().flat_map(called).collect();
     Ok(move |name: &str| map.signals.contains_key(name) || columns.contains(&plain(name)))
 }
 

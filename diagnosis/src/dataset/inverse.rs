@@ -1,8 +1,9 @@
-//! Whether a motion is measured so well that a drive may be compared inversely: motion given, force compared.
+//! Whether a motion is measured so well that a model may be compared inversely: motion given, force compared.
 //!
 //! Simulated forward, a drive with much friction and little mass amplifies every error of the force; where nothing holds
-//! it, it drifts away. The inverse does neither. But it differentiates the position twice, and what is noise of the
-//! position becomes noise of the force, times the mass and the frequency squared. So force and motion are compared in the
+//! it, it drifts away. A car on a road that nobody measured cannot be simulated forward at all. The inverse needs neither. But it
+//! differentiates the position, a drive's twice, and what is noise of the position becomes noise of the force: times the mass and
+//! the frequency squared, or times the damping and the frequency. So force and motion are compared in the
 //! band in which that noise does not count, behind one filter without phase (the decimation of M. Gautier, Dynamic
 //! identification of robots with power model, IEEE ICRA 1997).
 
@@ -10,6 +11,7 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 use rustfft::num_complex::Complex;
+use strut_model::Declaration;
 
 use super::recorded::{Dataset, Source};
 use crate::data::check::noise_floor;
@@ -27,7 +29,7 @@ const LOWEST: f64 = 8.0;
 const NEGLIGIBLE: f64 = 1e-3;
 /// Share of the force's power that has to lie in the band.
 const COVERED: f64 = 0.9;
-/// Share of the force's power that the position's noise may make up by way of the mass.
+/// Share of the force's power that the position's noise may make up by way of mass or damper.
 const NOISY: f64 = 0.01;
 /// Ratio of a band's end to that of the next narrower one that is tried.
 const NARROWER: f64 = 0.8;
@@ -47,9 +49,12 @@ pub struct Banded {
 
 /// The records in the widest band in which the position's noise makes up little of the force, if most of the force is in it.
 pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Banded> {
+    let position = rig.plant.input(&inverse.position)?;
+    let is_rate = |declared: &Declaration| rig.rate_of(&declared.name) == Some(position);
     let signals = Signals {
         force: rig.plant.output(&inverse.force)?,
-        acceleration: rig.plant.input(&inverse.acceleration)?,
+        derivative: rig.plant.input(&inverse.derivative)?,
+        velocity: rig.plant.inputs.iter().position(is_rate)?,
     };
     // One band for all: in a wider one, what is fast would decide.
     let ends = records.iter().map(|record| Some(relevant(record, signals.force(record)?)));
@@ -71,10 +76,10 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
         top = (NARROWER * top).max(LOWEST);
     };
     let text = format!(
-        "the motion drives the model and the force is compared (inverse dynamics), below {} Hz: beyond, {} is lost in its \
-         noise, or the force has less than {} % of its power. At rest nothing is compared: friction holds whatever acts",
-        digits(top, 2),
+        "{} drives the model and this is compared (inverse dynamics), below {} Hz: beyond, the motion is lost in its noise, or \
+         this has less than {} % of its power. At rest nothing is compared: friction holds whatever acts",
         inverse.position,
+        digits(top, 2),
         100.0 * NEGLIGIBLE
     );
     let note = DataProblem { record: "all".into(), signal: inverse.force.clone(), text, fatal: false };
@@ -97,8 +102,10 @@ fn below(record: &Dataset, top: f64) -> Dataset {
 struct Signals {
     /// The output that is compared.
     force: usize,
-    /// The input that the mass resists.
-    acceleration: usize,
+    /// The input that makes most of the motion's noise: what the mass resists, or the damper.
+    derivative: usize,
+    /// The input that tells whether anything moves.
+    velocity: usize,
 }
 
 impl Signals {
@@ -106,25 +113,22 @@ impl Signals {
         record.measured.iter().find(|it| it.output == self.force).map(|it| &it.values[..])
     }
 
-    /// Share of the force's power that the noise of the position makes up by way of the mass.
+    /// Share of the force's power that the noise of the position makes up by way of mass or damper.
     fn noise(self, (record, banded): (&Dataset, &Dataset), top: f64) -> Option<f64> {
         let (motion, force) = (motion(banded), self.force(banded)?);
         let noisier = self::motion(&below(&with_noise_again(record), top));
-        let pairs = motion[self.acceleration].iter().zip(&noisier[self.acceleration]);
+        let pairs = motion[self.derivative].iter().zip(&noisier[self.derivative]);
         let noise: Vec<f64> = pairs.map(|(one, two)| one - two).collect();
-        let mass = coefficient(&motion, force, self.acceleration)?;
-        Some((mass * rms(&noise)).powi(2) / power(force))
+        let factor = coefficient(&motion, force, self.derivative)?;
+        Some((factor * rms(&noise)).powi(2) / power(force))
     }
 
     /// The record without the force at rest.
     fn moving(self, mut record: Dataset) -> Dataset {
-        let motion = motion(&record);
-        if let Some(velocity) = record.inputs[self.acceleration].motion() {
-            let rests = resting(&motion[velocity], record.step);
-            for measured in record.measured.iter_mut().filter(|it| it.output == self.force) {
-                let still = measured.values.iter_mut().zip(&rests).filter(|(_, rests)| **rests);
-                still.for_each(|(value, _)| *value = f64::NAN);
-            }
+        let rests = resting(&motion(&record)[self.velocity], record.step);
+        for measured in record.measured.iter_mut().filter(|it| it.output == self.force) {
+            let still = measured.values.iter_mut().zip(&rests).filter(|(_, rests)| **rests);
+            still.for_each(|(value, _)| *value = f64::NAN);
         }
         record
     }

@@ -5,7 +5,7 @@ use strut_model::Declaration;
 use crate::data::table::did_you_mean;
 use crate::plant::Plant;
 
-use super::kind::{DrivenBy, ElementSignals, ForceOf, Kind};
+use super::kind::{DrivenBy, ElementSignals, ForceOf, Kind, Undriven};
 
 impl Kind {
     /// What is wrong with the names in a rig file of a plant, in sentences.
@@ -36,6 +36,14 @@ impl Kind {
             }
         }
         self.drives.iter().for_each(|by| names.driven(by));
+        if let Some(Undriven { input, model }) = &self.undriven {
+            names.input("undriven", input);
+            let all = Self::published().iter().map(|it| it.model.as_str());
+            if all.clone().all(|it| it != model) {
+                let hint = did_you_mean(model, all);
+                names.wrong(format!("undriven: the library has no model `{model}`{hint}"));
+            }
+        }
         self.excitation.iter().for_each(|it| names.input("excitation", &it.input));
         let own = self.segment.map(|it| ("segment", it));
         let of_drives = self.drives.iter().filter_map(|by| Some(("drives, segment", by.segment?)));
@@ -112,10 +120,9 @@ impl Names<'_> {
         by.nominal.iter().for_each(|name| self.parameter("drives, nominal", name));
         by.follows_inputs.iter().for_each(|name| self.output("drives, follows_inputs", name));
         if let Some(inverse) = &by.inverse {
-            [&inverse.force, &inverse.instead]
-                .into_iter()
-                .for_each(|name| self.output("drives, inverse", name));
-            let inputs = [&inverse.position, &inverse.acceleration];
+            self.output("drives, inverse", &inverse.force);
+            inverse.instead.iter().for_each(|name| self.signal("drives, inverse", name));
+            let inputs = [&inverse.position, &inverse.derivative];
             inputs.into_iter().for_each(|name| self.input("drives, inverse", name));
         }
     }

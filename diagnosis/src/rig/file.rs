@@ -140,6 +140,7 @@ impl Kind {
             drives,
             excitation,
             segment,
+            undriven,
         } = other.clone();
         fn or<T: IntoIterator + Clone>(own: &mut T, other: T) {
             if own.clone().into_iter().next().is_none() {
@@ -161,6 +162,7 @@ impl Kind {
         or(&mut self.follows_inputs, follows_inputs);
         self.opposed = self.opposed.or(opposed);
         self.segment = self.segment.or(segment);
+        self.undriven = self.undriven.or(undriven);
         or(&mut self.missing, missing);
         or(&mut self.drives, drives);
         or(&mut self.excitation, excitation);

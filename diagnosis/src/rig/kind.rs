@@ -39,6 +39,8 @@ pub struct Kind {
     /// What the force that the model misses is made of.
     #[serde(default)]
     pub missing: Vec<Missing>,
+    /// What stands for it where nobody measured what drove it.
+    pub undriven: Option<Undriven>,
     /// Longest segment that is simulated in one go, in seconds: it bounds the memory, and how far a plant that
     /// integrates its input may drift.
     /// A minute unless it is given.
@@ -84,6 +86,16 @@ pub struct Opposed {
     pub signal: String,
 }
 
+/// A model that stands for a plant where a record lacks what drove it, since it is driven by what was measured instead.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Undriven {
+    /// The input that no column has.
+    pub input: String,
+    /// The model of the library; parameters of the same names have the plant's values.
+    pub model: String,
+}
+
 /// A way in which a plant can be driven.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -113,14 +125,14 @@ pub struct DrivenBy {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Inverse {
-    /// The output that is compared.
+    /// The output that is compared: a force, or the acceleration that it makes.
     pub force: String,
     /// The input that is measured.
     pub position: String,
-    /// The input that is its second derivative.
-    pub acceleration: String,
-    /// The output that says more where it is measured.
-    pub instead: String,
+    /// The input that is its highest derivative.
+    pub derivative: String,
+    /// Signals of which each says more where it is measured.
+    pub instead: Vec<String>,
 }
 
 /// A signal that drives a virtual rig.
@@ -282,8 +294,9 @@ impl Kind {
     }
 }
 
-const FILES: [&str; 7] = [
+const FILES: [&str; 8] = [
     include_str!("../../rigs/quarter-car.toml"),
+    include_str!("../../rigs/sprung-mass.toml"),
     include_str!("../../rigs/element-dyno.toml"),
     include_str!("../../rigs/servo-suspension.toml"),
     include_str!("../../rigs/pump-hydraulic-actuator.toml"),

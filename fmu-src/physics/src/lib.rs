@@ -34,6 +34,7 @@ pub const GRAVITY: f64 = 9.80665;
 pub static CATALOGUE: &[Entry] = &[
     Entry::of::<rigs::QuarterCar>(),
     Entry::of::<rigs::FullCar>(),
+    Entry::of::<rigs::SprungMass>(),
     Entry::of::<rigs::SasRig>(),
     Entry::of::<rigs::ServoSuspension>(),
     Entry::of::<rigs::ServoSuspensionIdentified>(),

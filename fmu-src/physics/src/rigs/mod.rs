@@ -7,6 +7,7 @@ mod quarter_car;
 mod sas_rig;
 mod servo_suspension;
 mod servo_suspension_identified;
+mod sprung_mass;
 
 pub use element_dyno::ElementDyno;
 pub use full_car::FullCar;
@@ -15,3 +16,4 @@ pub use quarter_car::QuarterCar;
 pub use sas_rig::{SasRig, SpringLever};
 pub use servo_suspension::ServoSuspension;
 pub use servo_suspension_identified::ServoSuspensionIdentified;
+pub use sprung_mass::SprungMass;

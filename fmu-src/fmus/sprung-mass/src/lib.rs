@@ -1,0 +1,3 @@
+//! SprungMass as an FMU.
+
+strut_fmi::export_fmu!(strut_physics::rigs::SprungMass);
