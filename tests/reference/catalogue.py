@@ -9,6 +9,7 @@ import cases_kogut
 import cases_konieczny
 import cases_of_time
 import cases_sensors
+import cases_sprung_mass
 import cases_tum
 from controllers import LqrController, ModalSkyhook, Skyhook
 from eccentric import EccentricDrive, ExcitationSpeedController
@@ -25,6 +26,7 @@ from sas import MrRotaryBrake, SasRig
 from sensors import AngleSensorChain, SensorChain, SignalAdapter, VelocityEstimator
 from servo import ServoHydraulicActuator, ServoSuspension, ServoSuspensionIdentified
 from sources import FrequencySource, VoltageSource
+from sprung_mass import SprungMass
 
 MODELS = {model.__name__: model for model in (
     AngleSensorChain,
@@ -54,12 +56,13 @@ MODELS = {model.__name__: model for model in (
     ServoSuspensionIdentified,
     SignalAdapter,
     Skyhook,
+    SprungMass,
     VelocityEstimator,
     VoltageSource,
 )}
 
 CASES = [case for module in (cases, cases_ajala, cases_drive, cases_effects, cases_full_car, cases_kogut, cases_konieczny,
-                             cases_of_time, cases_sensors, cases_tum) for case in module.CASES]
+                             cases_of_time, cases_sensors, cases_sprung_mass, cases_tum) for case in module.CASES]
 
 
 def model_of(case):

@@ -11,7 +11,7 @@ use textwrap::{Options, WordSplitter};
 use super::words::{columns, digits, list, number, percent, unit};
 use crate::catalogue::{self, Effect};
 use crate::missing::ports::{Entry, Port};
-use crate::rig::{Rig, SAME, is_manifest};
+use crate::rig::{Rig, SAME, Undriven, is_manifest, kebab};
 
 use effects::{impossible, in_elements, in_signals};
 
@@ -92,6 +92,16 @@ fn signals(text: &mut Text, rig: &Rig) {
         text.paragraph(
             "  ",
             &format!("One way is `{} = {}`{way}: by `{}`{others}.", by.setting, by.item, by.input),
+        );
+    }
+    if let Some(Undriven { input, model }) = &rig.kind.undriven {
+        text.paragraph(
+            "  ",
+            &format!(
+                "Where no column has `{input}`, a {model} stands for it, driven by what was measured above it: `diagnose rigs \
+                 {}` says what can be found then. A column of zeros says that it was at rest.",
+                kebab(model)
+            ),
         );
     }
     let rates = plant.inputs.iter().filter_map(|it| Some((it, rig.rate_of(&it.name)?)));

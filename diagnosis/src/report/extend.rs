@@ -40,19 +40,29 @@ impl Diagnosis<'_> {
 
     /// The extended model's parameter set, as `build-fmu --parameters` takes it.
     fn parameter_set(&self) -> String {
-        let rig = self.baseline.rig;
+        let judged = self.baseline.rig;
         let extended = &self.found.extended;
-        let point = extended.point.within(&rig.plant);
-        let choices = self.baseline.choices(&extended.terms);
+        let point = extended.point.within(&judged.plant);
+        // Of a rig that nobody measured whole, what was found of a part is a value of the whole.
+        let rig = judged.of.as_deref().unwrap_or(judged);
+        let choices = match judged.of {
+            Some(_) => rig.choices.clone(),
+            None => self.baseline.choices(&extended.terms),
+        };
         let mut text = format!(
             "fmu = \"{NAME}\"\nmodel = \"{}\"\ntitle = \"{} as a diagnosis has extended it\"\nsource = \"diagnosis\"\n\n\
              [values]\n",
             rig.plant.name, rig.fmu
         );
         for (index, declared) in rig.plant.parameters.iter().enumerate() {
-            let value = point.parameters[index];
-            let own = extended.coordinates.iter().any(|it| it.handle == Unknown::Parameter(index));
-            let fitted = own || value != extended.point.parameters[index];
+            let (value, fitted) = match judged.plant.parameter(&declared.name) {
+                None => (rig.parameters[index], false),
+                Some(index) => {
+                    let value = point.parameters[index];
+                    let own = extended.coordinates.iter().any(|it| it.handle == Unknown::Parameter(index));
+                    (value, own || value != extended.point.parameters[index])
+                }
+            };
             if fitted || value != declared.start {
                 let source = if fitted { "fitted to the records" } else { "starting model" };
                 let unit = declared.unit.symbol;

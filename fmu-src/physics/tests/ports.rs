@@ -21,6 +21,7 @@ fn all() -> impl Iterator<Item = Ports> {
     ports_of! {
         rigs::QuarterCar
         rigs::FullCar
+        rigs::SprungMass
         rigs::SasRig
         rigs::ServoSuspension
         rigs::ServoSuspensionIdentified
@@ -68,6 +69,7 @@ fn the_ports_are_these() {
     let expected = [
         "QuarterCar: strut.preload, guide.preload, tire.preload, wheel_guide.preload",
         "FullCar: strut.front.preload, strut.rear.preload, tire.front.preload, tire.rear.preload",
+        "SprungMass: strut.preload, guide.preload",
         "SasRig: wheel_arm.load, body_arm.load, pivot.preload, tire.preload",
         "ServoSuspension: strut.preload, guide.preload, tire.preload, wheel_guide.preload, \
          actuator.cylinder.preload, actuator.cylinder.flow_offset",

@@ -97,6 +97,8 @@ pub enum Sensors {
     NoForceCell,
     /// Acceleration of the body and deflection; road and commanded force.
     Poor,
+    /// Both accelerations, deflection, and commanded force: a car on a road that nobody measured.
+    NoRoad,
 }
 
 /// Data to make.
@@ -183,6 +185,7 @@ impl Case {
             Sensors::Full => {}
             Sensors::NoForceCell => parts.push("no force cell".into()),
             Sensors::Poor => parts.push("body acceleration and deflection only".into()),
+            Sensors::NoRoad => parts.push("no road, no force cell".into()),
         }
         if self.ratio > 0.0 && self.ratio != 3.0 {
             parts.push(format!("ratio to the clutter {}", self.ratio));

@@ -149,7 +149,16 @@ pub fn compact() -> Vec<Case> {
     all.push(guided(standard("mass-none", vec![], 51)));
     all.push(guided(standard("mass-16m", vec![Hidden::new("16m")], 52)));
     all.push(guided(standard("mass-U16", vec![Hidden::new("U16")], 53)));
+    // On a road that nobody measured.
+    for (seed, id) in [(54, "01"), (55, "05"), (56, "08"), (57, "12"), (58, "U1")] {
+        all.push(roadless(standard(format!("roadless-{id}"), vec![Hidden::new(id)], seed)));
+    }
+    all.push(roadless(standard("roadless-none", vec![], 59)));
     all
+}
+
+fn roadless(case: Case) -> Case {
+    Case { sensors: Sensors::NoRoad, ..case }
 }
 
 /// The whole benchmark, each case with each of the seeds.
@@ -311,6 +320,7 @@ fn conditions(seed: u64, all: &mut Vec<Case>) {
             with(&format!("off-{nominal_off}"), &|case| Case { nominal_off, ..case });
         }
         with("no-force-cell", &|case| Case { sensors: Sensors::NoForceCell, ..case });
+        with("no-road", &roadless);
         with("poor", &|case| Case { sensors: Sensors::Poor, ..case });
         for (name, size) in [("small", 0.1), ("third", 0.35)] {
             with(name, &|mut case| {

@@ -41,8 +41,12 @@ pub struct Validation {
 }
 
 impl Diagnosis<'_> {
-    /// The validation experiment; none where the model diverges on the record, or is driven along curves.
+    /// The validation experiment; none where the model diverges on the record, is driven along curves, or stands for one that the
+    /// record cannot drive.
     pub(super) fn validation(&self) -> Option<Validation> {
+        if self.baseline.rig.of.is_some() {
+            return None;
+        }
         let terms = &self.found.extended.terms;
         let (point, _) = self.baseline.as_measured(
             self.measured,

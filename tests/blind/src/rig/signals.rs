@@ -32,7 +32,8 @@ pub fn signals(plant: Plant, sensors: Sensors) -> Vec<(&'static str, &'static st
         Plant::LinearQuarter | Plant::RegulatedQuarter | Plant::PublishedQuarter => ("actuator.force", "N"),
         Plant::ServoQuarter => ("voltage", "V"),
     };
-    let mut all = vec![("road.position", "m"), command, ("body.acceleration", "m/s2")];
+    let road = (sensors != Sensors::NoRoad).then_some(("road.position", "m"));
+    let mut all: Vec<_> = road.into_iter().chain([command, ("body.acceleration", "m/s2")]).collect();
     if sensors != Sensors::Poor {
         all.push(("wheel.acceleration", "m/s2"));
     }
