@@ -12,10 +12,12 @@ use crate::data::{
 use crate::dataset::recorded::{Dataset, Measured, Source};
 use crate::plant::Between;
 use crate::report::findings::{DataProblem, RecordRead};
+use crate::report::words::digits;
 use crate::rig::{DrivenBy, Opposed, Rig, Undriven};
 
 use super::columns::{doubt, follow, is_constant, others, read};
 use super::inverse::{self, Banded};
+use super::zero::centred;
 
 /// Samples that a record needs.
 const FEWEST: usize = 100;
@@ -54,6 +56,7 @@ pub fn load(rig: &mut Rig, origins: &[&Origin], map: &Map) -> Result<Loaded, Str
     let note = stand_in(rig, &has)?;
     let mut loaded = as_driven(rig, origins, map, has)?;
     loaded.problems.splice(0..0, note);
+    loaded.problems.extend(centred(rig, &mut loaded.records));
     Ok(loaded)
 }
 
@@ -172,8 +175,23 @@ fn import(rig: &Rig, origin: &Origin, map: &Map) -> Result<Imported, String> {
         channel.map(|channel| channel.values.clone())
     };
     let mut inputs: Vec<Source> = Vec::new();
+    let centred = rig.driven().filter(|by| by.without_mean).map(|by| by.input.as_str());
     for declared in &rig.plant.inputs {
         inputs.push(match values(&declared.name) {
+            Some(mut values) if centred == Some(declared.name.as_str()) => {
+                let mean = centre(&mut values);
+                problems.push(DataProblem {
+                    record: name.clone(),
+                    signal: declared.name.clone(),
+                    text: format!(
+                        "its mean of {} {} is taken for the sensor's offset: what stays in its place has none",
+                        digits(mean, 2),
+                        declared.unit.symbol
+                    ),
+                    fatal: false,
+                });
+                Source::Measured(values)
+            }
             Some(values) => Source::Measured(values),
             // A rate is declared after its motion.
             None => rig
@@ -243,6 +261,15 @@ fn import(rig: &Rig, origin: &Origin, map: &Map) -> Result<Imported, String> {
         problems,
         read,
     })
+}
+
+/// Takes the mean away from the known values, and tells it.
+fn centre(values: &mut [f64]) -> f64 {
+    let (count, sum) =
+        values.iter().filter(|it| it.is_finite()).fold((0, 0.0), |(n, sum), it| (n + 1, sum + it));
+    let mean = sum / f64::from(count.max(1));
+    values.iter_mut().for_each(|it| *it -= mean);
+    mean
 }
 
 /// Takes away the values on the even grid that come from ranges of the file's samples, and tells how many there were.
@@ -371,6 +398,13 @@ fn align(records: &mut [Dataset]) -> Result<(), String> {
 mod tests {
     use super::*;
     use crate::data::{Channel, Record};
+
+    #[test]
+    fn a_mean_is_that_of_the_known_values() {
+        let mut values = [1.0, f64::NAN, 4.0];
+        assert_eq!(centre(&mut values), 2.5);
+        assert!(values[0] == -1.5 && values[1].is_nan() && values[2] == 1.5);
+    }
 
     #[test]
     fn one_value_and_gaps_are_constant() {

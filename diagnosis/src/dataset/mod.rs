@@ -7,3 +7,4 @@ pub mod inverse;
 pub mod recorded;
 pub mod split;
 pub mod witness;
+pub mod zero;

@@ -115,6 +115,9 @@ pub struct DrivenBy {
     /// Outputs that follow from the inputs alone then.
     #[serde(default)]
     pub follows_inputs: Vec<String>,
+    /// Whether the input has no mean, as the acceleration of what stays in its place: a measured mean is the sensor's.
+    #[serde(default)]
+    pub without_mean: bool,
     /// What it takes for the inverse: the motion drives the model, and the force is compared.
     pub inverse: Option<Inverse>,
     /// Longest segment then, in seconds, if it is not the model's.

@@ -27,7 +27,8 @@ impl Rig {
         let given = values.iter().map(|(name, value)| (*name, value));
         let mut part = Self::made((self.name.clone(), self.fmu.clone()), plant, kind.clone(), given)?;
         let here = |index: usize| part.plant.parameter(&self.plant.parameters[index].name);
-        let known = self.known.iter().filter_map(|(index, value, error)| Some((here(*index)?, *value, *error)));
+        let known =
+            self.known.iter().filter_map(|(index, value, error)| Some((here(*index)?, *value, *error)));
         let known = known.collect();
         let is_stated = |name: &str| self.plant.parameter(name).is_some_and(|index| self.stated[index]);
         part.stated = part.plant.parameters.iter().map(|it| is_stated(&it.name)).collect();

@@ -35,7 +35,10 @@ fn tables_have_the_names_of_the_fmu() {
         heads(Sensors::Poor),
         "time [s],road.position [m],actuator.force [N],body.acceleration [m/s2],suspension.deflection [m]"
     );
-    assert_eq!(heads(Sensors::NoRoad), full.replace("road.position [m],", "").replace(",wheel.force [N]", ""));
+    assert_eq!(
+        heads(Sensors::NoRoad),
+        full.replace("road.position [m],", "").replace(",wheel.force [N]", "")
+    );
 }
 
 /// Without effects, noise and clutter the records obey Newton's law with the true masses.
