@@ -9,7 +9,7 @@ pub struct Account {
     pub total: f64,
     /// Measurement noise.
     pub noise: f64,
-    /// What fitting the nominal parameters takes away; negative if it makes this signal worse.
+    /// What fitting the nominal parameters takes away; negative if it makes this signal worse, and nothing else was found.
     pub parameters: f64,
     /// What each effect takes away, in their order.
     pub effects: Vec<f64>,
@@ -22,6 +22,8 @@ pub struct Account {
 /// From the mean squares of the starting model's error, of the error after fitting the nominal parameters, and after each effect; the
 /// noise's; and the share that features without a name explain of what is left then.
 pub fn account(start: f64, fitted: f64, effects: &[f64], noise: f64, unmodelled: f64) -> Account {
+    // Without its effects, a model may need worse parameters than those that it started with: no amount of either.
+    let fitted = if effects.is_empty() { fitted } else { fitted.min(start) };
     let mut before = fitted;
     let taken = effects.iter().map(|after| {
         let taken = before - after;
@@ -67,6 +69,13 @@ mod tests {
             prop_assert!((sum - total).abs() < 1e-12 * (1.0 + total));
             prop_assert!(noise >= 0.0 && unmodelled >= 0.0 && unexplained >= 0.0);
         }
+    }
+
+    #[test]
+    fn parameters_that_make_up_for_an_effect_take_nothing_away() {
+        let found = account(100.0, 250.0, &[30.0], 0.0, 0.0);
+        assert_eq!((found.parameters, &found.effects[..]), (0.0, &[70.0][..]));
+        assert_eq!(account(100.0, 250.0, &[], 0.0, 0.0).parameters, -150.0);
     }
 
     #[test]

@@ -19,7 +19,7 @@ use crate::dataset::witness::same_excitation;
 use crate::decision::verdict::{Facts, verdict};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::estimation::coordinates::SURE;
-use crate::estimation::fit::{Estimate, Residuals, Unknown};
+use crate::estimation::fit::{Estimate, FreeParameter, Residuals, Unknown};
 use crate::estimation::hypothesis::{Fitted, Term};
 use crate::explain::selection::Score;
 use crate::report::findings::{
@@ -50,7 +50,7 @@ impl Diagnosis<'_> {
     pub fn findings(&self, data_problems: Vec<DataProblem>, seconds: f64) -> Findings {
         let baseline = &self.baseline;
         let (signals, initial_states, distortions) = self.signals();
-        let nominal_parameters = self.nominal_parameters();
+        let nominal_parameters = self.nominal_parameters(&signals);
         let named: Vec<&Accepted> = self.found.accepted.iter().filter(|it| !has_no_name(it.term)).collect();
         let effects: Vec<Effect> = named.iter().map(|it| self.effect(it)).collect();
         let mut unmodelled = self.unmodelled();
@@ -102,8 +102,12 @@ impl Diagnosis<'_> {
         findings
     }
 
-    fn nominal_parameters(&self) -> Vec<NominalParameter> {
+    /// What the nominal parameters are and were. That some differ is told only if the model with them predicts the validation records
+    /// better than the starting model does.
+    fn nominal_parameters(&self, signals: &[Signal]) -> Vec<NominalParameter> {
         let rig = self.baseline.rig;
+        let left: f64 = signals.iter().map(|it| (it.rms_after / it.rms_before).powi(2)).sum();
+        let holds = left < signals.len() as f64;
         let mut list: Vec<NominalParameter> = self
             .reversed
             .iter()
@@ -135,7 +139,8 @@ impl Diagnosis<'_> {
                 // Of values that the records tell only together, their common factor is the parameter set's matter.
                 let common = if interval.from_parameter_set { common } else { 1.0 };
                 let change = (after - before).abs().min((after - common * before).abs());
-                let mismatch = change > 1.5 * interval.half_of_data && change > MISMATCH * before.abs();
+                let mismatch =
+                    holds && change > 1.5 * interval.half_of_data && change > MISMATCH * before.abs();
                 let given = self.baseline.known.iter().find(|(known, _, _)| *known == index);
                 let contradicted = given.is_some_and(|(_, value, deviation)| {
                     (after - value).abs() > (1.0 - MISMATCH) * SURE * deviation
@@ -253,7 +258,9 @@ impl Diagnosis<'_> {
                 None => (it.handle, ends),
             };
             let ((name, unit), [value, low, high]) = (naming::handle(handle, plant), ends);
-            EffectParameter { name, value, unit, low, high }
+            let reached =
+                !own.iter().any(|own| own.handle == it.handle && self.is_unreached(accepted.term, own));
+            EffectParameter { name, value, unit, low, high, reached }
         });
         let rivals: Vec<naming::Name> = accepted.rivals.iter().map(|term| name(*term, plant)).collect();
         Effect {
@@ -269,6 +276,16 @@ impl Diagnosis<'_> {
             }),
             ambiguous_with: rivals.iter().map(naming::Name::short).collect(),
         }
+    }
+
+    /// Whether a coordinate is a threshold that the fit has moved out of reach.
+    fn is_unreached(&self, term: Term, coordinate: &FreeParameter) -> bool {
+        let Term::Effect(effect) = term else { return false };
+        let plant = &self.baseline.rig.plant;
+        let thresholds = effect.parts.iter().filter(|it| it.beyond.is_some());
+        let mut handles = thresholds.filter_map(|it| plant.parameter(it.parameter)).map(Unknown::Parameter);
+        handles.any(|it| it == coordinate.handle)
+            && self.found.extended.point.get(coordinate.handle) == coordinate.bounds.1
     }
 
     /// The own parameters of a candidate in its fit.
@@ -290,7 +307,7 @@ impl Diagnosis<'_> {
             let outcome = match tried {
                 _ if self.found.accepted.iter().any(|it| it.term == *term) => "accepted".into(),
                 None if self.is_unfinished() && self.found.tried.is_empty() => late(),
-                None => "explains less of the missing signal".into(),
+                None => "not fitted: its share of the missing signal is smaller".into(),
                 Some(tried) => match (&tried.fitted, tried.evidence.refusal()) {
                     (Err(error), _) => error.clone(),
                     (Ok(_), Some(refusal)) => refusal,

@@ -143,6 +143,8 @@ pub struct EffectParameter {
     pub low: f64,
     /// Upper end of the 95 % interval.
     pub high: f64,
+    /// Whether the records reach it, if it is a threshold; otherwise they tell no value, and this one is the farthest that is tried.
+    pub reached: bool,
 }
 
 /// A parameter of the starting model.

@@ -4,8 +4,8 @@ use textwrap::Options;
 use unicode_width::UnicodeWidthStr;
 
 use super::words::{
-    badge, capitalised, chance, count, digits, effect_name, effect_rank, headline, interval, located, number,
-    percent, quantity, unit,
+    UNREACHED, badge, capitalised, chance, count, digits, effect_name, effect_rank, headline, interval,
+    located, number, percent, quantity, unit,
 };
 use crate::report::findings::{AccountItem, Effect, Findings, RecordRead, SignalAccount};
 use crate::report::words;
@@ -114,6 +114,10 @@ impl Lines {
         let evidence = effect.evidence;
         self.wrapped("", &format!("{} {}", effect.id, capitalised(&located(&effect.name, &effect.element))));
         for parameter in &effect.parameters {
+            if !parameter.reached {
+                self.wrapped("  ", &format!("{}: {UNREACHED}", parameter.name));
+                continue;
+            }
             let [value, low, high] = interval(parameter.value, parameter.low, parameter.high);
             let unit = unit(&parameter.unit);
             let text = format!("{} = {value} {unit}", parameter.name);

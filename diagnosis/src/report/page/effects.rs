@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::report::evidence::{gates, sentences};
 use crate::report::findings::{Effect, Evidence, Findings};
-use crate::report::words::{capitalised, effect_name, interval, located, unit};
+use crate::report::words::{UNREACHED, capitalised, effect_name, interval, located, unit};
 
 /// All identified effects.
 pub fn section(findings: &Findings) -> Markup {
@@ -97,12 +97,16 @@ fn added(findings: &Findings, effect: &Effect) -> Markup {
                         thead { tr { th { "Parameter" } th.number { "Value" } th.number { "95 % interval" } th { "Unit" } } }
                         tbody {
                             @for parameter in &effect.parameters {
-                                @let [value, low, high] = interval(parameter.value, parameter.low, parameter.high);
                                 tr {
                                     td { code { (parameter.name) } }
-                                    td.number { strong { (value) } }
-                                    td.number { (low) " … " (high) }
-                                    td.unit { (unit(&parameter.unit)) }
+                                    @if parameter.reached {
+                                        @let [value, low, high] = interval(parameter.value, parameter.low, parameter.high);
+                                        td.number { strong { (value) } }
+                                        td.number { (low) " … " (high) }
+                                        td.unit { (unit(&parameter.unit)) }
+                                    } @else {
+                                        td colspan="3" { (UNREACHED) }
+                                    }
                                 }
                             }
                         }

@@ -19,7 +19,13 @@ pub fn headline(findings: &Findings) -> String {
             Some(it) => {
                 format!("The model lacks {}. No effect of the catalogue explains it.", it.description)
             }
-            None => "The model lacks something. It follows no recorded signal.".into(),
+            None => match &findings.missing {
+                Some(missing) => format!(
+                    "The model lacks something, most likely at the {}. It follows no recorded signal.",
+                    missing.place
+                ),
+                None => "The model lacks something. It follows no recorded signal.".into(),
+            },
         },
         Verdict::SensorFault if effects.is_empty() => "A sensor is at fault, not the plant.".into(),
         Verdict::SensorFault => format!("A sensor is at fault, not the plant: {}.", list(&effects, "and")),

@@ -57,7 +57,7 @@ pub fn friction() -> Effect {
 }
 
 pub fn parameter(name: &str, unit: &str, value: f64, low: f64, high: f64) -> EffectParameter {
-    EffectParameter { name: name.into(), value, unit: unit.into(), low, high }
+    EffectParameter { name: name.into(), value, unit: unit.into(), low, high, reached: true }
 }
 
 pub fn base(name: &str, unit: &str, before: f64, after: f64, half: f64, mismatch: bool) -> NominalParameter {
@@ -126,7 +126,7 @@ pub fn candidates() -> Vec<Candidate> {
             outcome: if fitted {
                 "no improvement on the validation data (t = 0.4)"
             } else {
-                "explains less of the missing signal"
+                "not fitted: its share of the missing signal is smaller"
             }
             .into(),
         }
