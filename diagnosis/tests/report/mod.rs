@@ -174,13 +174,23 @@ fn the_schematic_shows_the_rig_at_hand() {
     };
     for (elements, shown) in [
         (&["tire", "strut"][..], &["body", "wheel", "tyre", "strut"][..]),
-        (&["strut"], &["crosshead", "shaker", "strut"]),
+        (&["strut"], &["upper end", "lower end", "strut"]),
+        (&["guide", "strut"], &["body", "base", "strut"]),
         (&["actuator"], &["carriage", "frame", "actuator"]),
     ] {
         let page = of(elements);
-        for label in
-            ["body", "wheel", "tyre", "strut", "actuator", "crosshead", "shaker", "carriage", "frame"]
-        {
+        for label in [
+            "body",
+            "wheel",
+            "base",
+            "tyre",
+            "strut",
+            "actuator",
+            "upper end",
+            "lower end",
+            "carriage",
+            "frame",
+        ] {
             let drawn = page.contains(&format!(">{label}</text>"));
             let expected = shown.contains(&label) || (label == "actuator" && elements[0] == "tire");
             assert_eq!(drawn, expected, "{label} for {elements:?}");

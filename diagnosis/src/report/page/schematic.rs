@@ -33,7 +33,9 @@ impl Drawing {
         if tire {
             Some(Self { upper: "body", lower: "wheel", strut: true, guide: true, tire, actuator: true })
         } else if strut {
-            Some(Self { upper: "crosshead", lower: "shaker", strut, guide, tire, actuator })
+            // A mass on a moved base has a guide; what a strut alone is clamped to, nothing says.
+            let (upper, lower) = if guide { ("body", "base") } else { ("upper end", "lower end") };
+            Some(Self { upper, lower, strut, guide, tire, actuator })
         } else if actuator || guide {
             Some(Self { upper: "carriage", lower: "frame", strut, guide: true, tire, actuator: true })
         } else {
