@@ -88,6 +88,29 @@ impl Declarations {
     }
 }
 
+impl Declarations {
+    /// Adds the variables of a group, some of which have a smaller lower bound here: where a spring stands alone there may be
+    /// none.
+    ///
+    /// # Panics
+    /// If the group has no variable of such a name.
+    pub fn bounded_group<B: Bundle<f64>>(
+        &mut self,
+        name: &'static str,
+        doc: &'static str,
+        least: &[(&str, f64)],
+    ) {
+        let first = self.list.len();
+        self.group::<B>(name, doc);
+        let outer: String = self.groups.iter().map(|(group, _)| format!("{group}.")).collect();
+        for (own, min) in least {
+            let full = format!("{outer}{name}.{own}");
+            let found = self.list[first..].iter_mut().find(|it| it.name == full);
+            found.unwrap_or_else(|| panic!("there is no variable `{full}`")).min = Some(*min);
+        }
+    }
+}
+
 /// A struct of declared real variables; made by `#[derive(Variables)]`.
 pub trait Bundle<R>: Copy {
     /// Number of variables.
