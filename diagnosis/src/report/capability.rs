@@ -11,7 +11,7 @@ use textwrap::{Options, WordSplitter};
 use super::words::{columns, digits, list, number, percent, unit};
 use crate::catalogue::{self, Effect};
 use crate::missing::ports::{Entry, Port};
-use crate::rig::{Rig, SAME, is_manifest};
+use crate::rig::{Rig, SAME, UNSEEN, is_manifest};
 
 use effects::{impossible, in_elements, in_signals};
 
@@ -20,9 +20,6 @@ const WIDTH: usize = 100;
 
 /// Digits of a parameter's value.
 const DIGITS: usize = 4;
-
-/// Difference of outputs that is no more than that of two ways to compute the same.
-const UNSEEN: f64 = 5e-4;
 
 /// Difference of outputs beyond which its size says nothing more.
 const MANY: f64 = 10.0;

@@ -19,6 +19,9 @@ const FREQUENCY: f64 = 3.0;
 /// Difference of an output, in its unit, that is no more than rounding.
 const ROUNDING: f64 = 1e-9;
 
+/// Difference of outputs that is no more than that of two ways to compute the same.
+pub const UNSEEN: f64 = 5e-4;
+
 /// Largest difference of an output between the model on its own and with a strut of the library in the place of its spring
 /// and damper, relative to how far the output moves; none if no strut replaces anything. Not a number where one of the
 /// two cannot be run.

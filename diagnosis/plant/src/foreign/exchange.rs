@@ -1,5 +1,6 @@
 //! An FMU, loaded, and instances of it that compute rates and outputs.
 
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use strut_check::import::{
@@ -13,7 +14,7 @@ use super::Foreign;
 use super::units::{Conversion, coherent};
 
 /// Share of its start value that a positive parameter without a lower bound has at least.
-const LEAST: f64 = 1e-6;
+pub const LEAST: f64 = 1e-6;
 
 /// A loaded FMU.
 pub struct Fmu {
@@ -24,6 +25,8 @@ pub struct Fmu {
     pub states: Vec<Declaration>,
     /// Start values of the parameters that an element replaces, which are zero here, in base units.
     pub replaced: Vec<f64>,
+    /// All real variables by name.
+    reals: BTreeMap<String, u32>,
     library: Library,
     guid: String,
     resources: String,
@@ -129,6 +132,7 @@ impl Fmu {
             parameters,
             states,
             replaced: replaced.iter().map(|it| it.start).collect(),
+            reals: references(&description),
             library,
             guid,
             resources: uri(&folder.path().join("resources")),
@@ -176,6 +180,23 @@ impl Fmu {
             declared.start = conversion.si(value);
         }
         Ok(())
+    }
+
+    /// The states after an initialisation with these values, as the FMU has them, in base units; none if it refuses one.
+    pub fn started(&self, values: &[(String, f64)]) -> Option<Vec<f64>> {
+        let references: Option<Vec<u32>> =
+            values.iter().map(|(name, _)| self.reals.get(name).copied()).collect();
+        let (references, values) = (references?, values.iter().map(|(_, value)| *value).collect::<Vec<f64>>());
+        let instance = self.instantiate()?;
+        let mut states = vec![0.0; self.states.len()];
+        let is_fine = (references.is_empty() || fine(self.library.set_reals(instance, &references, &values)))
+            && self.begin(instance)
+            && self.finish(instance)
+            && (states.is_empty()
+                || fine(self.library.array("fmi2GetContinuousStates", instance, &mut states)));
+        self.release(instance);
+        let si = states.iter().zip(&self.of_states).map(|(value, conversion)| conversion.si(*value));
+        is_fine.then(|| si.collect())
     }
 
     fn instantiate(&self) -> Option<Instance> {
@@ -403,6 +424,11 @@ fn state_variables(description: &Description) -> Result<Vec<&Variable>, String> 
     found.ok_or_else(|| {
         "its model structure does not say what its derivatives are of; `build-fmu check` tells more".into()
     })
+}
+
+fn references(description: &Description) -> BTreeMap<String, u32> {
+    let reals = description.variables.iter().filter(|it| it.kind == "Real");
+    reals.filter_map(|it| Some((it.name.clone(), it.reference?))).collect()
 }
 
 fn declared<'a>(

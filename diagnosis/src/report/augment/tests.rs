@@ -1,0 +1,1 @@
+//! The system that is made of what was found.
