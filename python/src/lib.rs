@@ -201,17 +201,19 @@ impl PyOutcome {
     ) -> PyResult<()> {
         let [fmu, record] = parts;
         let Outcome { findings, extended } = &self.0;
-        let failures = py.detach(|| {
-            let mut failures = Vec::new();
+        let (failures, notes) = py.detach(|| {
+            let (mut failures, mut notes) = (Vec::new(), Vec::new());
             let written = report::write(findings, &folder);
             failures.extend(written.err().into_iter().flatten().map(|error| error.to_string()));
             if let Some(extended) = extended.as_ref().filter(|_| folder.is_dir()) {
                 let packing = Packing { libraries: libraries.as_deref(), record };
-                let written = extended.write(findings, &folder, fmu.then_some(packing));
-                failures.extend(written.err().into_iter().flatten());
+                let packing = fmu.then_some(packing);
+                failures.extend(extended.write(findings, &folder, packing).err().into_iter().flatten());
+                notes = extended.notes(packing);
             }
-            failures
+            (failures, notes)
         });
+        notes.iter().for_each(|note| eprintln!("note: {note}"));
         if failures.is_empty() { Ok(()) } else { Err(PyOSError::new_err(failures.join("\n"))) }
     }
 }

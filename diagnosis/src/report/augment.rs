@@ -10,8 +10,9 @@ use std::path::Path;
 use strut_model::Declaration;
 
 use crate::diagnosis::Diagnosis;
-use crate::plant::{Face, Foreign, is_of_strut};
-use crate::rig::{UNSEEN, difference, fmu_of};
+use crate::plant::{Drive, Face, Foreign, Signals, is_of_strut};
+use crate::rig::{Rig, UNSEEN, difference, fmu_of};
+use crate::signal::distortion::Correction;
 
 use super::extend::Segment;
 use super::words;
@@ -33,40 +34,94 @@ pub fn obstacle(face: &Face) -> Option<&'static str> {
     }
 }
 
+/// What is to be said of an `augmented.ssp` before there is a diagnosis, in sentences: what it would not show; none of a model
+/// of the library, which has an `extended.fmu`.
+///
+/// # Errors
+/// Why there can be none.
+pub fn possible(rig: &Rig) -> Option<Result<Vec<String>, String>> {
+    rig.kind.is_foreign().then(|| {
+        let mut parameters = rig.parameters.clone();
+        // As if something had been found.
+        rig.plant.parameter("strut.coulomb.force").into_iter().for_each(|index| parameters[index] = 1.0);
+        let drive = rig.trial();
+        let outputs = rig.plant.outputs.iter().filter(|it| !rig.is_trivial(&it.name));
+        let found = Found {
+            parameters: &parameters,
+            start: &rig.start,
+            simulated: rig.plant.prepare(&rig.choices)?.outputs(&parameters, &rig.start, &drive),
+            drive,
+            measured: outputs.map(|it| (&*it.name, Correction::default())).collect(),
+            step: 1e-3,
+            record: String::new(),
+        };
+        Ok(found.system(rig)?.notes)
+    })
+}
+
 impl Diagnosis<'_> {
     /// The augmented model on a segment of a record.
     ///
     /// # Errors
     /// Why there is none, in a sentence.
     pub(super) fn augmented(&self, segment: Option<&Segment<'_>>) -> Result<System, String> {
+        let Segment { record, range, point, start, dynamics } =
+            segment.ok_or("the model diverges on the validation records")?;
         let rig = self.baseline.rig;
-        let fmu = fmu_of(Path::new(&rig.kind.model))?;
+        let (drive, parameters) = (record.drive(range, &point.inputs), &point.parameters);
+        let [from, to] = [range.start, range.end - 1].map(|sample| sample as f64 * record.step);
+        let outputs = record.measured.iter().map(|it| it.output);
+        let found = Found {
+            parameters,
+            start,
+            simulated: dynamics.outputs(parameters, start, &drive),
+            step: step::step(&**dynamics, (parameters, start), &drive),
+            drive,
+            measured: outputs.map(|it| (&*rig.plant.outputs[it].name, point.outputs[it])).collect(),
+            record: format!("{}, {from} s to {to} s", record.name),
+        };
+        found.system(rig)
+    }
+}
+
+/// What a rig becomes, and what it does on a record.
+struct Found<'a> {
+    parameters: &'a [f64],
+    start: &'a [f64],
+    drive: Drive,
+    simulated: Signals,
+    measured: Vec<(&'a str, Correction)>,
+    step: f64,
+    record: String,
+}
+
+impl Found<'_> {
+    fn system(self, rig: &Rig) -> Result<System, String> {
+        let Self { parameters, start, drive, simulated, measured, step, record } = self;
+        let (fmu, plant) = (fmu_of(Path::new(&rig.kind.model))?, &rig.plant);
         let face = Face::read(&fmu)?;
         if let Some(text) = obstacle(&face) {
             return Err(text.into());
         }
-        let Segment { record, range, point, start, dynamics } =
-            segment.ok_or("the model diverges on the validation records")?;
-        let plant = &rig.plant;
-        let drive = record.drive(range, &point.inputs);
-        let simulated = dynamics.outputs(&point.parameters, start, &drive);
+        if !simulated.iter().flatten().all(|it| it.is_finite()) {
+            return Err("the model cannot be simulated".into());
+        }
         let strut = rig.kind.attached()?;
-        let measured = record.measured.iter();
-        let [from, to] = [range.start, range.end - 1].map(|sample| sample as f64 * record.step);
+        let of_strut = plant.states.iter().zip(start).filter(|(it, _)| is_of_strut(&it.name));
         let mut material = Material {
             fmu: &fmu,
             face: &face,
             strut: strut.as_ref(),
             stands_in: difference(rig)?.is_some_and(|it| it < UNSEEN),
-            parameters: plant.parameters.iter().zip(&point.parameters).map(valued).collect(),
-            memory: plant.states.iter().zip(start).filter(|(it, _)| is_of_strut(&it.name)).map(valued).collect(),
+            parameters: plant.parameters.iter().zip(parameters).map(valued).collect(),
+            memory: of_strut.map(valued).collect(),
             starts: Vec::new(),
             inputs: plant.inputs.iter().zip(&drive.inputs).map(|(it, of)| (&*it.name, &**of)).collect(),
             outputs: plant.outputs.iter().zip(&simulated).map(|(it, of)| (&*it.name, &**of)).collect(),
             sampling: drive.step / drive.finer as f64,
-            measured: measured.map(|it| (&*plant.outputs[it.output].name, point.outputs[it.output])).collect(),
-            step: step::step(&**dynamics, (&point.parameters, start), &drive),
-            record: format!("{}, {from} s to {to} s", record.name),
+            measured,
+            step,
+            record,
         };
         material.starts = starts(&face, (&plant.states, start), &material.outputs);
         let note = apart(&mut material, (&plant.states, start))?;
