@@ -78,9 +78,9 @@ pub use cli::{CheckArguments, NewArguments};
 #[cfg(feature = "tools")]
 pub use completions::with_names;
 use strut_model::{Entry, ParameterSet};
-pub use system::stated_unit;
 #[cfg(feature = "strut")]
 use strut_model::{Inputs, Trajectory};
+pub use system::stated_unit;
 
 /// The version of this program, with the commit in release builds: `0.1.0 (1a2b3c4d5e6f)`.
 pub const VERSION: &str = match option_env!("STRUT_VERSION") {

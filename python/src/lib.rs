@@ -191,14 +191,14 @@ impl PyOutcome {
         self.0.extended.as_ref().map(|extended| &*extended.parameters)
     }
 
-    /// Writes the report and the extended model.
+    /// Writes the report and the extended model; what is to be known of it, in sentences.
     fn save(
         &self,
         py: Python<'_>,
         folder: PathBuf,
         parts: [bool; 2],
         libraries: Option<PathBuf>,
-    ) -> PyResult<()> {
+    ) -> PyResult<Vec<String>> {
         let [fmu, record] = parts;
         let Outcome { findings, extended } = &self.0;
         let (failures, notes) = py.detach(|| {
@@ -213,8 +213,7 @@ impl PyOutcome {
             }
             (failures, notes)
         });
-        notes.iter().for_each(|note| eprintln!("note: {note}"));
-        if failures.is_empty() { Ok(()) } else { Err(PyOSError::new_err(failures.join("\n"))) }
+        if failures.is_empty() { Ok(notes) } else { Err(PyOSError::new_err(failures.join("\n"))) }
     }
 }
 

@@ -110,7 +110,8 @@ impl Adapter {
         let [from, to] = units.each_ref().map(Option::as_ref);
         // What is added, before and after, is in the unit of what goes.
         let ends = [("input", from), ("added", to), ("offset", to), ("output", to)];
-        let given: String = ends.iter().filter_map(|(name, unit)| Some(stated_unit(name, (*unit)?))).collect();
+        let given: String =
+            ends.iter().filter_map(|(name, unit)| Some(stated_unit(name, (*unit)?))).collect();
         let set = format!(
             "fmu = \"{name}\"\nmodel = \"{}\"\ntitle = {}\nsource = \"{source}\"\n[values]\n\
              operation = {{ value = \"{operation:?}\", source = \"the system's file\" }}\n\

@@ -159,8 +159,7 @@ fn apart(
     material: &mut Material<'_>,
     (states, start): (&[Declaration], &[f64]),
 ) -> Result<Option<String>, String> {
-    let alone =
-        Foreign { fmu: material.fmu.into(), parameters: Vec::new(), locals: Vec::new(), strut: None };
+    let alone = Foreign { fmu: material.fmu.into(), parameters: Vec::new(), locals: Vec::new(), strut: None };
     let mut found = alone.started(&material.given())?;
     if found.is_none() {
         material.starts.clear();
@@ -168,7 +167,8 @@ fn apart(
     }
     let found = found.ok_or("the FMU refuses the fitted parameters as start values")?;
     let both = states.iter().zip(start).zip(&found);
-    let unlike = both.filter(|((_, wanted), found)| (*wanted - *found).abs() > APART * wanted.abs().max(found.abs()));
+    let unlike =
+        both.filter(|((_, wanted), found)| (*wanted - *found).abs() > APART * wanted.abs().max(found.abs()));
     let told: Vec<String> = unlike
         .map(|((it, wanted), found)| {
             let (unit, name) = (words::unit(it.unit.symbol), &it.name);
@@ -176,6 +176,9 @@ fn apart(
         })
         .collect();
     Ok((!told.is_empty()).then(|| {
-        format!("the FMU takes no start values for all of its states and starts with {}", words::list(&told, "and"))
+        format!(
+            "the FMU takes no start values for all of its states and starts with {}",
+            words::list(&told, "and")
+        )
     }))
 }

@@ -224,7 +224,9 @@ impl Extended {
             (Some(Ok(_)), Some(Packing { record: false, .. })) => {
                 vec![format!("no {file}: a record drives it, and --no-record leaves records out")]
             }
-            (Some(Ok(system)), Some(_)) => system.notes.iter().map(|note| format!("{file}: {note}")).collect(),
+            (Some(Ok(system)), Some(_)) => {
+                system.notes.iter().map(|note| format!("{file}: {note}")).collect()
+            }
         }
     }
 

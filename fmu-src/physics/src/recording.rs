@@ -51,7 +51,9 @@ pub fn parse(text: &str, header: Header) -> Result<Vec<[f64; 2]>, String> {
     let Header { what, columns, is_second } = header;
     let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
     let first = lines.next().map_or("", |(_, line)| line.trim_start_matches('\u{feff}'));
-    let fits = first.split_once(',').is_some_and(|(time, second)| time.trim() == "time [s]" && is_second(second.trim()));
+    let fits = first
+        .split_once(',')
+        .is_some_and(|(time, second)| time.trim() == "time [s]" && is_second(second.trim()));
     if !fits {
         return Err(format!("line 1: expected the header `{columns}`, found `{first}`"));
     }

@@ -186,7 +186,8 @@ impl Fmu {
     pub fn started(&self, values: &[(String, f64)]) -> Option<Vec<f64>> {
         let references: Option<Vec<u32>> =
             values.iter().map(|(name, _)| self.reals.get(name).copied()).collect();
-        let (references, values) = (references?, values.iter().map(|(_, value)| *value).collect::<Vec<f64>>());
+        let (references, values) =
+            (references?, values.iter().map(|(_, value)| *value).collect::<Vec<f64>>());
         let instance = self.instantiate()?;
         let mut states = vec![0.0; self.states.len()];
         let is_fine = (references.is_empty() || fine(self.library.set_reals(instance, &references, &values)))

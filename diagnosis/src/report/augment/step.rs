@@ -36,7 +36,8 @@ pub fn step(dynamics: &dyn Dynamics, (parameters, start): (&[f64], &[f64]), driv
 fn divided(sample: f64, longest: f64) -> f64 {
     // What is longer by rounding alone is not longer.
     let least = (sample / longest * (1.0 - 1e-9)).ceil().max(1.0);
-    let powers = |base: f64| (0..64).map(move |power| base.powi(power)).take_while(move |it| *it < base * least);
+    let powers =
+        |base: f64| (0..64).map(move |power| base.powi(power)).take_while(move |it| *it < base * least);
     let parts = powers(2.0).flat_map(|two| powers(5.0).map(move |five| two * five));
     sample / parts.filter(|it| *it >= least).fold(f64::INFINITY, f64::min)
 }
@@ -97,7 +98,8 @@ mod tests {
         // A mode of 200 per second, and a state that does not change.
         let decays = DMatrix::from_row_slice(2, 2, &[(-0.2_f64).exp(), 0.0, 0.0, 1.0]);
         assert!((short_enough(&decays, 1e-3) / (DELAYED / 200.0) - 1.0).abs() < 1e-9);
-        let cases = [(1e-3, 2.5e-4, 2.5e-4), (1e-3, 3e-4, 2.5e-4), (2e-4, 1e-3, 2e-4), (1e-3, 1.075e-5, 1e-5)];
+        let cases =
+            [(1e-3, 2.5e-4, 2.5e-4), (1e-3, 3e-4, 2.5e-4), (2e-4, 1e-3, 2e-4), (1e-3, 1.075e-5, 1e-5)];
         for (sample, longest, step) in cases {
             assert!((divided(sample, longest) / step - 1.0).abs() < 1e-12, "{sample} {longest}");
         }

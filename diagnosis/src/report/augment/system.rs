@@ -267,7 +267,9 @@ impl<'m> Draft<'m> {
     fn strut(&mut self, own: Own, at: &Attachment) -> Result<(), String> {
         let material = self.material;
         let missing = |name: &str, what: &str| {
-            format!("{what} {name} is no output of the FMU, and no output follows it; export the FMU with it as an output")
+            format!(
+                "{what} {name} is no output of the FMU, and no output follows it; export the FMU with it as an output"
+            )
         };
         let deflection =
             self.shown(&at.deflection).ok_or_else(|| missing(&at.deflection, "the strut's deflection"))?;
@@ -275,7 +277,10 @@ impl<'m> Draft<'m> {
         let Conversion { factor, offset } = deflection.output.conversion;
         let zero = deflection.factor * offset + deflection.offset - at.rest;
         let to = |input: &str, from: &str, way: &str| {
-            format!("{{ from = {}, to = \"{STRUT}.motion.{input}\"{way} }}", quoted(&format!("{MODEL}.{from}")))
+            format!(
+                "{{ from = {}, to = \"{STRUT}.motion.{input}\"{way} }}",
+                quoted(&format!("{MODEL}.{from}"))
+            )
         };
         let along = deflection.factor * factor;
         let position = format!(", factor = {:?}, offset = {:?}", -along, -zero);
@@ -311,15 +316,19 @@ impl<'m> Draft<'m> {
         );
         let mut given = |name: &str, value: f64, unit: &str| {
             let name = quoted(name);
-            let _ = writeln!(set, "{name} = {{ value = {value:?}, unit = \"{unit}\", source = \"{SOURCE}\" }}");
+            let _ =
+                writeln!(set, "{name} = {{ value = {value:?}, unit = \"{unit}\", source = \"{SOURCE}\" }}");
         };
         let named = |name: &str| material.parameters.iter().find(|it| it.name == name).map(|it| it.value);
-        for (name, unit, has) in [("strut.stiffness", "N/m", own.spring), ("strut.damping", "N.s/m", own.damper)] {
+        for (name, unit, has) in
+            [("strut.stiffness", "N/m", own.spring), ("strut.damping", "N.s/m", own.damper)]
+        {
             given(name, named(name).filter(|_| has).unwrap_or(0.0), unit);
         }
-        let others = material.parameters.iter().filter(|it| {
-            is_of_strut(it.name) && !["strut.stiffness", "strut.damping"].contains(&it.name)
-        });
+        let others = material
+            .parameters
+            .iter()
+            .filter(|it| is_of_strut(it.name) && !["strut.stiffness", "strut.damping"].contains(&it.name));
         for it in others.chain(&material.memory).filter(|it| it.value != it.start) {
             given(it.name, it.value, it.unit);
         }

@@ -22,7 +22,9 @@ fn face() -> Face {
         causality: causality.into(),
         settable: causality != "output",
         start: None,
-        conversion: unit.as_ref().map_or(Conversion::NONE, |it| Conversion { factor: it.factor, offset: 0.0 }),
+        conversion: unit
+            .as_ref()
+            .map_or(Conversion::NONE, |it| Conversion { factor: it.factor, offset: 0.0 }),
         unit,
     };
     let variables = vec![
@@ -89,7 +91,8 @@ fn table(system: &System, name: &str) -> Table {
 /// Where a connection comes from, its factor, its offset and its operation, by where it goes.
 fn connections(system: &System) -> Vec<(String, String, f64, f64, String)> {
     let text = |it: &toml::Value, key: &str| it.get(key).and_then(|it| it.as_str()).unwrap_or("").to_owned();
-    let number = |it: &toml::Value, key: &str, none: f64| it.get(key).and_then(|it| it.as_float()).unwrap_or(none);
+    let number =
+        |it: &toml::Value, key: &str, none: f64| it.get(key).and_then(|it| it.as_float()).unwrap_or(none);
     let all = table(system, "augmented.toml");
     let one = |it: &toml::Value| {
         let (factor, offset) = (number(it, "factor", 1.0), number(it, "offset", 0.0));
@@ -128,7 +131,12 @@ fn an_effect_in_the_damper_takes_the_damper_along_and_a_linkage_the_spring_too()
         let system = system(&material).unwrap();
         let strut = table(&system, "strut.toml");
         let of = |name: &str| strut["values"][name]["value"].as_float().unwrap();
-        [of("strut.stiffness"), of("strut.damping"), given(&system, "model.k").unwrap(), given(&system, "model.d").unwrap()]
+        [
+            of("strut.stiffness"),
+            of("strut.damping"),
+            given(&system, "model.k").unwrap(),
+            given(&system, "model.d").unwrap(),
+        ]
     };
     assert_eq!(rates(&[ASYMMETRY], true), [0.0, 12.0, 9.0, 0.0]);
     assert_eq!(rates(&[LINKAGE], true), [9000.0, 12.0, 0.0, 0.0]);
@@ -176,10 +184,13 @@ fn the_record_is_in_the_unit_of_its_input_and_what_rests_is_a_value() {
 fn a_sensor_that_is_wrong_is_a_component_in_the_output_s_unit() {
     let face = face();
     let mut correction = Correction::default();
-    for (fault, amount) in [(Fault::Gain, 0.1), (Fault::Offset, 0.002), (Fault::Lag, 0.05), (Fault::Drift, 1e-3)] {
+    for (fault, amount) in
+        [(Fault::Gain, 0.1), (Fault::Offset, 0.002), (Fault::Lag, 0.05), (Fault::Drift, 1e-3)]
+    {
         correction.set(fault, amount);
     }
-    let material = Material { measured: vec![("z", correction), ("v", correction)], ..material(&face, None, &[]) };
+    let material =
+        Material { measured: vec![("z", correction), ("v", correction)], ..material(&face, None, &[]) };
     let system = system(&material).unwrap();
     let set = table(&system, "sensor_z.toml");
     let of = |name: &str| set["values"][name]["value"].as_float().unwrap();
@@ -188,7 +199,10 @@ fn a_sensor_that_is_wrong_is_a_component_in_the_output_s_unit() {
     assert_eq!(set["units"]["output"]["symbol"].as_str(), Some("mm"));
     let all = table(&system, "augmented.toml");
     assert_eq!(all["outputs"][0].as_str(), Some("sensor_z.output"));
-    let told = ["the sensor of z has its drift in the report only", "v is no output of the FMU and cannot be looked at"];
+    let told = [
+        "the sensor of z has its drift in the report only",
+        "v is no output of the FMU and cannot be looked at",
+    ];
     assert_eq!(system.notes, told);
 }
 
@@ -227,7 +241,8 @@ fn what_cannot_be_in_a_system_is_said() {
 #[test]
 fn start_values_are_given_where_the_fmu_takes_them() {
     let face = face();
-    let state = |name: &str| strut_model::Declaration { name: name.into(), ..strut_model::Declaration::named(name) };
+    let state =
+        |name: &str| strut_model::Declaration { name: name.into(), ..strut_model::Declaration::named(name) };
     let states = [state("v"), state("hidden")];
     let outputs: [(&str, &[f64]); 2] = [("z", &SIGNALS[0]), ("length", &SIGNALS[1])];
     let found = starts(&face, (&states, &[0.2, 0.3]), &outputs);

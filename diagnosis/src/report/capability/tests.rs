@@ -83,7 +83,10 @@ fn whether_there_will_be_an_augmented_model_is_said() {
     let said = |augmented| said(&rig, &Foreign { augmented, ..Foreign::default() }).join("\n");
     assert!(!said(None).contains("augmented.ssp"));
     let text = said(Some(Err("the FMU is for model exchange only".into())));
-    assert!(text.contains("A diagnosis writes no augmented.ssp: the FMU is for model exchange only."), "{text}");
+    assert!(
+        text.contains("A diagnosis writes no augmented.ssp: the FMU is for model exchange only."),
+        "{text}"
+    );
     let text = said(Some(Ok(vec!["a is no output of the FMU".into()])));
     assert!(text.contains("what was found beside it. a is no output of the FMU."), "{text}");
 }

@@ -24,7 +24,8 @@ struct Point {
 }
 
 /// What the first line of the file says.
-const HEADER: Header = Header { what: "profile", columns: "time [s], position [m]", is_second: |name| name == "position [m]" };
+const HEADER: Header =
+    Header { what: "profile", columns: "time [s], position [m]", is_second: |name| name == "position [m]" };
 
 impl Recorded {
     /// Reads a file of the FMU's resources, or one with an absolute path.

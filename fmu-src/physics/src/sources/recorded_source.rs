@@ -117,9 +117,14 @@ mod tests {
     fn straight_lines_lead_from_sample_to_sample_and_the_ends_are_held() {
         // Times need not be even. numpy.interp gives the same.
         let source = source("time [s], signal [kN]\n0.5, 2\n1.0, -1\n3.0, 7\n");
-        for (time, value, slope) in
-            [(0.0, 2.0, 0.0), (0.5, 2.0, -6.0), (0.75, 0.5, -6.0), (1.0, -1.0, 4.0), (2.5, 5.0, 4.0), (9.0, 7.0, 0.0)]
-        {
+        for (time, value, slope) in [
+            (0.0, 2.0, 0.0),
+            (0.5, 2.0, -6.0),
+            (0.75, 0.5, -6.0),
+            (1.0, -1.0, 4.0),
+            (2.5, 5.0, 4.0),
+            (9.0, 7.0, 0.0),
+        ] {
             assert_eq!(source.at(time), [value, slope], "{time}");
         }
     }
@@ -130,7 +135,8 @@ mod tests {
         let path = folder.path().join("record.csv");
         std::fs::write(&path, "time [s], signal [1]\n0, 1\n0.1, 2\n").unwrap();
         let file = Value::Text(path.to_str().unwrap().into());
-        let mut bench = Bench::<RecordedSource>::new().choose("file", file).start("start_time", 0.05).initialized();
+        let mut bench =
+            Bench::<RecordedSource>::new().choose("file", file).start("start_time", 0.05).initialized();
         assert_eq!(bench.get("signal"), 1.0);
         bench.step(0.1);
         assert!((bench.get("signal") - 1.5).abs() < 1e-12);
