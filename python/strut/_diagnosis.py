@@ -7,9 +7,9 @@ import html
 import io
 import json
 import os
-import warnings
 import sys
 import time
+import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any

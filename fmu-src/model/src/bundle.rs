@@ -235,6 +235,26 @@ mod tests {
         assert_eq!(Element::<f64>::COUNT, 6);
     }
 
+    /// A bench on which there may be no spring.
+    #[derive(Variables, Clone, Copy, Debug, PartialEq)]
+    struct Bench<R> {
+        /// Element
+        #[var(min(stiffness = 0.0))]
+        element: Element<R>,
+        /// Another one
+        other: Element<R>,
+    }
+
+    #[test]
+    fn a_group_may_have_bounds_of_its_own() {
+        let of = |name: &str| {
+            let list = Declarations::of::<Bench<f64>>();
+            list.into_iter().find(|it| it.name == name).expect("it is declared").min
+        };
+        assert_eq!(["element.stiffness", "other.stiffness"].map(of), [Some(0.0), None]);
+        assert_eq!(of("element.coulomb.force"), Some(0.0));
+    }
+
     /// An element with more.
     #[derive(Variables, Clone, Copy, Debug, PartialEq)]
     struct More<R> {

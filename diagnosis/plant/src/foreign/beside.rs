@@ -200,3 +200,28 @@ pub struct Set {
     parameters: Parameters,
     derived: <ElementDyno as Model>::Derived<f64>,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_strut_has_of_its_own_what_an_effect_changes() {
+        let own = |values: &[(&'static str, f64)]| needs_own(values.iter().copied());
+        let rates = [("strut.stiffness", 9e3), ("strut.damping", 12.0)];
+        let with = |effect: (&'static str, f64)| own(&[rates[0], rates[1], effect]);
+        for effect in
+            ["strut.coulomb.force", "hysteresis.maxwell.stiffness", "strut.stop.stiffness", "strut.preload"]
+        {
+            assert_eq!(with((effect, 5.0)), Own::default(), "{effect}");
+        }
+        for effect in
+            ["strut.asymmetry.ratio", "strut.knee.ratio", "strut.fade.ratio", "hysteresis.mount.compliance"]
+        {
+            assert_eq!(with((effect, 0.5)), Own { spring: false, damper: true }, "{effect}");
+        }
+        assert_eq!(with(("strut.linkage.slope", 0.5)), Own { spring: true, damper: true });
+        // Off, it changes nothing.
+        assert_eq!(with(("strut.asymmetry.ratio", 0.0)), Own::default());
+    }
+}

@@ -92,7 +92,7 @@ fn table(system: &System, name: &str) -> Table {
 fn connections(system: &System) -> Vec<(String, String, f64, f64, String)> {
     let text = |it: &toml::Value, key: &str| it.get(key).and_then(|it| it.as_str()).unwrap_or("").to_owned();
     let number =
-        |it: &toml::Value, key: &str, none: f64| it.get(key).and_then(|it| it.as_float()).unwrap_or(none);
+        |it: &toml::Value, key: &str, none: f64| it.get(key).and_then(toml::Value::as_float).unwrap_or(none);
     let all = table(system, "augmented.toml");
     let one = |it: &toml::Value| {
         let (factor, offset) = (number(it, "factor", 1.0), number(it, "offset", 0.0));
