@@ -1,5 +1,6 @@
 //! The augmented model: another maker's FMU with what was found beside it, as a system of FMUs (SSP).
 
+mod material;
 mod step;
 mod system;
 #[cfg(test)]
@@ -16,7 +17,7 @@ use crate::signal::distortion::Correction;
 
 use super::extend::Segment;
 use super::words;
-use system::{Material, Value};
+use material::{Material, Value};
 
 pub use system::{NAME, System};
 

@@ -1,5 +1,7 @@
 //! An FMU, loaded, and instances of it that compute rates and outputs.
 
+mod starts;
+
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -13,8 +15,7 @@ use tempfile::TempDir;
 use super::Foreign;
 use super::units::{Conversion, coherent};
 
-/// Share of its start value that a positive parameter without a lower bound has at least.
-pub const LEAST: f64 = 1e-6;
+pub use starts::LEAST;
 
 /// A loaded FMU.
 pub struct Fmu {
@@ -132,7 +133,7 @@ impl Fmu {
             parameters,
             states,
             replaced: replaced.iter().map(|it| it.start).collect(),
-            reals: references(&description),
+            reals: starts::references(&description),
             library,
             guid,
             resources: uri(&folder.path().join("resources")),
@@ -149,55 +150,6 @@ impl Fmu {
         };
         fmu.read_starts().map_err(failed)?;
         Ok(Arc::new(fmu))
-    }
-
-    /// Start values of parameters and states, as the FMU itself has them.
-    fn read_starts(&mut self) -> Result<(), String> {
-        let refused = "it does not start: see what it says with `build-fmu check`";
-        let instance = self.instantiate().ok_or(refused)?;
-        let mut values = vec![0.0; self.of_parameters.references.len()];
-        let is_fine = self.begin(instance) && {
-            let known = self.library.reals(instance, &self.of_parameters.references, &mut values);
-            fine(known) && self.finish(instance)
-        };
-        let mut states = vec![0.0; self.states.len()];
-        let is_fine = is_fine
-            && (states.is_empty()
-                || fine(self.library.array("fmi2GetContinuousStates", instance, &mut states)));
-        self.release(instance);
-        if !is_fine {
-            return Err(refused.into());
-        }
-        let parameters = self.parameters.iter_mut().zip(&self.of_parameters.conversions);
-        for ((declared, conversion), value) in parameters.zip(values) {
-            declared.start = conversion.si(value);
-            // A mass that would be zero ends some FMUs' process; few have bounds for it.
-            if declared.min.is_none() && declared.start > 0.0 {
-                declared.min = Some(LEAST * declared.start);
-            }
-        }
-        for ((declared, conversion), value) in self.states.iter_mut().zip(&self.of_states).zip(states) {
-            declared.start = conversion.si(value);
-        }
-        Ok(())
-    }
-
-    /// The states after an initialisation with these values, as the FMU has them, in base units; none if it refuses one.
-    pub fn started(&self, values: &[(String, f64)]) -> Option<Vec<f64>> {
-        let references: Option<Vec<u32>> =
-            values.iter().map(|(name, _)| self.reals.get(name).copied()).collect();
-        let (references, values) =
-            (references?, values.iter().map(|(_, value)| *value).collect::<Vec<f64>>());
-        let instance = self.instantiate()?;
-        let mut states = vec![0.0; self.states.len()];
-        let is_fine = (references.is_empty() || fine(self.library.set_reals(instance, &references, &values)))
-            && self.begin(instance)
-            && self.finish(instance)
-            && (states.is_empty()
-                || fine(self.library.array("fmi2GetContinuousStates", instance, &mut states)));
-        self.release(instance);
-        let si = states.iter().zip(&self.of_states).map(|(value, conversion)| conversion.si(*value));
-        is_fine.then(|| si.collect())
     }
 
     fn instantiate(&self) -> Option<Instance> {
@@ -425,11 +377,6 @@ fn state_variables(description: &Description) -> Result<Vec<&Variable>, String> 
     found.ok_or_else(|| {
         "its model structure does not say what its derivatives are of; `build-fmu check` tells more".into()
     })
-}
-
-fn references(description: &Description) -> BTreeMap<String, u32> {
-    let reals = description.variables.iter().filter(|it| it.kind == "Real");
-    reals.filter_map(|it| Some((it.name.clone(), it.reference?))).collect()
 }
 
 fn declared<'a>(

@@ -3,7 +3,8 @@
 use strut_check::import::Unit;
 use toml::Table;
 
-use super::system::{Material, System, Value, system};
+use super::material::{Material, Value};
+use super::system::{System, system};
 use super::{obstacle, starts};
 use crate::plant::{Attachment, Conversion, Face, FaceVariable, Replaced};
 use crate::signal::distortion::{Correction, Fault};
@@ -184,9 +185,13 @@ fn the_record_is_in_the_unit_of_its_input_and_what_rests_is_a_value() {
 fn a_sensor_that_is_wrong_is_a_component_in_the_output_s_unit() {
     let face = face();
     let mut correction = Correction::default();
-    for (fault, amount) in
-        [(Fault::Gain, 0.1), (Fault::Offset, 0.002), (Fault::Lag, 0.05), (Fault::Drift, 1e-3)]
-    {
+    for (fault, amount) in [
+        (Fault::Gain, 0.1),
+        (Fault::Offset, 0.002),
+        (Fault::Lag, 0.05),
+        (Fault::Drift, 1e-3),
+        (Fault::Delay, 1e-5),
+    ] {
         correction.set(fault, amount);
     }
     let material =
@@ -200,7 +205,7 @@ fn a_sensor_that_is_wrong_is_a_component_in_the_output_s_unit() {
     let all = table(&system, "augmented.toml");
     assert_eq!(all["outputs"][0].as_str(), Some("sensor_z.output"));
     let told = [
-        "the sensor of z has its drift in the report only",
+        "the sensor of z is without its drift, which the report has",
         "v is no output of the FMU and cannot be looked at",
     ];
     assert_eq!(system.notes, told);
