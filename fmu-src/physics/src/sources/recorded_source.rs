@@ -53,12 +53,12 @@ impl Model for RecordedSource {
         summary: "A measured signal from a file, in the unit of the input that it drives",
         kind: Kind::Source,
         equations: &[Equation {
-            text: "signal = y_k + (y_(k+1) - y_k) (tau - t_k)/(t_(k+1) - t_k), tau = t - start_time",
+            text: "y = y_k + (y_(k+1) - y_k) (tau - t_k)/(t_(k+1) - t_k), tau = t - t_0",
             source: "definition",
         }],
         notes: &[
-            "Straight lines lead from sample to sample, as an importer goes through a table of inputs. Before the first and \
-             after the last sample the signal is held.",
+            "y is the signal, t_0 start_time. Straight lines lead from sample to sample, as an importer goes through a table of \
+             inputs. Before the first and after the last sample the signal is held.",
             "It has no unit of its own: its parameter set gives it (`[units]`), so that it can be connected with an input of \
              that unit. Values are not converted.",
         ],
