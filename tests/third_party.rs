@@ -113,9 +113,14 @@ fn the_errors_found_in_their_fmus_are_those_that_they_have() {
     }
 }
 
-/// What the diagnosis says of a record that scipy has made for their mass on a spring.
+/// The folder of a record that scipy has made for their mass on a spring.
+fn folder(friction: &str) -> PathBuf {
+    theirs().join(format!("friction-{friction}"))
+}
+
+/// What the diagnosis says of such a record.
 fn diagnosed(friction: &str) -> serde_json::Value {
-    let folder = theirs().join(format!("friction-{friction}"));
+    let folder = folder(friction);
     std::fs::create_dir_all(&folder).expect("the target folder can be written");
     let arguments = [folder.as_os_str(), friction.as_ref()];
     strut::python("examples/third-party/damper_records.py", arguments);
@@ -129,13 +134,36 @@ fn diagnosed(friction: &str) -> serde_json::Value {
     serde_json::from_str(&text).expect("the report is JSON")
 }
 
+/// The same with friction, once for all tests.
+fn with_friction() -> &'static serde_json::Value {
+    static REPORT: OnceLock<serde_json::Value> = OnceLock::new();
+    REPORT.get_or_init(|| diagnosed("8"))
+}
+
 #[test]
 fn friction_in_a_record_is_found_beside_their_fmu() {
-    let report = diagnosed("8");
+    let report = with_friction();
     let [effect] = &report["effects"].as_array().unwrap()[..] else { panic!("{}", report["effects"]) };
     assert_eq!((&effect["id"], &effect["element"]), (&"01".into(), &"strut".into()));
     let force = effect["parameters"][0]["value"].as_f64().unwrap();
     assert!((force / 8.0 - 1.0).abs() < 0.02, "{force}");
     let none = diagnosed("0");
     assert_eq!(none["effects"].as_array().map(Vec::len), Some(0), "{}", none["effects"]);
+}
+
+/// The friction that was found beside their FMU, in masters of others: a system that meets the record as the report says.
+#[test]
+fn the_augmented_model_meets_the_record_as_the_report_states() {
+    assert_eq!(with_friction()["verdict"], "identified");
+    let folder = folder("8");
+    let (report, record) = (folder.join("report"), folder.join("damper-test.csv"));
+    let system = report.join("augmented.ssp");
+    let (_, answers) = crate::subject::check(std::slice::from_ref(&system), &["--no-run", "--no-fmpy"]);
+    let problems = crate::subject::problems(&answers[0]);
+    let of_system: Vec<_> = problems.iter().filter(|problem| problem.starts_with("system.")).collect();
+    assert!(of_system.is_empty(), "{of_system:#?}");
+    print!("{}", strut::python("tests/masters/third_party.py", [&system]));
+    let signals = ["mass.s=model.y", "mass.a=model.mass.a"].map(std::ffi::OsStr::new);
+    let arguments = [report.as_os_str(), record.as_os_str()].into_iter().chain(signals);
+    print!("{}", strut::python("tests/masters/augmented.py", arguments));
 }

@@ -80,6 +80,7 @@ pub use completions::with_names;
 use strut_model::{Entry, ParameterSet};
 #[cfg(feature = "strut")]
 use strut_model::{Inputs, Trajectory};
+pub use system::stated_unit;
 
 /// The version of this program, with the commit in release builds: `0.1.0 (1a2b3c4d5e6f)`.
 pub const VERSION: &str = match option_env!("STRUT_VERSION") {
@@ -143,7 +144,7 @@ pub fn strut() -> Project<'static> {
     }
 }
 
-/// One FMU to make.
+/// One FMU or system to make.
 #[cfg(feature = "strut")]
 #[derive(Clone, Debug)]
 pub enum Wanted<'a> {
@@ -151,13 +152,16 @@ pub enum Wanted<'a> {
     Parameters(&'a Path, strut_related::Files),
     /// That of a name, with values `NAME=VALUE` and perhaps another name.
     Values(&'a str, &'a [String], Option<&'a str>),
+    /// The system of this name in a file.
+    System(&'a Path, &'a str),
 }
 
-/// Makes an FMU of one of Strut's models in a folder. `libraries` is a folder of prebuilt ones, else the one beside the
+/// Makes an FMU of one of Strut's models, or a system, in a folder. `libraries` is a folder of prebuilt ones, else the one beside the
 /// program; cargo builds missing ones.
 ///
 /// # Errors
-/// If the values do not fit the model, there is neither a library nor cargo, or the folder cannot be written: what to do.
+/// If the values do not fit the model, the system does not fit its components, there is neither a library nor cargo, or the
+/// folder cannot be written: what to do.
 #[cfg(feature = "strut")]
 pub fn make(
     project: &Project,
@@ -166,7 +170,12 @@ pub fn make(
     libraries: Option<&Path>,
 ) -> Result<PathBuf, String> {
     let mut arguments = Arguments { out: out.into(), ..arguments(libraries) };
+    let mut system = None;
     match wanted {
+        Wanted::System(path, name) => {
+            arguments.systems.push(path.into());
+            system = Some(name);
+        }
         Wanted::Parameters(path, related) => {
             arguments.parameters.push(path.into());
             arguments.related = Some(related);
@@ -178,6 +187,9 @@ pub fn make(
         }
     }
     let told = run::build(project, &arguments).map_err(|failure| failure.to_string())?;
+    if let Some(name) = system {
+        return Ok(out.join(format!("{name}.ssp")));
+    }
     let [name] = &told.fmus[..] else { unreachable!("one was asked for") };
     Ok(out.join(format!("{name}.fmu")))
 }

@@ -114,13 +114,30 @@ impl Plan {
         unknown(name, &self.fmus, &self.systems)
     }
 
-    /// What a system is made of.
+    /// What a system is made of. FMUs with a parameter set of the system's own are added.
     ///
     /// # Errors
-    /// If there is no FMU of a name, or a file of others cannot be used.
-    pub fn components(&self, system: &System, folder: &Path) -> Result<Vec<Component>> {
+    /// If there is no FMU of a name, or a file of others or a parameter set cannot be used.
+    pub fn components(
+        &mut self,
+        project: &Project,
+        system: &System,
+        folder: &Path,
+    ) -> Result<Vec<Component>> {
+        let mut sets = Vec::new();
+        for part in system.components.values() {
+            if let Part::Set(set) = part {
+                let path = folder.join(&set.parameters);
+                let beside = path.parent().unwrap_or(Path::new(""));
+                sets.push(with_set(project, &path.display().to_string(), &read(&path)?, beside)?);
+            }
+        }
+        let first = self.fmus.len();
+        self.fmus.extend(sets);
+        let mut sets = first..self.fmus.len();
         let position = |component: &String, fmu: &String| {
-            self.fmus.iter().position(|other| other.name == *fmu).ok_or_else(|| {
+            // Sets of systems have names of their own, which other systems do not know.
+            self.fmus[..first].iter().position(|other| other.name == *fmu).ok_or_else(|| {
                 let failure = Failure::new(format!(
                     "component `{component}` of the system {} is made of `{fmu}`, which is no FMU",
                     system.name
@@ -139,6 +156,7 @@ impl Plan {
         parts
             .map(|(component, part)| match part {
                 Part::Ours(fmu) => position(component, fmu).map(Component::Ours),
+                Part::Set(_) => Ok(Component::Ours(sets.next().expect("each was added"))),
                 Part::Theirs(foreign) => Theirs::read(&folder.join(&foreign.fmu)).map(Component::Theirs),
             })
             .collect()

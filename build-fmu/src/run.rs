@@ -209,7 +209,7 @@ fn assemble(project: &Project, plan: &mut Plan, platforms: &[Platform]) -> (Vec<
 
 impl Assembly {
     fn new(project: &Project, plan: &mut Plan, system: System, folder: &Path) -> Result<Self> {
-        let mut components = plan.components(&system, folder)?;
+        let mut components = plan.components(project, &system, folder)?;
         let face = |component: &Component| match component {
             Component::Ours(index) => Ok(Face::of(&plan.fmus[*index].interface()?)),
             Component::Theirs(theirs) => Ok(theirs.face.clone()),

@@ -19,7 +19,7 @@ use serde::Deserialize;
 use strut_model::Value;
 use toml::Value as Toml;
 
-pub use adapter::Adapter;
+pub use adapter::{Adapter, stated_unit};
 pub use face::Face;
 pub use theirs::Theirs;
 
@@ -83,12 +83,14 @@ pub struct Experiment {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(
     untagged,
-    expecting = "a component is the name of an FMU, or { fmu = \"path.fmu\" } for one of others, with units = \"SI\" if \
-                 what declares no unit is in SI units"
+    expecting = "a component is the name of an FMU, { parameters = \"my-set.toml\" } for one with a parameter set of your own, \
+                 or { fmu = \"path.fmu\" } for one of others, with units = \"SI\" if what declares no unit is in SI units"
 )]
 pub enum Part {
     /// An FMU of the catalogue, by its name.
     Ours(String),
+    /// One of our models with a parameter set in a file.
+    Set(OwnSet),
     /// A file that others have made.
     Theirs(Foreign),
 }
@@ -97,9 +99,18 @@ impl Display for Part {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Ours(name) => write!(f, "{name}"),
+            Self::Set(set) => write!(f, "{}", set.parameters.display()),
             Self::Theirs(foreign) => write!(f, "{}", foreign.fmu.display()),
         }
     }
+}
+
+/// One of our models with a parameter set of its own.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct OwnSet {
+    /// The file of the set, from the folder of the system's. Files that it brings are beside it.
+    pub parameters: PathBuf,
 }
 
 /// An FMU that others have made.
@@ -126,7 +137,7 @@ pub enum Units {
 #[serde(
     untagged,
     expecting = "a connection is \"road.position -> rig.road.position\", or { from = \"...\", to = \"...\" } with some of \
-                 factor, offset, operation (\"value\", \"derivative\" or \"integral\"), filter, initial"
+                 factor, offset, operation (\"value\", \"derivative\", \"integral\" or \"lag\"), filter, initial"
 )]
 enum Line {
     Plain(String),

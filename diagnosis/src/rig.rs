@@ -20,7 +20,7 @@ use crate::plant::{Plant, models};
 pub use draft::{Draft, SAME};
 pub use kind::{DrivenBy, ElementSignals, ForceOf, Given, Inverse, Kind, Missing, Opposed, Undriven};
 pub use own::{MADE, fmu_of, is_fmu, is_manifest};
-pub use stand_in::difference;
+pub use stand_in::{UNSEEN, difference};
 
 /// Longest segment of a model that does not drift, in seconds.
 const MINUTE: f64 = 60.0;

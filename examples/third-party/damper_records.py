@@ -17,8 +17,8 @@ STEP, DURATION = 1e-3, 10.0
 MASS, SPRING, DAMPER = 1.02, 9800.0, 10.6
 # Velocity over which dry friction turns over, in m/s.
 SLIDING = 0.01
-# Where the FMU has the mass at rest, in m.
-REST = -0.5
+# Where the FMU has the mass at rest with the spring of damper-rig.toml, in m.
+REST = 0.0
 NOISE = 0.005
 
 

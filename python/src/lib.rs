@@ -191,28 +191,29 @@ impl PyOutcome {
         self.0.extended.as_ref().map(|extended| &*extended.parameters)
     }
 
-    /// Writes the report and the extended model.
+    /// Writes the report and the extended model; what is to be known of it, in sentences.
     fn save(
         &self,
         py: Python<'_>,
         folder: PathBuf,
         parts: [bool; 2],
         libraries: Option<PathBuf>,
-    ) -> PyResult<()> {
+    ) -> PyResult<Vec<String>> {
         let [fmu, record] = parts;
         let Outcome { findings, extended } = &self.0;
-        let failures = py.detach(|| {
-            let mut failures = Vec::new();
+        let (failures, notes) = py.detach(|| {
+            let (mut failures, mut notes) = (Vec::new(), Vec::new());
             let written = report::write(findings, &folder);
             failures.extend(written.err().into_iter().flatten().map(|error| error.to_string()));
             if let Some(extended) = extended.as_ref().filter(|_| folder.is_dir()) {
                 let packing = Packing { libraries: libraries.as_deref(), record };
-                let written = extended.write(findings, &folder, fmu.then_some(packing));
-                failures.extend(written.err().into_iter().flatten());
+                let packing = fmu.then_some(packing);
+                failures.extend(extended.write(findings, &folder, packing).err().into_iter().flatten());
+                notes = extended.notes(packing);
             }
-            failures
+            (failures, notes)
         });
-        if failures.is_empty() { Ok(()) } else { Err(PyOSError::new_err(failures.join("\n"))) }
+        if failures.is_empty() { Ok(notes) } else { Err(PyOSError::new_err(failures.join("\n"))) }
     }
 }
 

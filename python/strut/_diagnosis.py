@@ -9,6 +9,7 @@ import json
 import os
 import sys
 import time
+import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -123,13 +124,16 @@ class Diagnosis:
         return figure
 
     def save(self, folder: str | os.PathLike[str] = "report", *, fmu: bool = True, record: bool = True) -> Path:
-        """Writes ``report.html``, ``report.json`` and the extended model (``extended.toml``, ``.ssv``, ``.fmu``).
+        """Writes ``report.html``, ``report.json`` and the extended model (``extended.toml``, ``.ssv``, ``.fmu``; of another maker's
+        FMU ``augmented.ssp``).
 
-        :param fmu: Whether ``extended.fmu`` is made.
-        :param record: Whether a part of a validation record goes into it, so that others can replay it.
+        :param fmu: Whether ``extended.fmu`` or ``augmented.ssp`` is made.
+        :param record: Whether a part of a validation record goes into it, so that others can replay it. Without one there is no
+            ``augmented.ssp``.
         :raises OSError: With all files that could not be written; the others are there.
         """
-        self._outcome.save(os.fspath(folder), [fmu, record], _libraries())
+        for note in self._outcome.save(os.fspath(folder), [fmu, record], _libraries()):
+            warnings.warn(note, stacklevel=2)
         return Path(folder)
 
     def __repr__(self) -> str:

@@ -15,8 +15,11 @@ from rig import STEP, Messages, all_fmus
 from scipy.integrate import solve_ivp
 
 
-# What a signal adapter passes on may be in any unit; only the parameter set of one in a system tells which.
-ANY_UNIT = {"input", "added", "output", "factor", "offset", "initial"}
+# What an adapter or a recorded signal passes on may be in any unit; only the parameter set of one in a system tells which.
+ANY_UNIT = {
+    "SignalAdapter": {"input", "added", "output", "factor", "offset", "initial"},
+    "RecordedSource": {"signal"},
+}
 
 
 def validate(fmu):
@@ -33,7 +36,7 @@ def validate(fmu):
         assert key not in references, f"{variable.get('name')} shares a reference with {references[key]}"
         references[key] = variable.get("name")
         assert variable.get("description"), f"{variable.get('name')} has no description"
-        if kind == "Real" and not (fmu.path.stem == "SignalAdapter" and variable.get("name") in ANY_UNIT):
+        if kind == "Real" and variable.get("name") not in ANY_UNIT.get(fmu.path.stem, ()):
             assert variable[0].get("unit"), f"{variable.get('name')} has no unit"
     used = {v[0].get("unit") for v in variables if v[0].get("unit")}
     declared = {u.get("name") for u in root.findall("UnitDefinitions/Unit")}

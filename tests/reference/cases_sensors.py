@@ -80,5 +80,5 @@ CASES = [
              parameters={"factor": 1.0, "offset": 0.0, "initial": 0.0, "filter": 0.0, "period": 1e-3},
              changed={"factor": -1e-3, "offset": 0.02} | changed)
       for operation, changed in (("Value", {}), ("Derivative", {"filter": 5e-3}),
-                                 ("Integral", {"initial": 0.4, "period": 2e-3}))),
+                                 ("Integral", {"initial": 0.4, "period": 2e-3}), ("Lag", {"filter": 0.02}))),
 ]

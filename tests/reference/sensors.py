@@ -163,21 +163,23 @@ class VelocityEstimator(Sampled):
 
 
 class SignalAdapter(Sampled):
-    """y = factor x + offset + added, of the signal, its backward difference or its integral by the trapezoidal rule."""
+    """y = factor x + offset + added, of the signal, its backward difference, its integral by the trapezoidal rule, or its lag by
+    the backward Euler method."""
 
     inputs, outputs = ["input", "added"], ["output"]
 
     def __init__(self, parameters, settings):
         self.period, self.filter, self.initial = (parameters[name] for name in ("period", "filter", "initial"))
         self.factor, self.offset = parameters["factor"], parameters["offset"]
-        self.shown_part = {"Value": 0, "Derivative": 3, "Integral": 4}[settings["operation"]]
+        self.shown_part = {"Value": 0, "Derivative": 3, "Integral": 4, "Lag": 5}[settings["operation"]]
 
     def tick(self, memory, _state, u, _k):
         if not memory:
-            return [u[0], 0.0, self.initial]
-        before, rate, integral = memory
+            return [u[0], 0.0, self.initial, u[0]]
+        before, rate, integral, lagged = memory
         return [u[0], (self.filter * rate + u[0] - before) / (self.filter + self.period),
-                integral + 0.5 * self.period * (u[0] + before)]
+                integral + 0.5 * self.period * (u[0] + before),
+                lagged + self.period / (self.filter + self.period) * (u[0] - lagged)]
 
     def output(self, _state, u, _mode):
         return [self.factor * u[self.shown_part] + self.offset + u[1]]

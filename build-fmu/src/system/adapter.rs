@@ -16,13 +16,15 @@ pub enum Operation {
     Derivative,
     /// Its integral.
     Integral,
+    /// What a sensor with a lag shows of it.
+    Lag,
 }
 
 impl Operation {
     /// The power of time that it multiplies the signal's unit by.
     pub fn power_of_time(self) -> i32 {
         match self {
-            Self::Value => 0,
+            Self::Value | Self::Lag => 0,
             Self::Derivative => -1,
             Self::Integral => 1,
         }
@@ -34,6 +36,7 @@ impl Operation {
             Self::Value => "value",
             Self::Derivative => "derivative",
             Self::Integral => "integral",
+            Self::Lag => "lag",
         }
     }
 }
@@ -47,7 +50,7 @@ pub struct Adaptation {
     pub factor: Option<f64>,
     /// What is added.
     pub offset: f64,
-    /// Time constant of the filter of a rate of change, in seconds.
+    /// Time constant of a lag, or of the filter of a rate of change, in seconds.
     pub filter: f64,
     /// Integral at the start.
     pub initial: f64,
@@ -107,7 +110,8 @@ impl Adapter {
         let [from, to] = units.each_ref().map(Option::as_ref);
         // What is added, before and after, is in the unit of what goes.
         let ends = [("input", from), ("added", to), ("offset", to), ("output", to)];
-        let given: String = ends.iter().filter_map(|(name, unit)| Some(given(name, (*unit)?))).collect();
+        let given: String =
+            ends.iter().filter_map(|(name, unit)| Some(stated_unit(name, (*unit)?))).collect();
         let set = format!(
             "fmu = \"{name}\"\nmodel = \"{}\"\ntitle = {}\nsource = \"{source}\"\n[values]\n\
              operation = {{ value = \"{operation:?}\", source = \"the system's file\" }}\n\
@@ -135,8 +139,8 @@ impl Adapter {
     }
 }
 
-/// The unit of a variable, as a parameter set gives it.
-fn given(name: &str, unit: &Unit) -> String {
+/// The unit of a variable, as a parameter set gives it under `[units]`.
+pub fn stated_unit(name: &str, unit: &Unit) -> String {
     let Unit { symbol, base, factor, offset } = unit;
     let symbol = toml::Value::String(symbol.clone());
     let base = base.iter().map(|exponents| {

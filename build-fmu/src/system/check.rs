@@ -97,10 +97,7 @@ impl<'a> Finder<'a, '_> {
         })?;
         let face = &self.faces[component];
         let variable = face.variable(variable).ok_or_else(|| {
-            let fmu = match &components[component] {
-                Part::Ours(name) => name.clone(),
-                Part::Theirs(foreign) => foreign.fmu.display().to_string(),
-            };
+            let fmu = &components[component];
             let failure = self.failure(format!("component `{name}` ({fmu}) has no variable `{variable}`"));
             let names = face.variables.iter().map(|variable| variable.name.as_str());
             similar(variable, names).into_iter().fold(failure, Failure::help)
@@ -162,7 +159,7 @@ impl<'a> Finder<'a, '_> {
     fn is_coherent(&self, silent: End, other: End) -> bool {
         let si = match &self.system.components[silent.component] {
             Part::Theirs(foreign) => foreign.units == Some(Units::Si),
-            Part::Ours(_) => false,
+            Part::Ours(_) | Part::Set(_) => false,
         };
         let coherent = |unit: &Unit| unit.base.is_some() && unit.factor == 1.0 && unit.offset == 0.0;
         si && silent.variable.unit().is_none() && other.variable.unit().is_some_and(coherent)
@@ -182,7 +179,7 @@ impl<'a> Finder<'a, '_> {
             format!("write {{ {ends}{operation}{rest} }}")
         };
         // A rate of change or an integral of what has no unit may be anything.
-        let value = operation == Operation::Value;
+        let value = operation.power_of_time() == 0;
         if value && (self.is_coherent(from, to) || self.is_coherent(to, from)) {
             return Ok(());
         }
@@ -258,10 +255,15 @@ impl<'a> Finder<'a, '_> {
                 .failure(format!("{name} has the factor zero"))
                 .help("give its input a value under [parameters] instead"));
         }
-        if filter > 0.0 && operation != Operation::Derivative {
+        if filter > 0.0 && !matches!(operation, Operation::Derivative | Operation::Lag) {
             return Err(self
                 .failure(format!("{name} has a filter"))
-                .help("it is for operation = \"derivative\""));
+                .help("it is for operation = \"derivative\" or \"lag\""));
+        }
+        if filter == 0.0 && operation == Operation::Lag {
+            return Err(self
+                .failure(format!("{name} has a lag without a time constant"))
+                .help("give it in seconds: filter = 0.01"));
         }
         if initial != 0.0 && operation != Operation::Integral {
             return Err(self

@@ -157,6 +157,7 @@ fn mistakes_tell_what_to_write() {
         ),
         ("factor = 1e-3 }", "factor = 0.0 }", "has the factor zero"),
         ("factor = 1e-3 }", "factor = 1e-3, filter = 0.1 }", "it is for operation = \"derivative\""),
+        ("factor = 1e-3 }", "factor = 1e-3, operation = \"lag\" }", "a lag without a time constant"),
         ("factor = 1e-3 }", "factor = 1e-3, initial = 0.1 }", "it is for operation = \"integral\""),
         (
             "factor = 1e-3 }",
@@ -284,4 +285,18 @@ fn the_connection_itself_may_have_the_factor() {
     assert_eq!(factors, [(Some("true"), Some("-0.001")), (Some("true"), Some("0.001"))]);
     // A rate of change still needs a component.
     assert!(ssd.contains("to_motor_suspension_velocity"));
+}
+
+#[test]
+fn a_component_may_have_a_parameter_set_of_its_own() {
+    let text = SYSTEM.replace("motor = \"LinearMotor\"", "motor = { parameters = \"sets/motor.toml\" }");
+    let system = System::parse("truck.toml", &text).unwrap();
+    let Part::Set(set) = &system.components["motor"] else { panic!("{:?}", system.components) };
+    assert_eq!(
+        (set.parameters.as_path(), system.components["motor"].to_string()),
+        (Path::new("sets/motor.toml"), "sets/motor.toml".into())
+    );
+    let text = SYSTEM.replace("motor = \"LinearMotor\"", "motor = { set = \"sets/motor.toml\" }");
+    let error = System::parse("truck.toml", &text).unwrap_err().to_string();
+    assert!(error.contains("{ parameters = \"my-set.toml\" }"), "{error}");
 }

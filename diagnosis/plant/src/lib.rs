@@ -17,7 +17,9 @@ use strut_model::{Bundle, Declaration, Declarations, Model, SettingDeclaration, 
 
 use integrate::{Equations, Run};
 
-pub use foreign::{Attachment, Foreign, Replaced, is_of_strut};
+pub use foreign::{
+    Attachment, Conversion, Face, FaceVariable, Foreign, Own, Replaced, is_of_strut, needs_own,
+};
 pub use steps::{Follower, Seen};
 
 /// Derivatives that are taken at once.

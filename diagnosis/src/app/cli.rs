@@ -180,11 +180,11 @@ pub struct DiagnosisArguments {
     #[arg(long, value_name = "DIR")]
     pub libraries: Option<PathBuf>,
 
-    /// Do not build extended.fmu
+    /// Do not build extended.fmu or augmented.ssp
     #[arg(long)]
     pub no_fmu: bool,
 
-    /// Leave the part of a validation record out of extended.fmu
+    /// Leave the part of a validation record out of extended.fmu, and write no augmented.ssp
     #[arg(long)]
     pub no_record: bool,
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::report::capability::{Foreign, capability};
-use crate::report::file;
+use crate::report::{augment, file};
 use crate::rig::{Draft, Rig, difference};
 
 /// Writes a first rig file of a model; what to do next, as text.
@@ -55,6 +55,7 @@ pub fn check(path: &Path) -> Result<String, String> {
     let foreign = Foreign {
         unnamed: rig.unnamed_parameters().map_err(failed)?,
         difference: difference(&rig).map_err(failed)?,
+        augmented: augment::possible(&rig),
     };
     capability(&rig, &foreign).map_err(failed)
 }

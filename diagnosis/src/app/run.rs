@@ -109,8 +109,10 @@ fn run(arguments: &DiagnosisArguments) -> Result<(), String> {
     if let Some(extended) = extended.filter(|_| arguments.out.is_dir()) {
         let bar = spinner("building the extended model");
         let packing = Packing { libraries: arguments.libraries.as_deref(), record: !arguments.no_record };
-        let done = extended.write(&findings, &arguments.out, (!arguments.no_fmu).then_some(packing));
+        let packing = (!arguments.no_fmu).then_some(packing);
+        let done = extended.write(&findings, &arguments.out, packing);
         bar.finish_and_clear();
+        extended.notes(packing).iter().for_each(|note| eprintln!("note: {note}"));
         failures.extend(done.err().into_iter().flatten());
     }
     if findings.verdict == Verdict::BadData {

@@ -11,7 +11,7 @@ use textwrap::{Options, WordSplitter};
 use super::words::{columns, digits, list, number, percent, unit};
 use crate::catalogue::{self, Effect};
 use crate::missing::ports::{Entry, Port};
-use crate::rig::{Rig, SAME, Undriven, is_manifest, kebab};
+use crate::rig::{Rig, SAME, UNSEEN, Undriven, is_manifest, kebab};
 
 use effects::{impossible, in_elements, in_signals};
 
@@ -20,9 +20,6 @@ const WIDTH: usize = 100;
 
 /// Digits of a parameter's value.
 const DIGITS: usize = 4;
-
-/// Difference of outputs that is no more than that of two ways to compute the same.
-const UNSEEN: f64 = 5e-4;
 
 /// Difference of outputs beyond which its size says nothing more.
 const MANY: f64 = 10.0;
@@ -35,6 +32,8 @@ pub struct Foreign {
     /// The difference of its outputs with a strut of the library in place of its own, relative to how far they move; none
     /// if no strut replaces anything, not a number if it cannot be run.
     pub difference: Option<f64>,
+    /// What an `augmented.ssp` would not show, or why there can be none.
+    pub augmented: Option<Result<Vec<String>, String>>,
 }
 
 /// What can be found with a rig, as text: columns, places, effects, parameters.
@@ -290,6 +289,17 @@ fn said(rig: &Rig, foreign: &Foreign) -> Vec<String> {
             });
         } else if !it.acts_on.is_empty() {
             notes.push(format!("{name}: the library's strut comes on top of what the FMU has there."));
+        }
+    }
+    match &foreign.augmented {
+        None => {}
+        Some(Err(reason)) => notes.push(format!("A diagnosis writes no augmented.ssp: {reason}.")),
+        Some(Ok(untold)) => {
+            let untold: Vec<String> = untold.iter().map(|it| format!(" {it}.")).collect();
+            notes.push(format!(
+                "A diagnosis writes augmented.ssp, the FMU with what was found beside it.{}",
+                untold.concat()
+            ));
         }
     }
     let sized = |effect: &&Effect| rig.kind.elements.iter().all(|it| it.element != effect.element);

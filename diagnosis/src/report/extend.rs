@@ -15,7 +15,10 @@ use crate::report::file::replace;
 use crate::report::findings::Findings;
 use crate::rig::{self, Kind, Rig};
 
+use super::augment::{self, System};
 use validation::Validation;
+
+pub use validation::Segment;
 
 /// Name of the FMU.
 pub const NAME: &str = "extended";
@@ -157,7 +160,10 @@ impl Diagnosis<'_> {
         let ssv = String::from_utf8(self.fitted().document()).expect("XML is written in UTF-8");
         let is_foreign = self.baseline.rig.kind.is_foreign();
         let parameters = if is_foreign { self.rig_file() } else { self.parameter_set() };
-        Extended { parameters, ssv, is_foreign, validation: self.validation() }
+        let segment = self.liveliest();
+        let augmented = is_foreign.then(|| self.augmented(segment.as_ref()));
+        let validation = segment.filter(|_| !is_foreign).and_then(|it| self.validation(&it));
+        Extended { parameters, ssv, is_foreign, validation, augmented }
     }
 }
 
@@ -171,20 +177,22 @@ pub struct Extended {
     /// Whether the model is another maker's, of which no FMU is made.
     is_foreign: bool,
     validation: Option<Validation>,
+    /// Of another maker's model, the system that it is augmented to, or why there is none.
+    augmented: Option<Result<System, String>>,
 }
 
-/// How `extended.fmu` is made.
+/// How `extended.fmu` and `augmented.ssp` are made.
 #[derive(Clone, Copy, Debug)]
 pub struct Packing<'a> {
     /// Folder of prebuilt libraries; without one, they are beside the program, or cargo builds them.
     pub libraries: Option<&'a Path>,
-    /// Whether a part of a validation record goes into it.
+    /// Whether a part of a validation record goes into it; without one there is no `augmented.ssp`, which it drives.
     pub record: bool,
 }
 
 impl Extended {
-    /// Writes `extended.toml` and `extended.ssv` into a folder that exists, and `extended.fmu` if asked for. One failure does not
-    /// keep the others from being written.
+    /// Writes `extended.toml` and `extended.ssv` into a folder that exists, and `extended.fmu` or, of another maker's model,
+    /// `augmented.ssp` if asked for. One failure does not keep the others from being written.
     ///
     /// # Errors
     /// Every file that cannot be written or built, with what to do.
@@ -208,7 +216,28 @@ impl Extended {
                 failures.push(format!("no extended.fmu: {error}"));
             }
         }
+        if let (Some(packing), Some(Ok(system))) = (fmu.filter(|it| it.record), &self.augmented)
+            && let Err(error) = packed(system, folder, packing.libraries)
+        {
+            let error = error.strip_prefix("error: ").unwrap_or(&error);
+            failures.push(format!("no {}.ssp: {error}", augment::NAME));
+        }
         if failures.is_empty() { Ok(()) } else { Err(failures) }
+    }
+
+    /// What is to be known of `augmented.ssp`, in sentences: why there is none, and what it does not show as the report does.
+    pub fn notes(&self, packing: Option<Packing<'_>>) -> Vec<String> {
+        let file = format!("{}.ssp", augment::NAME);
+        match (&self.augmented, packing) {
+            (None, _) | (_, None) => Vec::new(),
+            (Some(Err(reason)), _) => vec![format!("no {file}: {reason}")],
+            (Some(Ok(_)), Some(Packing { record: false, .. })) => {
+                vec![format!("no {file}: a record drives it, and --no-record leaves records out")]
+            }
+            (Some(Ok(system)), Some(_)) => {
+                system.notes.iter().map(|note| format!("{file}: {note}")).collect()
+            }
+        }
     }
 
     /// What travels with the FMU.
@@ -225,6 +254,17 @@ impl Extended {
         }
         files
     }
+}
+
+/// Writes a system into a folder; what it is made of lies in another one as long as it takes.
+fn packed(system: &System, folder: &Path, libraries: Option<&Path>) -> Result<(), String> {
+    let parts = tempfile::tempdir().map_err(|error| format!("cannot make a temporary folder: {error}"))?;
+    for (name, text) in &system.files {
+        replace(&parts.path().join(name), text).map_err(|error| format!("cannot write `{name}`: {error}"))?;
+    }
+    let file = parts.path().join(format!("{}.toml", augment::NAME));
+    build_fmu::make(&build_fmu::strut(), build_fmu::Wanted::System(&file, augment::NAME), folder, libraries)
+        .map(|_| ())
 }
 
 /// The findings without what fills megabytes.

@@ -2,6 +2,7 @@
 //! anything to be found, what a rig's records may hold.
 
 pub mod assembly;
+pub mod augment;
 pub mod capability;
 mod evidence;
 pub mod extend;

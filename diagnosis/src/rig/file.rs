@@ -86,6 +86,20 @@ impl Kind {
         is_fmu(model) || is_manifest(model)
     }
 
+    /// Where the library's strut is attached to the model; none if it is not.
+    ///
+    /// # Errors
+    /// If the file does not say all that it takes.
+    pub fn attached(&self) -> Result<Option<Attachment>, String> {
+        let attached: Vec<&ElementSignals> =
+            self.elements.iter().filter(|it| !it.acts_on.is_empty()).collect();
+        match attached[..] {
+            [] => Ok(None),
+            [element] if element.element == Element::Strut => element.attachment().map(Some),
+            _ => Err("elements: acts_on is for one element, the strut".into()),
+        }
+    }
+
     fn plant(&self) -> Result<Plant, String> {
         if !self.is_foreign() {
             return models::named(&self.model).ok_or_else(|| {
@@ -101,13 +115,7 @@ impl Kind {
         let mut parameters: Vec<String> = self.nominal.iter().filter(is_own).cloned().collect();
         let given = self.values.keys().filter(is_own).filter(|name| !parameters.contains(name));
         parameters.extend(given.cloned().collect::<Vec<_>>());
-        let attached: Vec<&ElementSignals> =
-            self.elements.iter().filter(|it| !it.acts_on.is_empty()).collect();
-        let strut = match attached[..] {
-            [] => None,
-            [element] if element.element == Element::Strut => Some(element.attachment()?),
-            _ => return Err("elements: acts_on is for one element, the strut".into()),
-        };
+        let strut = self.attached()?;
         let locals = self.signals().map(str::to_owned).collect();
         Foreign { fmu: fmu_of(Path::new(&self.model))?, parameters, locals, strut }.plant()
     }

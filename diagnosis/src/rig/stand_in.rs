@@ -19,6 +19,9 @@ const FREQUENCY: f64 = 3.0;
 /// Difference of an output, in its unit, that is no more than rounding.
 const ROUNDING: f64 = 1e-9;
 
+/// Difference of outputs that is no more than that of two ways to compute the same.
+pub const UNSEEN: f64 = 5e-4;
+
 /// Largest difference of an output between the model on its own and with a strut of the library in the place of its spring
 /// and damper, relative to how far the output moves; none if no strut replaces anything. Not a number where one of the
 /// two cannot be run.
@@ -50,7 +53,7 @@ pub fn difference(rig: &Rig) -> Result<Option<f64>, String> {
             rig.plant.parameter(name).map_or(it.start, |index| rig.parameters[index])
         })
         .collect();
-    let drive = drive(rig);
+    let drive = rig.trial();
     let run = |plant: &Plant, parameters: &[f64]| -> Result<Vec<Vec<f64>>, String> {
         // From where the rig starts, which may be where its spring rests.
         let of = |state: &Declaration| rig.plant.state(&state.name).map_or(state.start, |it| rig.start[it]);
@@ -66,15 +69,17 @@ pub fn difference(rig: &Rig) -> Result<Option<f64>, String> {
     Ok(Some(both.map(|(own, with)| apart(own, with)).fold(0.0, larger)))
 }
 
-/// All inputs at once, each by a sine of its usual size.
-fn drive(rig: &Rig) -> Drive {
-    let sine = |(place, declared): (usize, &Declaration)| -> Vec<f64> {
-        let size = rig.excitation(declared).map_or(0.0, |(amplitude, _)| amplitude);
-        let turns = FREQUENCY * (1.0 + 0.3 * place as f64) * STEP;
-        (0..SAMPLES).map(|k| declared.start + size * (TAU * turns * k as f64).sin()).collect()
-    };
-    let inputs = rig.plant.inputs.iter().enumerate().map(sine).collect();
-    Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines }
+impl Rig {
+    /// What drives it for half a second where there is no record: all inputs at once, each by a sine of its usual size.
+    pub fn trial(&self) -> Drive {
+        let sine = |(place, declared): (usize, &Declaration)| -> Vec<f64> {
+            let size = self.excitation(declared).map_or(0.0, |(amplitude, _)| amplitude);
+            let turns = FREQUENCY * (1.0 + 0.3 * place as f64) * STEP;
+            (0..SAMPLES).map(|k| declared.start + size * (TAU * turns * k as f64).sin()).collect()
+        };
+        let inputs = self.plant.inputs.iter().enumerate().map(sine).collect();
+        Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines }
+    }
 }
 
 /// Root mean square of the difference over that of a signal's own motion; zero for signals that rest.

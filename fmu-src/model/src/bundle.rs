@@ -88,6 +88,29 @@ impl Declarations {
     }
 }
 
+impl Declarations {
+    /// Adds the variables of a group, some of which have a smaller lower bound here: where a spring stands alone there may be
+    /// none.
+    ///
+    /// # Panics
+    /// If the group has no variable of such a name.
+    pub fn bounded_group<B: Bundle<f64>>(
+        &mut self,
+        name: &'static str,
+        doc: &'static str,
+        least: &[(&str, f64)],
+    ) {
+        let first = self.list.len();
+        self.group::<B>(name, doc);
+        let outer: String = self.groups.iter().map(|(group, _)| format!("{group}.")).collect();
+        for (own, min) in least {
+            let full = format!("{outer}{name}.{own}");
+            let found = self.list[first..].iter_mut().find(|it| it.name == full);
+            found.unwrap_or_else(|| panic!("there is no variable `{full}`")).min = Some(*min);
+        }
+    }
+}
+
 /// A struct of declared real variables; made by `#[derive(Variables)]`.
 pub trait Bundle<R>: Copy {
     /// Number of variables.
@@ -210,6 +233,26 @@ mod tests {
         assert_eq!(list[3].unit.symbol, "N2");
         assert_eq!((list[5].start, list[5].doc.as_str()), (2.0, "Table, 2"));
         assert_eq!(Element::<f64>::COUNT, 6);
+    }
+
+    /// A bench on which there may be no spring.
+    #[derive(Variables, Clone, Copy, Debug, PartialEq)]
+    struct Bench<R> {
+        /// Element
+        #[var(min(stiffness = 0.0))]
+        element: Element<R>,
+        /// Another one
+        other: Element<R>,
+    }
+
+    #[test]
+    fn a_group_may_have_bounds_of_its_own() {
+        let of = |name: &str| {
+            let list = Declarations::of::<Bench<f64>>();
+            list.into_iter().find(|it| it.name == name).expect("it is declared").min
+        };
+        assert_eq!(["element.stiffness", "other.stiffness"].map(of), [Some(0.0), None]);
+        assert_eq!(of("element.coulomb.force"), Some(0.0));
     }
 
     /// An element with more.

@@ -12,6 +12,7 @@ pub mod car;
 pub mod controllers;
 pub mod effects;
 pub mod elements;
+pub mod recording;
 pub mod rigs;
 pub mod roads;
 pub mod sensors;
@@ -62,6 +63,7 @@ pub static CATALOGUE: &[Entry] = &[
     Entry::of::<roads::FourWheelRoad>(),
     Entry::of::<sources::VoltageSource>(),
     Entry::of::<sources::FrequencySource>(),
+    Entry::of::<sources::RecordedSource>(),
 ];
 
 // PARAMETER_SETS and SYSTEMS, as they lie in `parameters` and `systems`.

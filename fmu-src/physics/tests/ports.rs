@@ -49,6 +49,7 @@ fn all() -> impl Iterator<Item = Ports> {
         roads::FourWheelRoad
         sources::VoltageSource
         sources::FrequencySource
+        sources::RecordedSource
     }
     .into_iter()
 }

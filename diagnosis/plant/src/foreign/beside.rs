@@ -3,7 +3,7 @@
 use strut_model::{Bundle, Declaration, Declarations, Instant, Model, Settings};
 use strut_physics::rigs::ElementDyno;
 
-use super::exchange::{Fmu, Session};
+use super::exchange::{Fmu, LEAST, Session};
 
 /// Where a strut is attached.
 #[derive(Clone, Debug)]
@@ -46,6 +46,32 @@ const OF_ITS_OWN: [&str; 7] = [
 /// Whether a parameter is one of the strut beside a model, and not the model's own.
 pub fn is_of_strut(name: &str) -> bool {
     ["strut.", "hysteresis."].iter().any(|start| name.starts_with(start))
+}
+
+/// What of a replaced spring and damper the strut beside a model has to have itself, with these parameters: an effect
+/// that changes a damper acts in the strut's own. Any other effect only adds a force.
+pub fn needs_own<'a>(values: impl Iterator<Item = (&'a str, f64)>) -> Own {
+    let declared = Declarations::of::<Parameters>();
+    let neutral = |name: &str| declared.iter().find(|it| it.name == name).map(|it| it.start);
+    let mut own = Own::default();
+    for (name, _) in values.filter(|(name, value)| neutral(name) != Some(*value)) {
+        let rates = ["strut.stiffness", "strut.damping"].contains(&name);
+        if !rates && OF_ITS_OWN.iter().any(|group| name.starts_with(group)) {
+            own.damper = true;
+            // The linkage is between the wheel and the spring, too.
+            own.spring |= name.starts_with("strut.linkage.");
+        }
+    }
+    own
+}
+
+/// What a strut beside a model has of its own.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Own {
+    /// A spring.
+    pub spring: bool,
+    /// A damper.
+    pub damper: bool,
 }
 
 /// An attached strut.
@@ -92,6 +118,10 @@ impl Beside {
                 _ => continue,
             };
             (plain[*index], declared.start) = (replaced, replaced);
+            // On its own bench there may be no spring. Here it has the place of one.
+            if declared.name == "strut.stiffness" && replaced > 0.0 {
+                declared.min = Some(LEAST * replaced);
+            }
         }
         own.retain(|(_, it)| is_of_strut(&it.name));
         if at.replaces.is_none() {
@@ -169,4 +199,29 @@ impl Beside {
 pub struct Set {
     parameters: Parameters,
     derived: <ElementDyno as Model>::Derived<f64>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_strut_has_of_its_own_what_an_effect_changes() {
+        let own = |values: &[(&'static str, f64)]| needs_own(values.iter().copied());
+        let rates = [("strut.stiffness", 9e3), ("strut.damping", 12.0)];
+        let with = |effect: (&'static str, f64)| own(&[rates[0], rates[1], effect]);
+        for effect in
+            ["strut.coulomb.force", "hysteresis.maxwell.stiffness", "strut.stop.stiffness", "strut.preload"]
+        {
+            assert_eq!(with((effect, 5.0)), Own::default(), "{effect}");
+        }
+        for effect in
+            ["strut.asymmetry.ratio", "strut.knee.ratio", "strut.fade.ratio", "hysteresis.mount.compliance"]
+        {
+            assert_eq!(with((effect, 0.5)), Own { spring: false, damper: true }, "{effect}");
+        }
+        assert_eq!(with(("strut.linkage.slope", 0.5)), Own { spring: true, damper: true });
+        // Off, it changes nothing.
+        assert_eq!(with(("strut.asymmetry.ratio", 0.0)), Own::default());
+    }
 }

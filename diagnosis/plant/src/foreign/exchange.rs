@@ -1,5 +1,8 @@
 //! An FMU, loaded, and instances of it that compute rates and outputs.
 
+mod starts;
+
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use strut_check::import::{
@@ -12,8 +15,7 @@ use tempfile::TempDir;
 use super::Foreign;
 use super::units::{Conversion, coherent};
 
-/// Share of its start value that a positive parameter without a lower bound has at least.
-const LEAST: f64 = 1e-6;
+pub use starts::LEAST;
 
 /// A loaded FMU.
 pub struct Fmu {
@@ -24,6 +26,8 @@ pub struct Fmu {
     pub states: Vec<Declaration>,
     /// Start values of the parameters that an element replaces, which are zero here, in base units.
     pub replaced: Vec<f64>,
+    /// All real variables by name.
+    reals: BTreeMap<String, u32>,
     library: Library,
     guid: String,
     resources: String,
@@ -129,6 +133,7 @@ impl Fmu {
             parameters,
             states,
             replaced: replaced.iter().map(|it| it.start).collect(),
+            reals: starts::references(&description),
             library,
             guid,
             resources: uri(&folder.path().join("resources")),
@@ -145,37 +150,6 @@ impl Fmu {
         };
         fmu.read_starts().map_err(failed)?;
         Ok(Arc::new(fmu))
-    }
-
-    /// Start values of parameters and states, as the FMU itself has them.
-    fn read_starts(&mut self) -> Result<(), String> {
-        let refused = "it does not start: see what it says with `build-fmu check`";
-        let instance = self.instantiate().ok_or(refused)?;
-        let mut values = vec![0.0; self.of_parameters.references.len()];
-        let is_fine = self.begin(instance) && {
-            let known = self.library.reals(instance, &self.of_parameters.references, &mut values);
-            fine(known) && self.finish(instance)
-        };
-        let mut states = vec![0.0; self.states.len()];
-        let is_fine = is_fine
-            && (states.is_empty()
-                || fine(self.library.array("fmi2GetContinuousStates", instance, &mut states)));
-        self.release(instance);
-        if !is_fine {
-            return Err(refused.into());
-        }
-        let parameters = self.parameters.iter_mut().zip(&self.of_parameters.conversions);
-        for ((declared, conversion), value) in parameters.zip(values) {
-            declared.start = conversion.si(value);
-            // A mass that would be zero ends some FMUs' process; few have bounds for it.
-            if declared.min.is_none() && declared.start > 0.0 {
-                declared.min = Some(LEAST * declared.start);
-            }
-        }
-        for ((declared, conversion), value) in self.states.iter_mut().zip(&self.of_states).zip(states) {
-            declared.start = conversion.si(value);
-        }
-        Ok(())
     }
 
     fn instantiate(&self) -> Option<Instance> {

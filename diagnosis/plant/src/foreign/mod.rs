@@ -6,6 +6,7 @@
 mod beside;
 mod differences;
 mod exchange;
+mod face;
 mod lanes;
 mod units;
 mod walk;
@@ -19,7 +20,9 @@ use beside::Beside;
 use differences::Differences;
 use exchange::Fmu;
 
-pub use beside::{Attachment, Replaced, is_of_strut};
+pub use beside::{Attachment, Own, Replaced, is_of_strut, needs_own};
+pub use face::{Face, FaceVariable};
+pub use units::Conversion;
 
 /// What a predictor is made of.
 #[derive(Clone, Debug)]
@@ -66,5 +69,20 @@ impl Foreign {
             choices: Vec::new(),
             prepare,
         })
+    }
+
+    /// The states that the FMU on its own has after its initialisation with start values of parameters and of other
+    /// variables, in base units; none if it does not take them.
+    ///
+    /// # Errors
+    /// If the FMU cannot be read or run here.
+    pub fn started(&self, values: &[(String, f64)]) -> Result<Option<Vec<f64>>, String> {
+        let face = Face::read(&self.fmu)?;
+        let own = |(name, value): &(String, f64)| {
+            let conversion = face.variable(name).map_or(Conversion::NONE, |it| it.conversion);
+            (name.clone(), conversion.own(*value))
+        };
+        let values: Vec<(String, f64)> = values.iter().map(own).collect();
+        Ok(Fmu::load(&Self { strut: None, ..self.clone() }, &[])?.started(&values))
     }
 }

@@ -6,13 +6,15 @@ use strut_model::unit::{ALL, ANY, Base, Unit};
 /// How a variable's values are made values in base units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conversion {
-    factor: f64,
-    offset: f64,
+    /// Factor to base units.
+    pub factor: f64,
+    /// Offset to base units.
+    pub offset: f64,
 }
 
 impl Conversion {
     /// Values are taken as they are.
-    const NONE: Self = Self { factor: 1.0, offset: 0.0 };
+    pub const NONE: Self = Self { factor: 1.0, offset: 0.0 };
 
     /// In base units.
     pub fn si(self, value: f64) -> f64 {

@@ -54,10 +54,11 @@ impl<'a> Walk<'a> {
         if let Some((beside, set)) = &self.beside {
             beside.act(set, self.start + time, &mut self.session, (&mut self.inputs, memory, of_memory));
         }
-        self.session.rates(rates);
+        // Outputs first: after rates, OpenModelica's FMUs take outputs that follow from states for known, and give old ones.
         if let Some(outputs) = outputs {
             self.session.outputs(outputs);
         }
+        self.session.rates(rates);
     }
 
     /// Goes from a sample to the next in a number of steps; `first` are the rates there, `input` an input at a share of the way.

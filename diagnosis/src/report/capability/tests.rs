@@ -72,9 +72,23 @@ fn a_strut_that_changes_the_model_is_noted() {
 fn parameters_of_an_fmu_that_the_file_does_not_name_are_given() {
     let rig = foreign("force = { output = \"f\" }");
     let unnamed = vec!["g".to_owned(), "m_u".to_owned()];
-    let text = capability(&rig, &Foreign { unnamed, difference: None }).unwrap();
+    let text = capability(&rig, &Foreign { unnamed, ..Foreign::default() }).unwrap();
     assert!(text.starts_with("element-dyno: the FMU my.fmu, of another maker\n"), "{text}");
     assert!(text.contains("the file does not name them: g, m_u."), "{text}");
+}
+
+#[test]
+fn whether_there_will_be_an_augmented_model_is_said() {
+    let rig = foreign("velocity = \"v\"\nforce = { output = \"f\" }\nacts_on = [\"F\"]");
+    let said = |augmented| said(&rig, &Foreign { augmented, ..Foreign::default() }).join("\n");
+    assert!(!said(None).contains("augmented.ssp"));
+    let text = said(Some(Err("the FMU is for model exchange only".into())));
+    assert!(
+        text.contains("A diagnosis writes no augmented.ssp: the FMU is for model exchange only."),
+        "{text}"
+    );
+    let text = said(Some(Ok(vec!["a is no output of the FMU".into()])));
+    assert!(text.contains("what was found beside it. a is no output of the FMU."), "{text}");
 }
 
 #[test]

@@ -10,7 +10,8 @@ use strut_related::{
 
 use crate::dataset::recorded::Dataset;
 use crate::diagnosis::{Diagnosis, root_mean_square};
-use crate::plant;
+use crate::estimation::fit::Estimate;
+use crate::plant::{self, Dynamics};
 
 /// Most samples of the record: at 500 samples a second, 5 s, and less than a fifth of the FMU's size.
 const MOST: usize = 2500;
@@ -40,28 +41,40 @@ pub struct Validation {
     errors: Vec<Stated>,
 }
 
+/// A segment of a validation record, and the extended model on it.
+pub struct Segment<'a> {
+    /// The record.
+    pub record: &'a Dataset,
+    /// Its samples.
+    pub range: Range<usize>,
+    /// The model as an importer simulates it.
+    pub point: Estimate,
+    /// States at the start.
+    pub start: Vec<f64>,
+    /// The equations.
+    pub dynamics: Box<dyn Dynamics>,
+}
+
 impl Diagnosis<'_> {
-    /// The validation experiment; none where the model diverges on the record, is driven along curves, or stands for one that the
-    /// record cannot drive.
-    pub(super) fn validation(&self) -> Option<Validation> {
-        if self.baseline.rig.of.is_some() {
-            return None;
-        }
-        let terms = &self.found.extended.terms;
-        let (point, _) = self.baseline.as_measured(
-            self.measured,
-            (terms, &self.found.extended.point),
-            &self.found.extended,
-        )?;
-        let dynamics = self.baseline.dynamics(terms).ok()?;
+    /// The segment in which most happens at its beginning, since a record may begin at rest; none where the model diverges.
+    pub(super) fn liveliest(&self) -> Option<Segment<'_>> {
+        let extended = &self.found.extended;
+        let terms = &extended.terms;
+        let (point, _) = self.baseline.as_measured(self.measured, (terms, &extended.point), extended)?;
         let sections =
             self.measured.iter().flat_map(|record| record.sections.iter().map(move |it| (record, it)));
-        // The part in which most happens: a record may begin at rest.
-        let parts =
-            sections.zip(&point.starts).map(|((record, section), start)| (record, beginning(section), start));
-        let (record, part, start) =
-            parts.max_by(|a, b| liveliness(a.0, &a.1).total_cmp(&liveliness(b.0, &b.1)))?;
-        if record.between != plant::Between::Lines {
+        let lively = |(record, range): (&Dataset, &Range<usize>)| liveliness(record, &beginning(range));
+        let all = sections.zip(&point.starts);
+        let ((record, range), start) = all.max_by(|(a, _), (b, _)| lively(*a).total_cmp(&lively(*b)))?;
+        let (range, start) = (range.clone(), start.clone());
+        Some(Segment { record, range, start, dynamics: self.baseline.dynamics(terms).ok()?, point })
+    }
+
+    /// The validation experiment; none where the model is driven along curves, or stands for one that the record cannot drive.
+    pub(super) fn validation(&self, segment: &Segment<'_>) -> Option<Validation> {
+        let Segment { record, range, point, start, dynamics } = segment;
+        let part = beginning(range);
+        if record.between != plant::Between::Lines || self.baseline.rig.of.is_some() {
             return None;
         }
         let (declared, time) = (&self.baseline.rig.plant, |index: usize| index as f64 * record.step);

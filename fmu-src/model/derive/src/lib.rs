@@ -16,7 +16,8 @@ use syn::{Attribute, DeriveInput, Expr, ExprLit, Lit, Meta, parse_macro_input};
 /// state that is an output as well) and `port` (a parameter that is an additive constant at which the
 /// diagnosis looks for a missing signal). An array of them is declared alike, with one start for all or an
 /// array of starts; its variables are named `field[1]`, `field[2]` and so on. A field of another type is
-/// a group: its variables are named `field.variable`, or `variable` if it carries `#[var(flatten)]`.
+/// a group: its variables are named `field.variable`, or `variable` if it carries `#[var(flatten)]`. With
+/// `#[var(min(variable = 0.0))]` a variable of the group has another lower bound than elsewhere.
 #[proc_macro_derive(Variables, attributes(var))]
 pub fn derive_variables(input: TokenStream) -> TokenStream {
     expand(&parse_macro_input!(input as DeriveInput), variables::expand)

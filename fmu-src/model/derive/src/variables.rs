@@ -77,10 +77,15 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
             combine.push(quote!(#ident: ::strut_model::Bundle::<#scalar>::combine(
                 &self.#ident, others.map(|it| &it.#ident), f,
             )));
-            declare.push(if is_flattened(field)? {
-                quote!(<#concrete as ::strut_model::Bundle<f64>>::declare(declarations);)
-            } else {
-                quote!(declarations.group::<#concrete>(#text, #doc);)
+            declare.push(match group(field)? {
+                Group::Flattened => quote!(<#concrete as ::strut_model::Bundle<f64>>::declare(declarations);),
+                Group::Bounded(least) if least.is_empty() => {
+                    quote!(declarations.group::<#concrete>(#text, #doc);)
+                }
+                Group::Bounded(least) => {
+                    let least = least.iter().map(|(name, min)| quote!((#name, #min)));
+                    quote!(declarations.bounded_group::<#concrete>(#text, #doc, &[#(#least),*]);)
+                }
             });
         }
     }
@@ -161,16 +166,36 @@ fn parse(field: &Field, ident: &Ident) -> syn::Result<Var> {
     Ok(var)
 }
 
-/// Whether a group's variables are named as if they were the struct's own.
-fn is_flattened(field: &Field) -> syn::Result<bool> {
-    let mut flattened = false;
+/// How the variables of a group are declared.
+enum Group {
+    /// Named as if they were the struct's own.
+    Flattened,
+    /// Named below the group's name; some have a lower bound of their own here.
+    Bounded(Vec<(String, Expr)>),
+}
+
+fn group(field: &Field) -> syn::Result<Group> {
+    let mut group = Group::Bounded(Vec::new());
     if let Some(attribute) = attribute(field) {
         attribute.parse_nested_meta(|meta| {
-            flattened = meta.path.is_ident("flatten");
-            if flattened { Ok(()) } else { Err(meta.error("a group has nothing but `flatten`")) }
+            if meta.path.is_ident("flatten") {
+                group = Group::Flattened;
+                return Ok(());
+            }
+            if !meta.path.is_ident("min") {
+                return Err(meta.error("a group has nothing but `flatten` or `min(variable = bound)`"));
+            }
+            meta.parse_nested_meta(|bound| {
+                let name = bound.path.require_ident()?.to_string();
+                let value = bound.value()?.parse()?;
+                if let Group::Bounded(least) = &mut group {
+                    least.push((name, value));
+                }
+                Ok(())
+            })
         })?;
     }
-    Ok(flattened)
+    Ok(group)
 }
 
 fn attribute(field: &Field) -> Option<&Attribute> {

@@ -40,6 +40,8 @@ pub struct Options {
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<R> {
     /// Strut
+    // On a bench, and beside another maker's model, a damper may be without a spring.
+    #[var(min(stiffness = 0.0))]
     pub strut: Strut<R>,
     /// Tyre
     pub tire: Tire<R>,

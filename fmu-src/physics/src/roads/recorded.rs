@@ -4,6 +4,8 @@ use std::path::Path;
 
 use strut_model::Real;
 
+use crate::recording::{self, Header};
+
 /// A measured profile between whose points a monotone cubic leads (PCHIP: F. N. Fritsch, J. Butland, A method
 /// for constructing local monotone piecewise cubic interpolants, SIAM J. Sci. Stat. Comput. 5 (1984)): the
 /// velocity is continuous and nothing overshoots the measured points.
@@ -22,7 +24,8 @@ struct Point {
 }
 
 /// What the first line of the file says.
-const HEADER: [&str; 2] = ["time [s]", "position [m]"];
+const HEADER: Header =
+    Header { what: "profile", columns: "time [s], position [m]", is_second: |name| name == "position [m]" };
 
 impl Recorded {
     /// Reads a file of the FMU's resources, or one with an absolute path.
@@ -30,29 +33,7 @@ impl Recorded {
     /// # Errors
     /// A sentence with file and line.
     pub fn read(file: &str, resources: Option<&Path>) -> Result<Self, String> {
-        let path = match resources {
-            Some(folder) => folder.join(file),
-            None if Path::new(file).is_absolute() => file.into(),
-            None => {
-                return Err(format!(
-                    "the profile {file:?} cannot be found: the FMU was given no resource folder; name an \
-                     absolute path"
-                ));
-            }
-        };
-        let cannot = |reason: &dyn std::fmt::Display| {
-            format!(
-                "the profile {} cannot be read: {reason}; put it into the FMU's resources or name \
-                another `file`",
-                path.display()
-            )
-        };
-        // A device or a pipe may never end.
-        if !std::fs::metadata(&path).map_err(|error| cannot(&error))?.is_file() {
-            return Err(cannot(&"it is no file"));
-        }
-        let text = std::fs::read_to_string(&path).map_err(|error| cannot(&error))?;
-        Self::parse(&text).map_err(|error| format!("{}: {error}", path.display()))
+        recording::read(file, resources, HEADER).map(Self::of)
     }
 
     /// Reads the text of a file.
@@ -60,37 +41,14 @@ impl Recorded {
     /// # Errors
     /// A sentence with the line.
     pub fn parse(text: &str) -> Result<Self, String> {
-        let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
-        let header = lines.next().map_or("", |(_, line)| line.trim_start_matches('\u{feff}'));
-        if !header.split(',').map(str::trim).eq(HEADER) {
-            return Err(format!("line 1: expected the header `{}`, found `{header}`", HEADER.join(", ")));
-        }
-        let mut points: Vec<Point> = Vec::new();
-        for (number, line) in lines {
-            let fields: Vec<&str> = line.split(',').map(str::trim).collect();
-            let [time, position] = fields[..] else {
-                return Err(format!("line {number}: expected two numbers, found {} fields", fields.len()));
-            };
-            let read = |field: &str| match field.parse::<f64>() {
-                Ok(value) if value.is_finite() => Ok(value),
-                _ => Err(format!("line {number}: `{field}` is not a finite number")),
-            };
-            let (time, position) = (read(time)?, read(position)?);
-            if let Some(last) = points.last()
-                && time <= last.time
-            {
-                return Err(format!(
-                    "line {number}: time {time} s does not come after {} s; times must increase",
-                    last.time
-                ));
-            }
-            points.push(Point { time, position, velocity: 0.0 });
-        }
-        if points.len() < 2 {
-            return Err(format!("{} rows of numbers: a profile needs at least two", points.len()));
-        }
+        recording::parse(text, HEADER).map(Self::of)
+    }
+
+    fn of(rows: Vec<[f64; 2]>) -> Self {
+        let point = |[time, position]: [f64; 2]| Point { time, position, velocity: 0.0 };
+        let mut points: Vec<Point> = rows.into_iter().map(point).collect();
         set_velocities(&mut points);
-        Ok(Self { points })
+        Self { points }
     }
 
     /// Height and velocity.

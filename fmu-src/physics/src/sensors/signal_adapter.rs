@@ -22,6 +22,8 @@ pub enum Operation {
     Derivative,
     /// Its integral: a velocity of an acceleration
     Integral,
+    /// What a sensor with the time constant `filter` shows of it
+    Lag,
 }
 
 /// What becomes of the signal.
@@ -44,10 +46,10 @@ pub struct Parameters<R> {
     /// Integral at the start, before factor and offset
     #[var(unit = ANY, start = 0.0, fixed)]
     pub initial: R,
-    /// Time constant of the filter of the rate of change
+    /// Time constant of the lag, and of the filter of the rate of change
     #[var(unit = S, start = 0.0, min = 0.0)]
     pub filter: R,
-    /// Sampling period of rate of change and integral: the communication step
+    /// Sampling period of rate of change, integral and lag: the communication step
     #[var(unit = S, start = 1e-3, min = 1e-6, fixed)]
     pub period: R,
 }
@@ -75,6 +77,9 @@ pub struct Memory<R> {
     /// Its integral
     #[var(unit = ANY)]
     pub integral: R,
+    /// What a sensor with a lag shows of it
+    #[var(unit = ANY)]
+    pub lagged: R,
 }
 
 /// What goes out.
@@ -88,8 +93,8 @@ pub struct Output<R> {
 impl Model for SignalAdapter {
     const ABOUT: About = About {
         name: "SignalAdapter",
-        summary: "Between models of different conventions: factor and offset of a signal, its rate of change or its \
-            integral, and the sum of two",
+        summary: "Between models of different conventions: factor and offset of a signal, its rate of change, its integral \
+            or its lag, and the sum of two",
         kind: Kind::Other,
         equations: &[
             Equation {
@@ -103,6 +108,10 @@ impl Model for SignalAdapter {
             Equation {
                 text: "integral: y = factor I_k + offset + added, I_k = I_(k-1) + T (u_k + u_(k-1))/2",
                 source: "trapezoidal rule",
+            },
+            Equation {
+                text: "lag: y = factor z_k + offset + added, z_k = (tau z_(k-1) + T u_k)/(tau + T)",
+                source: "backward Euler method",
             },
         ],
         notes: &[
@@ -143,12 +152,13 @@ impl Model for SignalAdapter {
     fn tick<R: Real>(&self, now: Instant<'_, Self, R>) -> Memory<R> {
         let (p, before, signal) = (now.parameters, now.memory, now.input.input);
         if now.tick == 0 {
-            return Memory { signal, rate: R::from(0.0), integral: p.initial };
+            return Memory { signal, rate: R::from(0.0), integral: p.initial, lagged: signal };
         }
         Memory {
             signal,
             rate: (p.filter * before.rate + signal - before.signal) / (p.filter + p.period),
             integral: before.integral + p.period * 0.5 * (signal + before.signal),
+            lagged: (p.filter * before.lagged + p.period * signal) / (p.filter + p.period),
         }
     }
 
@@ -158,6 +168,7 @@ impl Model for SignalAdapter {
             Operation::Value => now.input.input,
             Operation::Derivative => memory.rate,
             Operation::Integral => memory.integral,
+            Operation::Lag => memory.lagged,
         };
         (NoVariables, Output { output: p.factor * signal + p.offset + now.input.added })
     }
@@ -202,6 +213,19 @@ mod tests {
         // A filter delays the same slope: after ten time constants it is there.
         let slow = outputs(adapter(2).start("filter", 4e-3).initialized(), |t| 0.25 * t, 50);
         assert!(slow[2] < 0.2 && (slow[49] - 0.25).abs() < 1e-4, "{slow:?}");
+    }
+
+    #[test]
+    fn a_lag_follows_a_step_as_an_exponential() {
+        let lag = adapter(4).start("filter", 0.05).initialized();
+        let found = outputs(lag, |t| f64::from(t > 0.0), 201);
+        assert_eq!(found[0], 0.0);
+        // After one time constant, and after four; a step of a fiftieth of it is off by a hundredth.
+        for (sample, value) in [(50, 1.0 - (-1.0_f64).exp()), (200, 1.0 - (-4.0_f64).exp())] {
+            assert!((found[sample] - value).abs() < 5e-3, "{}", found[sample]);
+        }
+        // Without a time constant it is the signal itself.
+        assert_eq!(outputs(adapter(4).initialized(), |t| t, 3), [0.0, 1e-3, 2e-3]);
     }
 
     #[test]

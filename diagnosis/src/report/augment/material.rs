@@ -1,0 +1,138 @@
+//! What an augmented model is made of, and what follows from it.
+
+use std::path::Path;
+
+use crate::plant::{Attachment, Face, FaceVariable, Own, is_of_strut, needs_own};
+use crate::signal::distortion::Correction;
+
+/// Difference of two signals, as a share of how far they move, that is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// What a system is made of, in base units of the SI.
+#[derive(Clone, Debug)]
+pub struct Material<'a> {
+    /// The other maker's FMU.
+    pub fmu: &'a Path,
+    /// What it declares.
+    pub face: &'a Face,
+    /// Where Strut's strut is attached to it.
+    pub strut: Option<&'a Attachment>,
+    /// Whether the strut does just what it replaces, so that the FMU may keep it.
+    pub stands_in: bool,
+    /// Parameters of the FMU and of the strut.
+    pub parameters: Vec<Value<'a>>,
+    /// What the strut remembers at the start.
+    pub memory: Vec<Value<'a>>,
+    /// Start values of other variables that the FMU takes.
+    pub starts: Vec<(String, f64)>,
+    /// What drives the FMU.
+    pub inputs: Vec<(&'a str, &'a [f64])>,
+    /// What the augmented model computes then.
+    pub outputs: Vec<(&'a str, &'a [f64])>,
+    /// Time between two values of inputs and outputs in seconds.
+    pub sampling: f64,
+    /// The measured outputs, and what their sensors do.
+    pub measured: Vec<(&'a str, Correction)>,
+    /// Communication step in seconds.
+    pub step: f64,
+    /// The record and which part of it.
+    pub record: String,
+}
+
+/// A value with what it is declared as.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Value<'a> {
+    /// Name.
+    pub name: &'a str,
+    /// Value.
+    pub value: f64,
+    /// Declared start value.
+    pub start: f64,
+    /// Unit.
+    pub unit: &'a str,
+}
+
+/// An output of the FMU that shows a signal: `signal = factor · output + offset`, in base units.
+pub struct Shown<'a> {
+    /// The output.
+    pub output: &'a FaceVariable,
+    /// Factor.
+    pub factor: f64,
+    /// Offset.
+    pub offset: f64,
+}
+
+impl Shown<'_> {
+    /// Whether it is the signal.
+    pub fn is_itself(&self) -> bool {
+        self.factor == 1.0 && self.offset == 0.0
+    }
+}
+
+impl Material<'_> {
+    /// What the strut has of its own; none if there is no strut, since nothing was found in it.
+    pub fn own(&self) -> Option<Own> {
+        let at = self.strut?;
+        let of_strut = || self.parameters.iter().filter(|it| is_of_strut(it.name));
+        let own = match &at.replaces {
+            None => Own::default(),
+            Some(_) if !self.stands_in => Own { spring: true, damper: true },
+            // A force that passes between components is late, so that the FMU does itself what it can.
+            Some(_) => needs_own(of_strut().map(|it| (it.name, it.value))),
+        };
+        let rate = |name: &str| ["strut.stiffness", "strut.damping"].contains(&name);
+        let adds = of_strut().any(|it| !rate(it.name) && it.value != it.start);
+        (adds || own.spring || own.damper).then_some(own)
+    }
+
+    /// The FMU's fitted parameters and its start values, in base units.
+    pub fn given(&self) -> Vec<(String, f64)> {
+        let own = self.own().unwrap_or_default();
+        let named = |name: &str| self.parameters.iter().find(|it| it.name == name).map(|it| it.value);
+        let fitted = self.parameters.iter().filter(|it| !is_of_strut(it.name) && it.value != it.start);
+        let mut given: Vec<(String, f64)> = fitted.map(|it| (it.name.to_owned(), it.value)).collect();
+        if let Some(replaced) = self.strut.and_then(|it| it.replaces.as_ref()) {
+            let rates = [
+                (&replaced.stiffness, "strut.stiffness", own.spring),
+                (&replaced.damping, "strut.damping", own.damper),
+            ];
+            for (name, of, taken) in rates {
+                given.extend(named(of).map(|value| (name.clone(), if taken { 0.0 } else { value })));
+            }
+        }
+        given.extend(self.starts.iter().cloned());
+        given
+    }
+
+    /// The output that shows a signal: itself, or one that follows it along a straight line.
+    pub fn shown(&self, signal: &str) -> Option<Shown<'_>> {
+        let output = |name: &str| self.face.variable(name).filter(|it| it.causality == "output");
+        if let Some(output) = output(signal) {
+            return Some(Shown { output, factor: 1.0, offset: 0.0 });
+        }
+        let (_, of) = self.outputs.iter().find(|(name, _)| *name == signal)?;
+        self.outputs.iter().find_map(|(name, by)| {
+            let (output, (factor, offset)) = (output(name)?, line(of, by)?);
+            Some(Shown { output, factor, offset })
+        })
+    }
+}
+
+/// The straight line along which one signal follows another: factor and offset; none if there is none.
+fn line(of: &[f64], by: &[f64]) -> Option<(f64, f64)> {
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let (of_mean, by_mean) = (mean(of), mean(by));
+    let pairs = || of.iter().zip(by).map(|(y, x)| (y - of_mean, x - by_mean));
+    let power: f64 = pairs().map(|(_, x)| x * x).sum();
+    let factor = pairs().map(|(y, x)| x * y).sum::<f64>() / power;
+    let range = pairs().map(|(y, _)| y.abs()).fold(0.0, f64::max);
+    let follows = pairs().all(|(y, x)| (y - factor * x).abs() <= ROUNDING * range);
+    if of.len() < 3 || range <= 0.0 || !factor.is_finite() || !follows {
+        return None;
+    }
+    // A sum of ten thousand numbers is off in its last digits.
+    let factor = if (factor - factor.round()).abs() <= ROUNDING { factor.round() } else { factor };
+    let offset = of_mean - factor * by_mean;
+    let is_nothing = offset.abs() <= ROUNDING * range.max(of_mean.abs());
+    (factor != 0.0).then_some((factor, if is_nothing { 0.0 } else { offset }))
+}

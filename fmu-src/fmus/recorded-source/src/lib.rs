@@ -1,0 +1,3 @@
+//! RecordedSource as an FMU.
+
+strut_fmi::export_fmu!(strut_physics::sources::RecordedSource);
