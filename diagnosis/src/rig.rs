@@ -230,6 +230,11 @@ impl Rig {
         }
     }
 
+    /// The input whose measured mean is its sensor's, so that no offset of it is left.
+    pub fn centred(&self) -> Option<&str> {
+        self.driven().filter(|by| by.without_mean).map(|by| by.input.as_str())
+    }
+
     /// The state that an output shows.
     pub fn shown(&self, output: &str) -> Option<usize> {
         self.plant.state(self.kind.shows.get(output).map_or(output, String::as_str))

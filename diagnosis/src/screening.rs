@@ -16,7 +16,7 @@ use crate::dataset::recorded::{Dataset, Source};
 use crate::estimation::fit::{Estimate, Normal, Unknown};
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::plant::{Dynamics, Signals};
-use crate::signal::distortion::{AFTER, Correction};
+use crate::signal::distortion::{AFTER, Correction, Fault};
 
 pub use probes::Probe;
 pub use typical::typical;
@@ -65,7 +65,9 @@ impl Baseline<'_> {
             if matches!(source, Source::Measured(_)) && !self.twofold(record, input) {
                 let name = &plant.inputs[input].name;
                 let faults = catalogue::distortions(Signal::of_input(name), name);
+                let centred = self.rig.centred() == Some(name);
                 let own = faults.filter(|fault| !catalogue::is_replaced(plant, name, *fault));
+                let own = own.filter(|fault| !(centred && *fault == Fault::Offset));
                 terms.extend(own.map(|fault| Term::Fault(Unknown::Input(input, fault))));
             }
         }

@@ -175,7 +175,7 @@ fn import(rig: &Rig, origin: &Origin, map: &Map) -> Result<Imported, String> {
         channel.map(|channel| channel.values.clone())
     };
     let mut inputs: Vec<Source> = Vec::new();
-    let centred = rig.driven().filter(|by| by.without_mean).map(|by| by.input.as_str());
+    let centred = rig.centred();
     for declared in &rig.plant.inputs {
         inputs.push(match values(&declared.name) {
             Some(mut values) if centred == Some(declared.name.as_str()) => {
@@ -338,8 +338,9 @@ fn missing(rig: &Rig, record: &Record, name: &str, unused: &[String]) -> Result<
     };
     if !rig.plant.inputs.iter().any(|declared| has(&declared.name)) {
         let inputs: Vec<&str> = rig.plant.inputs.iter().map(|declared| declared.name.as_str()).collect();
+        let instead = instead(rig)?;
         return Err(format!(
-            "{name}: no column says what drove the rig; one of {} is needed{hint}",
+            "{name}: no column says what drove the rig; one of {} is needed{instead}{hint}",
             inputs.join(", ")
         ));
     }
@@ -352,6 +353,14 @@ fn missing(rig: &Rig, record: &Record, name: &str, unused: &[String]) -> Result<
         ));
     }
     Ok(())
+}
+
+/// What a record may have in place of what drove the rig, as the end of a sentence.
+fn instead(rig: &Rig) -> Result<String, String> {
+    let Some(part) = rig.undriven()? else { return Ok(String::new()) };
+    let columns = part.kind.drives.iter().flat_map(|by| &by.columns);
+    let shown: Vec<&str> = columns.map(String::as_str).filter(|it| rig.plant.output(it).is_some()).collect();
+    Ok(format!(", or for the strut alone one of {}", shown.join(", ")))
 }
 
 /// Ranges of at most `seconds` and about equal length.
