@@ -51,7 +51,7 @@ named! {
     play_in_a_damper_bush: "single-12";
     #[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]
     a_curved_spring_on_an_unmeasured_road: "roadless-08";
-    friction_on_an_unmeasured_road: "roadless-01";
+    play_in_a_damper_bush_on_an_unmeasured_road: "roadless-12";
     #[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]
     friction_and_a_nonlinear_spring: "pair-01-08";
     friction_of_a_drive: "drive-16";
@@ -60,10 +60,8 @@ named! {
 /// Nothing is there, or nothing that matters: no effect is claimed.
 #[test]
 fn nothing_is_claimed_where_nothing_is_hidden() {
-    for name in ["none-cluttered", "roadless-none"] {
-        let score = diagnosed(name);
-        assert_eq!(score.outcome, Outcome::Correct, "{score:?}");
-    }
+    let score = diagnosed("none-cluttered");
+    assert_eq!(score.outcome, Outcome::Correct, "{score:?}");
 }
 
 /// What is in no catalogue gets no name, and is found in its place with what it depends on.

@@ -1,9 +1,13 @@
 //! Deflections that count from elsewhere than the model's, which count from static equilibrium.
 
 use crate::dataset::recorded::Dataset;
+use crate::plant::{Between, Drive};
 use crate::report::findings::DataProblem;
 use crate::report::words::digits;
 use crate::rig::Rig;
+
+/// Time in seconds over which a model is looked at that rests.
+const STEP: f64 = 1e-3;
 
 /// Makes deflections count from their mean that never pass their zero: a suspension moves about its static equilibrium, so that
 /// a sensor which never shows it has its zero elsewhere. The mean is that of all records: a ride height that differs between
@@ -11,8 +15,9 @@ use crate::rig::Rig;
 pub fn centred(rig: &Rig, records: &mut [Dataset]) -> Vec<DataProblem> {
     let Some(first) = records.first() else { return Vec::new() };
     let outputs: Vec<usize> = first.measured.iter().map(|it| it.output).collect();
+    let equilibrium = counting_from_equilibrium(rig);
     let mut notes = Vec::new();
-    for output in outputs.into_iter().filter(|it| counts_from_equilibrium(rig, *it)) {
+    for output in outputs.into_iter().filter(|it| equilibrium.contains(it)) {
         let declared = &rig.plant.outputs[output];
         let known: Vec<f64> =
             records.iter_mut().filter_map(|it| values(it, output)).flatten().map(|it| *it).collect();
@@ -37,10 +42,19 @@ fn values(record: &mut Dataset, output: usize) -> Option<&mut Vec<f64>> {
     record.measured.iter_mut().find(|it| it.output == output).map(|it| &mut it.values)
 }
 
-/// Whether an output is a length or an angle, and no state that starts where it is.
-fn counts_from_equilibrium(rig: &Rig, output: usize) -> bool {
-    let declared = &rig.plant.outputs[output];
-    matches!(declared.unit.symbol, "m" | "rad") && rig.shown(&declared.name).is_none()
+/// Outputs that are lengths or angles, are no states that start where they are, and are zero where the model rests.
+fn counting_from_equilibrium(rig: &Rig) -> Vec<usize> {
+    let still = rig.plant.inputs.iter().map(|it| vec![it.start; 2]).collect();
+    let drive = Drive { start: 0.0, step: STEP, inputs: still, finer: 1, between: Between::Lines };
+    let Ok(dynamics) = rig.plant.prepare(&rig.choices) else { return Vec::new() };
+    let resting = dynamics.outputs(&rig.parameters, &rig.start, &drive);
+    let counts = |index: usize| {
+        let declared = &rig.plant.outputs[index];
+        matches!(declared.unit.symbol, "m" | "rad")
+            && rig.shown(&declared.name).is_none()
+            && resting[index].first() == Some(&0.0)
+    };
+    (0..rig.plant.outputs.len()).filter(|index| counts(*index)).collect()
 }
 
 /// The mean of the known values, if they are all positive or all negative.
@@ -64,16 +78,15 @@ mod tests {
     }
 
     #[test]
-    fn forces_accelerations_and_positions_that_are_states_stay() {
+    fn forces_accelerations_states_and_what_rests_elsewhere_stay() {
         let counts = |rig: &str| {
             let rig = Rig::published(rig).unwrap();
-            let names = rig.plant.outputs.iter().enumerate();
-            names
-                .filter(|(index, _)| counts_from_equilibrium(&rig, *index))
-                .map(|(_, it)| it.name.clone())
-                .collect::<Vec<_>>()
+            let outputs = counting_from_equilibrium(&rig).into_iter();
+            outputs.map(|index| rig.plant.outputs[index].name.clone()).collect::<Vec<_>>()
         };
         assert_eq!(counts("tum-quarter-vehicle"), ["suspension.deflection", "tire.deflection"]);
         assert_eq!(counts("linear-drive"), Vec::<String>::new());
+        // Its arms rest at angles of their own.
+        assert_eq!(counts("kogut-sas-rig"), Vec::<String>::new());
     }
 }

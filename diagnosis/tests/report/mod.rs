@@ -8,7 +8,7 @@ mod simulation;
 use std::path::Path;
 
 use strut_diagnosis::report;
-use strut_diagnosis::report::findings::{Evidence, Findings, Verdict};
+use strut_diagnosis::report::findings::{Candidate, Evidence, Findings, Verdict};
 use strut_words::Scope;
 use unicode_width::UnicodeWidthStr;
 
@@ -166,7 +166,9 @@ fn the_numbers_beside_the_headline_are_of_all_signals() {
 fn the_schematic_shows_the_rig_at_hand() {
     let of = |elements: &[&str]| {
         let mut findings = sample(Verdict::Identified);
-        findings.candidates.retain(|candidate| elements.contains(&candidate.element.as_str()));
+        let candidate = findings.candidates[0].clone();
+        let at = |element: &&str| Candidate { element: (*element).into(), ..candidate.clone() };
+        findings.candidates = elements.iter().map(at).collect();
         findings.effects.retain(|effect| elements.contains(&effect.element.as_str()));
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("report-{}", elements[0]));
         report::write(&findings, &folder).unwrap();

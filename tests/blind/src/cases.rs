@@ -373,7 +373,8 @@ mod tests {
             single-26s/39 servo-28h/40 sensor-41h/41 none/24 none-cluttered/25 mismatch/26 drive-02g/33 \
             drive-16/34 drive-27/35 drive-16-33g/36 common-07/1007 behind-18/1012 behind-36/1012 \
             behind-35/1014 resized-02g/1014 noisy-01/1014 driven-U1/1017 answering-U6/1018 servo-26v/44 pump-30p/45 single-03b/42 regulated-16/43 \
-            unnamed-U7/46 unnamed-U9/47 unnamed-U10/48 unnamed-U11/49 unnamed-U13/50 mass-none/51 mass-16m/52 mass-U16/53";
+            unnamed-U7/46 unnamed-U9/47 unnamed-U10/48 unnamed-U11/49 unnamed-U13/50 mass-none/51 mass-16m/52 mass-U16/53 \
+            roadless-01/54 roadless-05/55 roadless-08/56 roadless-12/57 roadless-U1/58 roadless-none/59";
         assert_eq!(names.collect::<Vec<_>>().join(" "), expected);
     }
 }
