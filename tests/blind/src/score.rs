@@ -10,7 +10,7 @@ mod unmodelled;
 
 use std::collections::BTreeSet;
 
-use crate::case::{Oracle, Plant, Present, Truth, Value, characteristic};
+use crate::case::{Oracle, Plant, Present, Sensors, Truth, Value, characteristic};
 use crate::catalogue::{Place, number};
 
 use spot::Spot;
@@ -163,7 +163,11 @@ pub fn score(truth: &Truth, report: &str) -> Result<Score, String> {
             .map(|_| sensors.contains(&said_sensor) || out_of_catalogue && located == Some(true)),
         covered: coverage(&report, effects),
         base_covered: if outcome == Outcome::Correct { base_coverage(&report, truth) } else { (0, 0) },
-        gained: (!effects.is_empty() && !out_of_catalogue && truth.oracle != Oracle::default())
+        // Without the road an oracle has nothing to simulate with.
+        gained: (!effects.is_empty()
+            && !out_of_catalogue
+            && truth.oracle != Oracle::default()
+            && truth.case.sensors != Sensors::NoRoad)
             .then(|| gained(&report, truth)),
         seconds: report.seconds,
     })
