@@ -230,8 +230,8 @@ impl Rig {
         }
     }
 
-    /// The input whose measured mean is its sensor's, so that no offset of it is left.
-    pub fn centred(&self) -> Option<&str> {
+    /// The input whose measured mean is its sensor's and is removed.
+    pub fn without_mean(&self) -> Option<&str> {
         self.driven().filter(|by| by.without_mean).map(|by| by.input.as_str())
     }
 

@@ -65,7 +65,7 @@ impl Baseline<'_> {
             if matches!(source, Source::Measured(_)) && !self.twofold(record, input) {
                 let name = &plant.inputs[input].name;
                 let faults = catalogue::distortions(Signal::of_input(name), name);
-                let centred = self.rig.centred() == Some(name);
+                let centred = self.rig.without_mean() == Some(name);
                 let own = faults.filter(|fault| !catalogue::is_replaced(plant, name, *fault));
                 let own = own.filter(|fault| !(centred && *fault == Fault::Offset));
                 terms.extend(own.map(|fault| Term::Fault(Unknown::Input(input, fault))));

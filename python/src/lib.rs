@@ -191,7 +191,7 @@ impl PyOutcome {
         self.0.extended.as_ref().map(|extended| &*extended.parameters)
     }
 
-    /// Writes the report and the extended model; what is to be known of it, in sentences.
+    /// Writes the report and the extended model; returns the notes on it.
     fn save(
         &self,
         py: Python<'_>,

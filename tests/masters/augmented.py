@@ -42,7 +42,7 @@ def own(path, step, count, signals):
 
 
 def fit(measured, found):
-    """What is met of a signal, from the second sample on: not every master has a row for the start."""
+    """The fit of a signal, from the second sample on: not every master has a row for the start."""
     left, moved = (measured - found)[1:], measured[1:] - measured[1:].mean()
     return 1.0 - np.sqrt(np.mean(left**2) / np.mean(moved**2))
 

@@ -124,6 +124,11 @@ impl Wanted {
             .map(|name| name.strip_prefix('-').map_or((name.as_str(), 1.0), |name| (name, -1.0)))
     }
 
+    /// Whether it is called so, whatever its sign.
+    pub fn is_called(&self, name: &str) -> bool {
+        self.names().any(|(of, _)| of == name)
+    }
+
     /// How a value in a column's unit becomes the model's. A model that states no unit counts in those of the SI.
     fn conversion(&self, unit: &str) -> Result<units::Conversion, String> {
         match self.unit.is_empty() {
@@ -212,7 +217,7 @@ impl Map {
     /// The map names a column or a signal that does not exist; a unit is unknown or does not fit.
     pub fn apply(&self, record: Record, wanted: &[Wanted]) -> Result<Mapped, DataError> {
         for name in self.signals.keys() {
-            if !wanted.iter().any(|wanted| wanted.names().any(|(of, _)| of == name)) {
+            if !wanted.iter().any(|wanted| wanted.is_called(name)) {
                 let hint = did_you_mean(name, wanted.iter().map(|wanted| wanted.name.as_str()));
                 return Err(DataError::Map(format!("the model has no signal `{name}`{hint}")));
             }

@@ -3,21 +3,21 @@
 use std::ops::Range;
 
 use crate::data::check::{Checked, check, lines, noise_floor, rounding};
-use crate::data::map::{Map, Wanted, plain};
+use crate::data::map::{Map, Wanted};
 use crate::data::{
     Channel, Origin, Record,
     uniform::{Uniform, uniform},
-    units,
 };
 use crate::dataset::recorded::{Dataset, Measured, Source};
 use crate::plant::Between;
 use crate::report::findings::{DataProblem, RecordRead};
-use crate::report::words::digits;
-use crate::rig::{DrivenBy, Opposed, Rig, Undriven};
+use crate::report::words::quantity;
+use crate::rig::{Opposed, Rig};
 
 use super::columns::{doubt, follow, is_constant, others, read};
+use super::driven::{instead, names, of_part, undriven};
 use super::inverse::{self, Banded};
-use super::zero::centred;
+use super::zero::zeroed;
 
 /// Samples that a record needs.
 const FEWEST: usize = 100;
@@ -53,33 +53,11 @@ pub struct Loaded {
 /// If a file cannot be read, or has not the signals that the rig needs: what to do.
 pub fn load(rig: &mut Rig, origins: &[&Origin], map: &Map) -> Result<Loaded, String> {
     let has = names(rig, origins, map)?;
-    let note = stand_in(rig, &has)?;
+    let note = undriven(rig, &has)?;
     let mut loaded = as_driven(rig, origins, map, has)?;
     loaded.problems.splice(0..0, note);
-    loaded.problems.extend(centred(rig, &mut loaded.records));
+    loaded.problems.extend(zeroed(rig, &mut loaded.records));
     Ok(loaded)
-}
-
-/// Makes of the rig the one that stands for it, if no column has what drove it and one has what drives that; what the user has
-/// to know of it.
-fn stand_in(rig: &mut Rig, has: impl Fn(&str) -> bool) -> Result<Option<DataProblem>, String> {
-    let Some(Undriven { input, .. }) = &rig.kind.undriven else { return Ok(None) };
-    let is_driven = rig.kind.called(input).any(|name| has(name.trim_start_matches('-')));
-    let Some(part) = rig.undriven()?.filter(|_| !is_driven) else { return Ok(None) };
-    let drives = |by: &DrivenBy| has(&by.input) || by.columns.iter().any(|it| has(it));
-    let Some(by) = part.kind.drives.iter().find(|by| drives(by)) else { return Ok(None) };
-    let note = DataProblem {
-        record: "all".into(),
-        signal: input.clone(),
-        text: format!(
-            "no column has it, so that a {} stands for the rig, driven by {}: strut and body are judged, what is below the strut is \
-             not. If {input} was at rest, give it a column of zeros",
-            part.plant.name, by.input
-        ),
-        fatal: false,
-    };
-    *rig = part;
-    Ok(Some(note))
 }
 
 /// Reads all records in the first of the rig's ways in which they can be compared.
@@ -100,23 +78,6 @@ fn as_driven(
         }
     }
     forward(rig, origins, map)
-}
-
-/// Whether the first of some files has a signal or a column of a name, with or without its unit at the end.
-fn names<'a>(
-    rig: &Rig,
-    origins: &[&Origin],
-    map: &'a Map,
-) -> Result<impl Fn(&str) -> bool + use<'a>, String> {
-    let first = origins.first().filter(|_| !rig.kind.drives.is_empty() || rig.kind.undriven.is_some());
-    let record = first.map(|origin| origin.read(&map.reading).map_err(|error| error.to_string()));
-    let columns = record.transpose()?.map_or(Vec::new(), |it| it.channels);
-    let called = |channel: &Channel| {
-        let name = channel.name.as_str();
-        std::iter::once(name).chain(units::without_suffix(name)).map(plain).collect::<Vec<_>>()
-    };
-    let columns: Vec<String> = columns.iter().flat_map(called).collect();
-    Ok(move |name: &str| map.signals.contains_key(name) || columns.contains(&plain(name)))
 }
 
 /// Reads all records as the rig is driven.
@@ -144,7 +105,9 @@ fn forward(rig: &Rig, origins: &[&Origin], map: &Map) -> Result<Loaded, String> 
 fn import(rig: &Rig, origin: &Origin, map: &Map) -> Result<Imported, String> {
     let mut record = origin.read(&map.reading).map_err(|error| error.to_string())?;
     oppose(rig, &mut record, map);
-    let mut mapped = map.apply(record, &wanted(rig)).map_err(|error| error.to_string())?;
+    let wanted = wanted(rig);
+    let map = &of_part(rig, map, &wanted);
+    let mut mapped = map.apply(record, &wanted).map_err(|error| error.to_string())?;
     let name = mapped.record.name.clone();
     let unused: Vec<String> = mapped.unused.iter().map(Channel::title).collect();
     missing(rig, &mapped.record, &name, &unused)?;
@@ -175,18 +138,17 @@ fn import(rig: &Rig, origin: &Origin, map: &Map) -> Result<Imported, String> {
         channel.map(|channel| channel.values.clone())
     };
     let mut inputs: Vec<Source> = Vec::new();
-    let centred = rig.centred();
+    let without_mean = rig.without_mean();
     for declared in &rig.plant.inputs {
         inputs.push(match values(&declared.name) {
-            Some(mut values) if centred == Some(declared.name.as_str()) => {
+            Some(mut values) if without_mean == Some(declared.name.as_str()) => {
                 let mean = centre(&mut values);
                 problems.push(DataProblem {
                     record: name.clone(),
                     signal: declared.name.clone(),
                     text: format!(
-                        "its mean of {} {} is taken for the sensor's offset: what stays in its place has none",
-                        digits(mean, 2),
-                        declared.unit.symbol
+                        "its mean of {} is taken for the sensor's offset: a base that stays in its place has none",
+                        quantity(mean, declared.unit.symbol)
                     ),
                     fatal: false,
                 });
@@ -353,14 +315,6 @@ fn missing(rig: &Rig, record: &Record, name: &str, unused: &[String]) -> Result<
         ));
     }
     Ok(())
-}
-
-/// What a record may have in place of what drove the rig, as the end of a sentence.
-fn instead(rig: &Rig) -> Result<String, String> {
-    let Some(part) = rig.undriven()? else { return Ok(String::new()) };
-    let columns = part.kind.drives.iter().flat_map(|by| &by.columns);
-    let shown: Vec<&str> = columns.map(String::as_str).filter(|it| rig.plant.output(it).is_some()).collect();
-    Ok(format!(", or for the strut alone one of {}", shown.join(", ")))
 }
 
 /// Ranges of at most `seconds` and about equal length.

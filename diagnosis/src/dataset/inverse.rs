@@ -2,8 +2,8 @@
 //!
 //! Simulated forward, a drive with much friction and little mass amplifies every error of the force; where nothing holds
 //! it, it drifts away. A car on a road that nobody measured cannot be simulated forward at all. The inverse needs neither. But it
-//! differentiates the position, a drive's twice, and what is noise of the position becomes noise of the force: times the mass and
-//! the frequency squared, or times the damping and the frequency. So force and motion are compared in the
+//! differentiates the position, a drive's twice, and the position's noise becomes noise of the force: times the mass and the
+//! frequency squared, or times the damping and the frequency. So force and motion are compared in the
 //! band in which that noise does not count, behind one filter without phase (the decimation of M. Gautier, Dynamic
 //! identification of robots with power model, IEEE ICRA 1997).
 

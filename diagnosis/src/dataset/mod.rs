@@ -2,6 +2,7 @@
 
 mod columns;
 pub mod conditioning;
+mod driven;
 pub mod import;
 pub mod inverse;
 pub mod recorded;

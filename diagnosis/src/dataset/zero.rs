@@ -3,7 +3,7 @@
 use crate::dataset::recorded::Dataset;
 use crate::plant::{Between, Drive};
 use crate::report::findings::DataProblem;
-use crate::report::words::digits;
+use crate::report::words::quantity;
 use crate::rig::Rig;
 
 /// Time in seconds over which a model is looked at that rests.
@@ -11,8 +11,8 @@ const STEP: f64 = 1e-3;
 
 /// Makes deflections count from their mean that never pass their zero: a suspension moves about its static equilibrium, so that
 /// a sensor which never shows it has its zero elsewhere. The mean is that of all records: a ride height that differs between
-/// them is the rig's. What was done.
-pub fn centred(rig: &Rig, records: &mut [Dataset]) -> Vec<DataProblem> {
+/// them is the rig's. The notes on it.
+pub fn zeroed(rig: &Rig, records: &mut [Dataset]) -> Vec<DataProblem> {
     let Some(first) = records.first() else { return Vec::new() };
     let outputs: Vec<usize> = first.measured.iter().map(|it| it.output).collect();
     let equilibrium = counting_from_equilibrium(rig);
@@ -27,10 +27,9 @@ pub fn centred(rig: &Rig, records: &mut [Dataset]) -> Vec<DataProblem> {
             record: "all".into(),
             signal: declared.name.clone(),
             text: format!(
-                "an offset of {} {}: no record passes its zero, which is the model's static equilibrium. Its mean over all records is \
+                "an offset of {}: no record passes its zero, which is the model's static equilibrium. Its mean over all records is \
                  taken for that",
-                digits(mean, 3),
-                declared.unit.symbol
+                quantity(mean, declared.unit.symbol)
             ),
             fatal: false,
         });

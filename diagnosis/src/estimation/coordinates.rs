@@ -42,7 +42,7 @@ impl Baseline<'_> {
         }
     }
 
-    /// What is fitted with the terms: nominal parameters first, then the terms' own, each once.
+    /// The free parameters of a fit with the terms: nominal parameters first, then the terms' own, each once.
     pub fn coordinates(&self, terms: &[Term]) -> Vec<FreeParameter> {
         let plant = &self.rig.plant;
         let mut coordinates: Vec<FreeParameter> = Vec::new();
@@ -167,6 +167,17 @@ impl Baseline<'_> {
                 })
                 .collect(),
         }
+    }
+
+    /// A term's coordinates that are thresholds.
+    pub fn thresholds(&self, term: Term) -> Vec<FreeParameter> {
+        let Term::Effect(effect) = term else { return Vec::new() };
+        let parts = effect.parts.iter().filter(|it| it.beyond.is_some());
+        let indices = parts.filter_map(|it| self.rig.plant.parameter(it.parameter));
+        let handles: Vec<Unknown> = indices.map(Unknown::Parameter).collect();
+        let mut own = self.own_coordinates(term);
+        own.retain(|it| handles.contains(&it.handle));
+        own
     }
 
     /// Largest magnitude of a measured input on the estimation data.

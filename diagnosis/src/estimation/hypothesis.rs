@@ -253,22 +253,12 @@ impl Baseline<'_> {
         let samples: usize = self.train.iter().map(|it| it.len() * it.measured.len()).sum();
         // The Bayesian information criterion asks this of one parameter more.
         let most = cost + 0.5 * (samples as f64).ln();
-        let thresholds = terms.iter().filter_map(|term| match term {
-            Term::Effect(effect) => Some((*term, effect.parts.iter().filter(|it| it.beyond.is_some()))),
-            Term::Table(_) | Term::Fault(_) | Term::Response(_) => None,
-        });
         let mut farthest: Option<Estimate> = None;
-        for (term, parts) in thresholds {
-            let own = self.own_coordinates(term);
-            let handles =
-                parts.filter_map(|it| self.rig.plant.parameter(it.parameter)).map(Unknown::Parameter);
-            for handle in handles {
-                let mut moved = farthest.as_ref().unwrap_or(point).clone();
-                let Some(coordinate) = own.iter().find(|it| it.handle == handle) else { continue };
-                moved.set(handle, coordinate.bounds.1);
-                if moved.get(handle) != point.get(handle) && fit.cost(&moved) <= most {
-                    farthest = Some(moved);
-                }
+        for threshold in terms.iter().flat_map(|term| self.thresholds(*term)) {
+            let mut moved = farthest.as_ref().unwrap_or(point).clone();
+            moved.set(threshold.handle, threshold.bounds.1);
+            if moved.get(threshold.handle) != point.get(threshold.handle) && fit.cost(&moved) <= most {
+                farthest = Some(moved);
             }
         }
         farthest

@@ -19,7 +19,7 @@ use crate::dataset::witness::same_excitation;
 use crate::decision::verdict::{Facts, verdict};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::estimation::coordinates::SURE;
-use crate::estimation::fit::{Estimate, FreeParameter, Residuals, Unknown};
+use crate::estimation::fit::{Estimate, Residuals, Unknown};
 use crate::estimation::hypothesis::{Fitted, Term};
 use crate::explain::selection::Score;
 use crate::report::findings::{
@@ -102,8 +102,8 @@ impl Diagnosis<'_> {
         findings
     }
 
-    /// What the nominal parameters are and were. That some differ is told only if the model with them predicts the validation records
-    /// better than the starting model does.
+    /// The nominal parameters before and after. Some differ only if the model with them predicts the validation records better than
+    /// the starting model does.
     fn nominal_parameters(&self, signals: &[Signal]) -> Vec<NominalParameter> {
         let rig = self.baseline.rig;
         let left: f64 = signals.iter().map(|it| (it.rms_after / it.rms_before).powi(2)).sum();
@@ -243,6 +243,10 @@ impl Diagnosis<'_> {
         let plant = &self.baseline.rig.plant;
         let words = name(accepted.term, plant);
         let own = self.baseline.own_coordinates(accepted.term);
+        let end = &self.found.extended.point;
+        let thresholds = self.baseline.thresholds(accepted.term).into_iter();
+        let unreached = thresholds.filter(|it| end.get(it.handle) == it.bounds.1).map(|it| it.handle);
+        let unreached: Vec<Unknown> = unreached.collect();
         let parameters = self.intervals.iter().filter(|it| own.iter().any(|own| own.handle == it.handle));
         let parameters = parameters.map(|it| {
             let (point, ends) = (&self.found.extended.point, [it.value, it.low(), it.high()]);
@@ -258,8 +262,7 @@ impl Diagnosis<'_> {
                 None => (it.handle, ends),
             };
             let ((name, unit), [value, low, high]) = (naming::handle(handle, plant), ends);
-            let reached =
-                !own.iter().any(|own| own.handle == it.handle && self.is_unreached(accepted.term, own));
+            let reached = !unreached.contains(&it.handle);
             EffectParameter { name, value, unit, low, high, reached }
         });
         let rivals: Vec<naming::Name> = accepted.rivals.iter().map(|term| name(*term, plant)).collect();
@@ -276,16 +279,6 @@ impl Diagnosis<'_> {
             }),
             ambiguous_with: rivals.iter().map(naming::Name::short).collect(),
         }
-    }
-
-    /// Whether a coordinate is a threshold that the fit has moved out of reach.
-    fn is_unreached(&self, term: Term, coordinate: &FreeParameter) -> bool {
-        let Term::Effect(effect) = term else { return false };
-        let plant = &self.baseline.rig.plant;
-        let thresholds = effect.parts.iter().filter(|it| it.beyond.is_some());
-        let mut handles = thresholds.filter_map(|it| plant.parameter(it.parameter)).map(Unknown::Parameter);
-        handles.any(|it| it == coordinate.handle)
-            && self.found.extended.point.get(coordinate.handle) == coordinate.bounds.1
     }
 
     /// The own parameters of a candidate in its fit.

@@ -35,8 +35,8 @@ pub fn obstacle(face: &Face) -> Option<&'static str> {
     }
 }
 
-/// What is to be said of an `augmented.ssp` before there is a diagnosis, in sentences: what it would not show; none of a model
-/// of the library, which has an `extended.fmu`.
+/// The notes on an `augmented.ssp` before there is a diagnosis: signals that it would not show. None for a model of the library, which
+/// gets an `extended.fmu`.
 ///
 /// # Errors
 /// Why there can be none.
@@ -155,7 +155,7 @@ fn starts(
     all
 }
 
-/// What is said of states that the FMU does not start with, which is tried. Start values that it refuses are left out.
+/// The note on states that the FMU does not start with, from a trial. Start values that it refuses are left out.
 fn apart(
     material: &mut Material<'_>,
     (states, start): (&[Declaration], &[f64]),

@@ -225,7 +225,7 @@ impl Extended {
         if failures.is_empty() { Ok(()) } else { Err(failures) }
     }
 
-    /// What is to be known of `augmented.ssp`, in sentences: why there is none, and what it does not show as the report does.
+    /// The notes on `augmented.ssp`: the reason if there is none, and its differences from the report.
     pub fn notes(&self, packing: Option<Packing<'_>>) -> Vec<String> {
         let file = format!("{}.ssp", augment::NAME);
         match (&self.augmented, packing) {

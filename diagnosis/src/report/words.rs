@@ -17,7 +17,7 @@ pub use places::{Part, effect_name, effect_rank, element, located, part, place, 
 pub use small::none_beyond;
 pub use verdict::{badge, headline};
 
-/// What is said of a threshold that the records do not reach.
+/// The words for a threshold that the records do not reach.
 pub const UNREACHED: &str = "not reached in the estimation records";
 
 /// `a, b and c`.

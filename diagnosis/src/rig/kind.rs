@@ -39,7 +39,7 @@ pub struct Kind {
     /// What the force that the model misses is made of.
     #[serde(default)]
     pub missing: Vec<Missing>,
-    /// What stands for it where nobody measured what drove it.
+    /// The model that stands for it where nobody measured its input.
     pub undriven: Option<Undriven>,
     /// Longest segment that is simulated in one go, in seconds: it bounds the memory, and how far a plant that
     /// integrates its input may drift.

@@ -1,4 +1,4 @@
-//! What is judged of a rig where nobody measured what drove it: its strut above a wheel whose motion was measured.
+//! The part of a rig that can be judged without its input: the strut above a wheel whose motion was measured.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use super::kind::{Kind, Undriven};
 use crate::plant::models;
 
 impl Rig {
-    /// The rig that stands for this one where no column has what drives it; none if there is none.
+    /// The rig that stands for this one where no column has its input; none if the rig file names none.
     ///
     /// # Errors
     /// If its model is none of the library, or this rig's values do not fit it.

@@ -28,7 +28,7 @@ pub struct FaceVariable {
     pub causality: String,
     /// Whether a start value may be given before the initialisation.
     pub settable: bool,
-    /// Start value as it is written.
+    /// Start value, in the file's own digits.
     pub start: Option<String>,
     /// The FMU's unit; none if it states none.
     pub unit: Option<Unit>,

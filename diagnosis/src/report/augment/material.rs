@@ -118,7 +118,7 @@ impl Material<'_> {
     }
 }
 
-/// The straight line along which one signal follows another: factor and offset; none if there is none.
+/// The straight line along which one signal follows another: factor and offset. None if it follows no line.
 fn line(of: &[f64], by: &[f64]) -> Option<(f64, f64)> {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let (of_mean, by_mean) = (mean(of), mean(by));

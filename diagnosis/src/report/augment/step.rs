@@ -34,7 +34,7 @@ pub fn step(dynamics: &dyn Dynamics, (parameters, start): (&[f64], &[f64]), driv
 /// The longest step that is not longer than another and goes into a sample's a number of times without factors but 2 and 5:
 /// of a sample of a millisecond, it is a whole number of nanoseconds, in which libcosim counts.
 fn divided(sample: f64, longest: f64) -> f64 {
-    // What is longer by rounding alone is not longer.
+    // Rounding alone makes no step longer.
     let least = (sample / longest * (1.0 - 1e-9)).ceil().max(1.0);
     let powers =
         |base: f64| (0..64).map(move |power| base.powi(power)).take_while(move |it| *it < base * least);
@@ -65,7 +65,7 @@ impl Follower for Watch {
 /// The step that is short enough for every mode of what becomes of the states over a sample.
 fn short_enough(over_a_sample: &DMatrix<f64>, sample: f64) -> f64 {
     over_a_sample.complex_eigenvalues().iter().fold(f64::INFINITY, |longest, factor| {
-        // What is gone after a sample may be as fast as it likes, and what does not change has no rate.
+        // A mode that decays within a sample may have any rate; a constant one has none.
         if factor.norm() < 1e-12 {
             return longest;
         }

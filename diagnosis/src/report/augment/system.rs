@@ -1,4 +1,4 @@
-//! From what a diagnosis has found to a system of FMUs, as text: no file is read, nothing is run.
+//! From the effects found to a system of FMUs, as text: no file is read, nothing is run.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -19,6 +19,7 @@ const MODEL: &str = "model";
 const STRUT: &str = "strut";
 /// Where every value of a set comes from.
 const SOURCE: &str = "found by the diagnosis";
+
 /// A system as the packager takes it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct System {
@@ -243,7 +244,7 @@ impl<'m> Draft<'m> {
         Ok(())
     }
 
-    /// What is measured, as its sensors show it.
+    /// The measured signals, as their sensors show them.
     fn sensors(&mut self) {
         let material = self.material;
         for (signal, correction) in &material.measured {

@@ -16,7 +16,7 @@ pub struct SprungMass {
     drive: Drive,
 }
 
-/// What is known of the motion.
+/// The measured motion.
 #[derive(Choice, Clone, Copy, Debug, PartialEq)]
 pub enum Drive {
     /// Position and velocity of the base
@@ -30,7 +30,7 @@ pub enum Drive {
 /// What can be chosen.
 #[derive(Settings, Clone, Debug, PartialEq)]
 pub struct Options {
-    /// What is known of the motion
+    /// The measured motion
     #[set(start = Drive::Motion)]
     drive: Drive,
 }
@@ -156,8 +156,8 @@ impl Model for SprungMass {
             },
         ],
         notes: &[
-            "What is known of a suspension without a road: of a car on a road that nobody measured, the deflection and the \
-             body's acceleration judge strut and guide. Tyre and wheel are not in the model.",
+            "A suspension without a road: in a car on a road that nobody measured, the deflection and the body's acceleration \
+             judge strut and guide. Tyre and wheel are not in the model.",
             "With the base's motion given it is a seat, an isolator or a machine's foot, and a quarter car whose wheel is \
              imposed.",
             "A base whose acceleration is measured drifts as the sensor's offset makes it, and the mass with it: their \
