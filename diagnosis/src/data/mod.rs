@@ -25,6 +25,7 @@ pub mod units;
 mod vectors;
 
 use std::fs;
+use std::panic::catch_unwind;
 use std::path::{Path, PathBuf};
 
 pub use error::DataError;
@@ -183,18 +184,24 @@ pub fn read(path: &Path, reading: &Reading) -> Result<Record, DataError> {
 /// # Errors
 /// As [`read`].
 pub fn parse(name: &str, bytes: &[u8], reading: &Reading) -> Result<Record, DataError> {
-    let table = if bytes.starts_with(mdf4::MAGIC) || bytes.starts_with(mdf4::UNFINISHED) {
-        mdf4::parse(name, bytes)?
+    // A damaged file may make a reader of others panic.
+    let damaged = |_| DataError::file(name, "is damaged: its reader gave up; export it again, or as CSV");
+    catch_unwind(|| table(name, bytes, reading)).map_err(damaged)??.into_record(reading)
+}
+
+/// The columns of a file, whatever its format.
+fn table(name: &str, bytes: &[u8], reading: &Reading) -> Result<table::Table, DataError> {
+    if bytes.starts_with(mdf4::MAGIC) || bytes.starts_with(mdf4::UNFINISHED) {
+        mdf4::parse(name, bytes)
     } else if matlab::is_matlab(bytes) {
-        matlab::parse(name, bytes)?
+        matlab::parse(name, bytes)
     } else if hdf5::is_hdf5(bytes) {
-        hdf5::parse(name, bytes)?
+        hdf5::parse(name, bytes)
     } else if parquet::is_parquet(bytes) {
-        parquet::parse(name, bytes)?
+        parquet::parse(name, bytes)
     } else if spreadsheet::is_spreadsheet(bytes) {
-        spreadsheet::parse(name, bytes, reading)?
+        spreadsheet::parse(name, bytes, reading)
     } else {
-        csv::parse(name, bytes, reading)?
-    };
-    table.into_record(reading)
+        csv::parse(name, bytes, reading)
+    }
 }

@@ -102,7 +102,7 @@ mod tests {
             between: Between::Lines,
             measured: Vec::new(),
             others: Vec::new(),
-            sections: vec![0..500],
+            sections: std::iter::once(0..500).collect(),
         };
         let outputs = responses(rig, &*rig.plant.prepare(&rig.choices).unwrap(), &record).remove(0);
         let of = |name: &&str| {
@@ -163,8 +163,9 @@ mod tests {
                 "tire.deflection"
             ]
         );
-        assert_eq!(counts("linear-drive"), Vec::<String>::new());
+        // Its position and its velocity are where they are.
+        assert_eq!(counts("linear-drive"), ["acceleration"]);
         // Its arms rest at angles of their own.
-        assert_eq!(counts("kogut-sas-rig"), Vec::<String>::new());
+        assert_eq!(counts("kogut-sas-rig"), ["relative.speed"]);
     }
 }
