@@ -1,10 +1,12 @@
 //! The catalogue of effects: the one home of all that is known of each. An entry states number, place, name, law, parameters
 //! with their bounds, special cases, how common the effect is, when it acts, literature, and the experiment that separates it.
 
+mod element;
 mod guided;
 pub mod naming;
 mod page;
 mod periphery;
+mod placed;
 mod signals;
 mod strut;
 mod tables;
@@ -13,12 +15,14 @@ mod tire;
 #[cfg(test)]
 mod tests;
 
-use serde::{Deserialize, Serialize};
-
 use crate::plant::Plant;
 use crate::signal::distortion::Fault;
 
+use placed::placed;
+
+pub use element::{Element, ElementKind};
 pub use page::page;
+pub use placed::{first_of, is_joint, joints, joints_of};
 pub use signals::{Bounds, Distortion, RESPONSE, Signal, distortion, distortions};
 pub use tables::{Table, Unnamed};
 
@@ -62,7 +66,7 @@ pub struct Effect {
 /// An effect that acts always, that not every rig has, and that contains no other.
 const PLAIN: Effect = Effect {
     id: "",
-    element: Element::Strut,
+    element: Element::STRUT,
     name: "",
     equation: "",
     contains: &[],
@@ -121,69 +125,6 @@ impl Effect {
     /// Whether its law is over the velocity of its element, not the deflection alone.
     pub fn is_over_velocity(&self) -> bool {
         self.parts.iter().any(|part| part.scale.velocity != 0)
-    }
-}
-
-/// Where an effect acts; its parameters are measured in that element's own forces and motions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Element {
-    /// Between body and wheel.
-    Strut,
-    /// Between body and ground.
-    Guide,
-    /// Between wheel and ground.
-    WheelGuide,
-    /// Between wheel and road.
-    Tire,
-    /// Between two arms that turn about it: forces are moments in N.m, deflections angles in rad.
-    Pivot,
-    /// From a command to the force; it deflects and moves as the strut does.
-    Actuator,
-    /// The valve of a hydraulic actuator: it deflects as its spool does.
-    Valve,
-    /// The pump of a hydraulic actuator, with its motor: torques in N.m for forces, speeds in rad/s.
-    Pump,
-    /// What carries the guides, and swings with the body.
-    Frame,
-    /// The cell that measures the wheel's force.
-    ForceCell,
-}
-
-impl Element {
-    /// Every element.
-    pub const ALL: [Self; 10] = [
-        Self::Strut,
-        Self::Guide,
-        Self::WheelGuide,
-        Self::Tire,
-        Self::Pivot,
-        Self::Actuator,
-        Self::Valve,
-        Self::Pump,
-        Self::Frame,
-        Self::ForceCell,
-    ];
-
-    /// As in parameters' names.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Strut => "strut",
-            Self::Guide => "guide",
-            Self::WheelGuide => "wheel_guide",
-            Self::Tire => "tire",
-            Self::Pivot => "pivot",
-            Self::Actuator => "actuator",
-            Self::Valve => "valve",
-            Self::Pump => "pump",
-            Self::Frame => "frame",
-            Self::ForceCell => "wheel.force",
-        }
-    }
-
-    /// Whether it measures, so that the plant is not at fault.
-    pub fn is_sensor(self) -> bool {
-        self == Self::ForceCell
     }
 }
 
@@ -313,14 +254,16 @@ pub fn all() -> impl Iterator<Item = &'static Effect> {
     [strut::EFFECTS, tire::EFFECTS, guided::EFFECTS, periphery::EFFECTS].into_iter().flatten()
 }
 
-/// Every named effect that acts through a plant's parameters.
+/// Every named effect that acts through a plant's parameters; of elements of which it has several, at each, and at several
+/// at once.
 pub fn effects(plant: &Plant) -> impl Iterator<Item = &'static Effect> {
-    all().filter(|effect| effect.is_in(plant))
+    all().chain(placed(plant).flat_map(|it| it.effects)).filter(|effect| effect.is_in(plant))
 }
 
 /// Every effect without a name that a plant can have.
 pub fn tables(plant: &Plant) -> impl Iterator<Item = &'static Table> {
-    tables::TABLES.iter().filter(|table| table.is_in(plant))
+    let placed = placed(plant).flat_map(|it| it.tables);
+    tables::TABLES.iter().chain(placed).filter(|table| table.is_in(plant))
 }
 
 /// Whether an effect of the plant stands for a distortion of an input.

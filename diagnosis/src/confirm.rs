@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 use rayon::prelude::*;
 
-use crate::catalogue::{Onset, Part, RESPONSE, naming};
+use crate::catalogue::{self, Onset, Part, RESPONSE, naming};
 use crate::decision::criteria::CRITERIA;
 use crate::decision::evidence::Evidence;
 use crate::decision::rules::{Amount, is_determined};
@@ -133,6 +133,38 @@ impl Baseline<'_> {
         self.beside_their_limits(base, null, proposals, &mut tried);
         tried.sort_by(|a, b| b.score.total_cmp(&a.score));
         tried
+    }
+
+    /// Fits the best of those that were tried, and what it has as limits, at several elements at once, if the rig has several.
+    pub fn together(&self, base: &Fitted, null: &Fitted, tried: &[Tried]) -> Vec<Tried> {
+        let Some(best) = tried.first() else { return Vec::new() };
+        let of_best = |it: &&Tried| it.term == best.term || contains_by_name(best.term, it.term);
+        let again = tried.iter().filter(of_best).flat_map(|it| {
+            let (Term::Effect(effect), Ok(fitted)) = (it.term, &it.fitted) else { return Vec::new() };
+            let own = self.own_coordinates(it.term);
+            let joints = catalogue::joints_of(&self.rig.plant, effect).into_iter().map(Term::Effect);
+            let with = |joint: Term| {
+                let mut start = null.point.clone();
+                for (to, from) in self.own_coordinates(joint).iter().zip(&own) {
+                    start.set(to.handle, fitted.point.get(from.handle));
+                }
+                (joint, start)
+            };
+            joints.map(with).collect()
+        });
+        let again: Vec<(Term, Estimate)> = again.collect();
+        let fit = |(joint, start): &(Term, Estimate)| {
+            let terms = [null.terms.as_slice(), &[*joint]].concat();
+            let fitted = self.fitted(&terms, std::slice::from_ref(start), comparing(base, null));
+            self.weighed(base, null, *joint, fitted)
+        };
+        again.par_iter().map(fit).collect()
+    }
+
+    /// Whether an effect is what another one does at several elements, at one of them.
+    fn is_one_of(&self, one: Term, several: Term) -> bool {
+        let Term::Effect(effect) = one else { return false };
+        catalogue::joints_of(&self.rig.plant, effect).into_iter().any(|it| Term::Effect(it) == several)
     }
 
     /// The effect among those that were tried which the data confirm, if any.

@@ -15,7 +15,7 @@ use strut_physics::PARAMETER_SETS;
 
 use crate::catalogue;
 use crate::data::table::did_you_mean;
-use crate::plant::{Plant, models};
+use crate::plant::Plant;
 
 pub use draft::{Draft, SAME};
 pub use kind::{DrivenBy, ElementSignals, ForceOf, Given, Inverse, Kind, Missing, Opposed, Undriven};
@@ -82,7 +82,7 @@ impl Rig {
 
     /// Every model of the library that can be diagnosed.
     pub fn models() -> impl Iterator<Item = Plant> {
-        Kind::published().iter().filter_map(|kind| models::named(&kind.model))
+        Kind::published().iter().filter_map(|kind| kind.plant().ok())
     }
 
     /// Names of all published rigs.
@@ -105,8 +105,7 @@ impl Rig {
             let models: Vec<&str> = kinds.iter().map(|kind| kind.model.as_str()).collect();
             format!("a {} cannot be diagnosed; give a set for one of {}", set.model, models.join(", "))
         })?;
-        let plant = models::named(&kind.model)
-            .ok_or_else(|| format!("this program has no model `{}`", kind.model))?;
+        let plant = kind.plant()?;
         let values = set.values.iter().map(|(name, given)| (name.as_str(), &given.value));
         Self::made((kebab(&set.fmu), set.fmu.clone()), plant, kind.clone(), values)
             .map_err(|error| format!("the parameter set {}: {error}", set.fmu))

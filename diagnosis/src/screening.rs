@@ -40,7 +40,8 @@ impl Baseline<'_> {
     pub fn terms(&self) -> Vec<Term> {
         let plant = &self.rig.plant;
         let mut terms: Vec<Term> = Vec::new();
-        for effect in catalogue::effects(plant) {
+        // Where an effect is at several elements at once, it shows at each of them.
+        for effect in catalogue::effects(plant).filter(|it| !catalogue::is_joint(plant, it.element)) {
             let amount = effect.parts.first().and_then(|part| plant.parameter(part.parameter));
             let there = match (amount, effect.setting.and_then(|name| plant.setting(name))) {
                 (Some(index), _) => self.rig.parameters[index] != 0.0,
@@ -51,7 +52,8 @@ impl Baseline<'_> {
                 terms.push(Term::Effect(effect));
             }
         }
-        terms.extend(catalogue::tables(plant).map(Term::Table));
+        let tables = catalogue::tables(plant).filter(|it| !catalogue::is_joint(plant, it.element));
+        terms.extend(tables.map(Term::Table));
         let Some(record) = self.train.first() else { return terms };
         for measured in &record.measured {
             let name = &plant.outputs[measured.output].name;

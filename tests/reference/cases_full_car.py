@@ -19,8 +19,8 @@ def axle(name, unsprung, strut, tire, bar=0.0):
     tire = {"stiffness": 290000.0, "quadratic": 0.0, "damping": 0.0, "coulomb.force": 0.0,
             "coulomb.velocity": V0} | tire
     return ({f"unsprung_mass.{name}": unsprung, f"anti_roll_bar.{name}.stiffness": bar}
-            | {f"strut.{name}.{key}": value for key, value in strut.items()}
-            | {f"tire.{name}.{key}": value for key, value in tire.items()})
+            | {f"{element}.{name}_{side}.{key}": value for side in ("left", "right")
+               for element, own in (("strut", strut), ("tire", tire)) for key, value in own.items()})
 
 
 LINEAR = BODY | GEOMETRY | axle("front", 36.0, {}, {}) | axle("rear", 36.0, {}, {})

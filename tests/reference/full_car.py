@@ -36,13 +36,13 @@ class FullCar(Smooth):
         self.unsprung, self.struts, self.bars, self.tires = [], [], [], []
         for axle, axle_share in (("front", rear), ("rear", front)):
             self.bars.append(p[f"anti_roll_bar.{axle}.stiffness"])
-            for side_share in (right, left):
+            for side, side_share in (("left", right), ("right", left)):
                 unsprung = p[f"unsprung_mass.{axle}"]
                 share = axle_share / (front + rear) * side_share / (left + right)
                 self.unsprung.append(unsprung)
-                self.struts.append(Strut(p, f"strut.{axle}."))
+                self.struts.append(Strut(p, f"strut.{axle}_{side}."))
                 self.tires.append(Tire(p, G * (unsprung + share * self.mass), settings["tire.lift_off"],
-                                       f"tire.{axle}."))
+                                       f"tire.{axle}_{side}."))
 
     def motion(self, state, u):
         """Deflection and velocity of each suspension, compression of each tyre and its rate."""

@@ -253,15 +253,16 @@ pub(super) fn linearised<M: Model>(
     seeds: &[Seed],
     wanted: &[usize],
 ) -> Linearised {
-    let seeded = |value: f64, seed: &dyn Fn(&Seed) -> bool| match seeds.iter().position(seed) {
-        Some(index) => Dual { value, slopes: direction(index) },
-        None => Dual::from(value),
+    // What several parameters are joined in is asked for beside one of them: a seed may be there twice.
+    let seeded = |value: f64, seed: Seed| Dual {
+        value,
+        slopes: std::array::from_fn(|index| f64::from(seeds.get(index) == Some(&seed))),
     };
     let mut run = Run::<M, Dual>::new(
         model,
         parameters,
-        Bundle::from_fn(|i| seeded(parameters[i], &|seed| *seed == Seed::Parameter(i))),
-        Bundle::from_fn(|i| seeded(start[i], &|seed| *seed == Seed::State(i))),
+        Bundle::from_fn(|i| seeded(parameters[i], Seed::Parameter(i))),
+        Bundle::from_fn(|i| seeded(start[i], Seed::State(i))),
         drive,
     );
     let seeding = Seeding::new(seeds, drive);

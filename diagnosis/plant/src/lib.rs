@@ -6,6 +6,7 @@
 mod foreign;
 mod integrate;
 mod jet;
+mod joint;
 pub mod models;
 mod pace;
 mod steps;
@@ -20,6 +21,8 @@ use integrate::{Equations, Run};
 pub use foreign::{
     Attachment, Conversion, Face, FaceVariable, Foreign, Own, Replaced, is_of_strut, needs_own,
 };
+use joint::Joint;
+pub use joint::{Instance, placed};
 pub use steps::{Follower, Seen};
 
 /// Derivatives that are taken at once.
@@ -42,6 +45,10 @@ pub struct Plant {
     pub settings: Vec<SettingDeclaration>,
     /// The declared choices.
     pub choices: Vec<Value>,
+    /// Elements of which it has several, and what several of them are together.
+    pub instances: Vec<Instance>,
+    /// Parameters that stand for several of its own; they are the last ones.
+    joints: Arc<[Joint]>,
     prepare: Prepare,
 }
 
@@ -61,6 +68,8 @@ impl Plant {
             states,
             choices: (0..settings.len()).filter_map(|index| starts.get(index)).collect(),
             settings,
+            instances: Vec::new(),
+            joints: Arc::new([]),
             prepare: Arc::new(|choices| {
                 let mut settings = M::Settings::starts();
                 for (index, choice) in choices.iter().enumerate() {
@@ -77,6 +86,11 @@ impl Plant {
     /// The model's own words if it refuses them.
     pub fn prepare(&self, choices: &[Value]) -> Result<Box<dyn Dynamics>, String> {
         (self.prepare)(choices)
+    }
+
+    /// The values of the model's own parameters, joint ones added to their members.
+    pub fn own(&self, parameters: &[f64]) -> Vec<f64> {
+        joint::own(&self.joints, parameters)
     }
 
     /// Index of a parameter.

@@ -1,13 +1,16 @@
 //! The models that can be diagnosed: their equations with derivatives are compiled here and nowhere else.
 
 use strut_physics::actuators::{ExcitationMotor, PumpHydraulicActuator};
-use strut_physics::rigs::{ElementDyno, LinearDrive, QuarterCar, SasRig, ServoSuspension, SprungMass};
+use strut_physics::rigs::{
+    ElementDyno, FullCar, LinearDrive, QuarterCar, SasRig, ServoSuspension, SprungMass,
+};
 
 use crate::Plant;
 
 /// The models of the library.
-const ALL: [fn() -> Plant; 8] = [
+const ALL: [fn() -> Plant; 9] = [
     Plant::of::<QuarterCar>,
+    Plant::of::<FullCar>,
     Plant::of::<SprungMass>,
     Plant::of::<ElementDyno>,
     Plant::of::<LinearDrive>,

@@ -11,7 +11,7 @@ const PERIODS: &[f64] = &[
 pub(super) const EFFECTS: &[Effect] = &[
     Effect {
         id: "33",
-        element: Element::Guide,
+        element: Element::GUIDE,
         name: "force offset",
         equation: "F = F_0",
         parts: &[part("constant_load", Scale::FORCE, (-10.0, 10.0), &[0.1])],
@@ -21,7 +21,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "02",
-        element: Element::Guide,
+        element: Element::GUIDE,
         name: "Stribeck friction of the guide",
         equation: "F = (F_c + (F_s - F_c) exp(-(v/v_s)^2)) tanh(v/v_0)",
         contains: &["16"],
@@ -38,7 +38,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "08",
-        element: Element::Guide,
+        element: Element::GUIDE,
         name: "spring to the ground",
         equation: "F = k x",
         prevalence: Prevalence::Background,
@@ -49,7 +49,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "27",
-        element: Element::Guide,
+        element: Element::GUIDE,
         name: "cogging",
         equation: "F = A sin(2 pi x/p + phi)",
         prevalence: Prevalence::Background,
@@ -65,7 +65,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "01",
-        element: Element::Pivot,
+        element: Element::PIVOT,
         name: "pivot friction",
         equation: "T = T_p tanh(w/w_0)",
         parts: &[

@@ -6,9 +6,10 @@ use build_fmu::literature::{Work, works};
 use strut_model::Declaration;
 
 use super::signals::{Among, DISTORTIONS};
-use super::tables::{TABLES, UNNAMED};
+use super::tables::{TABLES, Table, UNNAMED};
 use super::{
-    Bounds, Distortion, Effect, Element, Onset, Part, Prevalence, RESPONSE, Scale, Signal, all, is_replaced,
+    Bounds, Distortion, Effect, Element, ElementKind, Onset, Part, Prevalence, RESPONSE, Scale, Signal, all,
+    first_of, is_replaced, tables,
 };
 use crate::estimation::coordinates::POINTS;
 use crate::plant::Plant;
@@ -64,13 +65,13 @@ impl Page<'_> {
     fn element(&mut self, element: Element) {
         let (title, text) = about(element);
         self.section(title, text);
-        let mut effects: Vec<&Effect> = all().filter(|it| it.element == element).collect();
+        let mut effects: Vec<&'static Effect> = all().filter(|it| it.element == element).collect();
         effects.sort_by_key(|it| it.id);
         effects.into_iter().for_each(|effect| self.effect(effect));
     }
 
-    fn effect(&mut self, effect: &Effect) {
-        let models: Vec<&Plant> = self.models.iter().filter(|it| effect.is_in(it)).collect();
+    fn effect(&mut self, effect: &'static Effect) {
+        let models: Vec<&Plant> = self.models.iter().filter(|it| first_of(it, effect).is_in(it)).collect();
         self.head(effect.id, effect.name, effect.equation);
         for part in effect.parts {
             let declared = models
@@ -172,7 +173,11 @@ impl Page<'_> {
         for law in UNNAMED {
             self.head(law.id, &format!("unnamed {}", law.quantity), "a table over the variable");
             for table in TABLES.iter().filter(|it| it.law.id == law.id) {
-                let models = self.models.iter().filter(|plant| table.is_in(plant));
+                let is_it = |it: &Table| {
+                    (it.law.id, it.variable) == (table.law.id, table.variable)
+                        && it.element.only() == table.element
+                };
+                let models = self.models.iter().filter(|plant| tables(plant).any(is_it));
                 let names: Vec<&str> = models.map(|it| it.name.as_str()).collect();
                 let bounds = scaled(law.bounds, law.point, table.element);
                 let _ = writeln!(
@@ -246,21 +251,25 @@ impl Page<'_> {
 
 /// Title and explanation of an element's section.
 fn about(element: Element) -> (&'static str, &'static str) {
-    match element {
-        Element::Strut => {
+    match element.kind() {
+        ElementKind::Strut => {
             ("Strut", "Between body and wheel. x is the deflection, positive in rebound, and v = x'.")
         }
-        Element::Guide => ("Guide", "Between body and ground, or between a drive's carriage and its bed."),
-        Element::WheelGuide => ("Wheel guide", "Between wheel and ground."),
-        Element::Tire => ("Tyre", "Between road and wheel. c = z_r - z_u is the compression."),
-        Element::Pivot => ("Pivot", "Between two arms. w is the angular velocity between them."),
-        Element::Actuator => ("Actuator", "From the command u to the force F."),
-        Element::Valve => ("Valve", "Valve of a hydraulic actuator. x_v is the spool's position."),
-        Element::Pump => ("Pump", "Pump of a hydraulic actuator, with its motor. w is the speed."),
-        Element::Frame => {
+        ElementKind::Guide => {
+            ("Guide", "Between body and ground, or between a drive's carriage and its bed.")
+        }
+        ElementKind::WheelGuide => ("Wheel guide", "Between wheel and ground."),
+        ElementKind::Tire => ("Tyre", "Between road and wheel. c = z_r - z_u is the compression."),
+        ElementKind::Pivot => ("Pivot", "Between two arms. w is the angular velocity between them."),
+        ElementKind::Actuator => ("Actuator", "From the command u to the force F."),
+        ElementKind::Valve => ("Valve", "Valve of a hydraulic actuator. x_v is the spool's position."),
+        ElementKind::Pump => ("Pump", "Pump of a hydraulic actuator, with its motor. w is the speed."),
+        ElementKind::Frame => {
             ("Frame", "Carries the guides and swings with the body. a_s is the body's acceleration.")
         }
-        Element::ForceCell => ("Force cell", "Measures the wheel's force. a_u is the wheel's acceleration."),
+        ElementKind::ForceCell => {
+            ("Force cell", "Measures the wheel's force. a_u is the wheel's acceleration.")
+        }
     }
 }
 
@@ -305,7 +314,7 @@ fn typical(scale: Scale, element: Element) -> String {
 /// A product of powers of an element's magnitudes: what is multiplied, and what it is divided by.
 fn magnitude(scale: Scale, element: Element) -> [String; 2] {
     let words = match element {
-        Element::Pivot | Element::Pump => ["torque", "angle", "angular velocity"],
+        Element::PIVOT | Element::PUMP => ["torque", "angle", "angular velocity"],
         _ => ["force", "deflection", "velocity"],
     };
     let powers = [scale.force, scale.deflection, scale.velocity];
@@ -336,17 +345,17 @@ mod tests {
     #[test]
     fn a_bound_is_in_the_element_s_magnitudes() {
         let of = |scale, element| scaled((-0.5, 10.0), scale, element);
-        assert_eq!(of(Scale::ONE, Element::Strut), "−0.5 to 10");
-        assert_eq!(of(Scale::CUBIC, Element::Strut), "−0.5 to 10 × the typical force/deflection³");
+        assert_eq!(of(Scale::ONE, Element::STRUT), "−0.5 to 10");
+        assert_eq!(of(Scale::CUBIC, Element::STRUT), "−0.5 to 10 × the typical force/deflection³");
         assert_eq!(
-            of(Scale::SLOWNESS, Element::Actuator),
+            of(Scale::SLOWNESS, Element::ACTUATOR),
             "−0.5 to 10 × the typical deflection/(force·velocity)"
         );
         assert_eq!(
-            of(Scale::PER_DEFLECTION, Element::Strut),
+            of(Scale::PER_DEFLECTION, Element::STRUT),
             "−0.5 to 10, divided by the typical deflection"
         );
-        assert_eq!(of(Scale::FORCE, Element::Pivot), "−0.5 to 10 × the typical torque");
+        assert_eq!(of(Scale::FORCE, Element::PIVOT), "−0.5 to 10 × the typical torque");
         assert_eq!([0.0, 2e-3, 1e-4, -0.5, 1000.0].map(plain), ["0", "0.002", "1e−4", "−0.5", "1000"]);
     }
 

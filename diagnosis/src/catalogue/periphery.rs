@@ -11,7 +11,7 @@ const FREQUENCIES: &[f64] =
 pub(super) const EFFECTS: &[Effect] = &[
     Effect {
         id: "18",
-        element: Element::Frame,
+        element: Element::FRAME,
         name: "test-rig resonance",
         equation: "F = m_f (w^2 y + 2 z w y'), y'' + 2 z w y' + w^2 y = -a_s",
         parts: &[
@@ -25,7 +25,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "26",
-        element: Element::Actuator,
+        element: Element::ACTUATOR,
         name: "saturation of the actuator",
         equation: "F = u - r dz(u, F_m)",
         onset: Onset::Threshold,
@@ -41,7 +41,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "26s",
-        element: Element::Actuator,
+        element: Element::ACTUATOR,
         name: "slew limit of the actuator",
         equation: "|F'| <= 1/s",
         onset: Onset::Threshold,
@@ -52,7 +52,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "28",
-        element: Element::Valve,
+        element: Element::VALVE,
         name: "spool overlap (dead band)",
         equation: "opening = dz(x_v, delta)",
         parts: &[part("actuator.spool.overlap", Scale::DEFLECTION, (0.0, 2.0), &[0.1])],
@@ -62,7 +62,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "28h",
-        element: Element::Valve,
+        element: Element::VALVE,
         name: "hysteresis of the valve",
         equation: "opening = x_v - clamp(x_v - y, -h, h), y dragged along by x_v from h on",
         parts: &[part("actuator.spool.hysteresis", Scale::DEFLECTION, (0.0, 1.0), &[0.1])],
@@ -72,7 +72,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "30",
-        element: Element::Pump,
+        element: Element::PUMP,
         name: "leakage of the pump",
         equation: "q = C_l (p_k - p_r)",
         parts: &[part("pump.leakage", Scale::ONE, (0.0, 1e-10), &[1e-11])],
@@ -82,7 +82,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "32c",
-        element: Element::Pump,
+        element: Element::PUMP,
         name: "friction of the pump",
         equation: "T = T_f tanh(w/w_f)",
         parts: &[
@@ -95,7 +95,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "41",
-        element: Element::ForceCell,
+        element: Element::FORCE_CELL,
         name: "inertia of the force cell",
         equation: "y = F_tire - m_c a_u",
         parts: &[part("force_cell.mass", Scale::ONE, (0.0, 60.0), &[1.0])],
@@ -105,7 +105,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "41h",
-        element: Element::ForceCell,
+        element: Element::FORCE_CELL,
         name: "hysteresis of the force cell",
         equation: "y = F_tire - clamp(F_tire - y_0, -h, h), y_0 dragged along by F_tire from h on",
         parts: &[part("force_cell.hysteresis", Scale::FORCE, (0.0, 1.0), &[0.1])],

@@ -12,7 +12,7 @@ const CLEARANCES: &[f64] = &[1.2, 1.8, 2.4, 3.2];
 pub(super) const EFFECTS: &[Effect] = &[
     Effect {
         id: "01",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "Coulomb friction",
         equation: "F = F_c tanh(v/v_0)",
         parts: &[
@@ -25,7 +25,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "02",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "Stribeck friction",
         equation: "F = (F_c + (F_s - F_c) exp(-(v/v_s)^2)) tanh(v/v_0)",
         contains: &["01"],
@@ -43,7 +43,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "03",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "friction with presliding (Dahl)",
         equation: "F' = sigma v |1 - sgn(v) F/F_c|^n sgn(1 - sgn(v) F/F_c)",
         contains: &["01"],
@@ -58,7 +58,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "03b",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "friction with presliding behind backlash",
         equation: "F = dz(y, sigma b), y' = sigma v |1 - sgn(v) F/F_c|^n sgn(1 - sgn(v) F/F_c)",
         contains: &["01", "03"],
@@ -74,7 +74,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "04",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "asymmetric damper",
         equation: "F = d (v + alpha |v|)",
         parts: &[part("strut.asymmetry.ratio", Scale::ONE, (-0.9, 0.9), &[0.2])],
@@ -84,7 +84,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "05",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "damper knee",
         equation: "F = d (v + r dz(v, v_k))",
         onset: Onset::Threshold,
@@ -102,7 +102,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "06",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "orifice damping",
         equation: "F = c v |v|",
         parts: &[part("strut.orifice.coefficient", Scale::ORIFICE, (0.0, 10.0), &[0.1])],
@@ -112,7 +112,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "07",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "Maxwell branch",
         equation: "F = k_1 xi, xi' = v - xi/tau",
         contains: &["13"],
@@ -127,7 +127,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "08",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "nonlinear spring",
         equation: "F = k_2 x^2 + k_3 x^3",
         prevalence: Prevalence::Background,
@@ -141,7 +141,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "09",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "bump or rebound stop",
         equation: "F = k_b (|x| - x_b) beyond x_b",
         onset: Onset::Threshold,
@@ -164,7 +164,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "10",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "damper fade",
         equation: "d(t) = d (1 - alpha (1 - exp(-t/tau)))",
         parts: &[
@@ -177,7 +177,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "11",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "load-dependent friction",
         equation: "F = F_c (1 + beta x) tanh(v/v_0)",
         contains: &["01"],
@@ -192,7 +192,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "12",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "backlash in a damper bush",
         equation: "F = dz(x - w, g)/c, w' = F/d",
         contains: &["13"],
@@ -207,7 +207,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "13",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "top-mount compliance",
         equation: "F = (x - w)/c, w' = F/d",
         prevalence: Prevalence::Background,
@@ -218,7 +218,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "14",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "motion ratio",
         equation: "i = 1 + i_1 x on spring and damper",
         parts: &[part("strut.linkage.slope", Scale::PER_DEFLECTION, (-0.3, 0.3), &[0.05])],
@@ -228,7 +228,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "32f",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "dry yield force with hysteresis",
         equation: "F = F_y tanh(v/v_y + beta x)",
         contains: &["01", "02"],
@@ -243,7 +243,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "33",
-        element: Element::Strut,
+        element: Element::STRUT,
         name: "force offset",
         equation: "F = F_0",
         replaces: Some(Replaced { inputs: "actuator.force", distortion: Fault::Offset }),
@@ -254,7 +254,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "15",
-        element: Element::Guide,
+        element: Element::GUIDE,
         name: "viscous guide",
         equation: "F = d_g v_s",
         parts: &[part("guide.damping", Scale::DAMPING, (0.0, 5.0), &[0.1])],
@@ -264,7 +264,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "16",
-        element: Element::Guide,
+        element: Element::GUIDE,
         name: "guide friction",
         equation: "F = F_g tanh(v_s/v_0)",
         parts: &[
@@ -277,7 +277,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "15",
-        element: Element::WheelGuide,
+        element: Element::WHEEL_GUIDE,
         name: "viscous wheel guide",
         equation: "F = d_g v_u",
         parts: &[part("wheel_guide.damping", Scale::DAMPING, (0.0, 5.0), &[0.1])],
@@ -287,7 +287,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "17",
-        element: Element::WheelGuide,
+        element: Element::WHEEL_GUIDE,
         name: "wheel-guide friction",
         equation: "F = F_g tanh(v_u/v_0)",
         parts: &[

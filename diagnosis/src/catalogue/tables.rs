@@ -85,7 +85,7 @@ pub(super) const UNNAMED: &[&Unnamed] = &[&FORCE, &DAMPING];
 pub(super) const TABLES: &[Table] = &[
     Table {
         law: &FORCE,
-        element: Element::Strut,
+        element: Element::STRUT,
         variable: "deflection",
         switch: "strut.curve.scale",
         range: "strut.curve.deflection_range",
@@ -94,7 +94,7 @@ pub(super) const TABLES: &[Table] = &[
     },
     Table {
         law: &FORCE,
-        element: Element::Strut,
+        element: Element::STRUT,
         variable: "velocity",
         switch: "strut.curve.scale",
         range: "strut.curve.velocity_range",
@@ -103,7 +103,7 @@ pub(super) const TABLES: &[Table] = &[
     },
     Table {
         law: &FORCE,
-        element: Element::Guide,
+        element: Element::GUIDE,
         variable: "velocity",
         switch: "guide.curve.scale",
         range: "guide.curve.velocity_range",
@@ -112,7 +112,7 @@ pub(super) const TABLES: &[Table] = &[
     },
     Table {
         law: &FORCE,
-        element: Element::Tire,
+        element: Element::TIRE,
         variable: "deflection",
         switch: "tire.curve.scale",
         range: "tire.curve.deflection_range",
@@ -121,7 +121,7 @@ pub(super) const TABLES: &[Table] = &[
     },
     Table {
         law: &DAMPING,
-        element: Element::Strut,
+        element: Element::STRUT,
         variable: "deflection",
         switch: "strut.curve.scale",
         range: "strut.curve.deflection_range",
@@ -130,7 +130,7 @@ pub(super) const TABLES: &[Table] = &[
     },
     Table {
         law: &FORCE,
-        element: Element::Actuator,
+        element: Element::ACTUATOR,
         variable: "force",
         switch: "actuator.curve.scale",
         range: "actuator.curve.force_range",

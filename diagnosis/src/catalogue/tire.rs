@@ -6,7 +6,7 @@ use crate::signal::distortion::Fault;
 pub(super) const EFFECTS: &[Effect] = &[
     Effect {
         id: "19",
-        element: Element::Tire,
+        element: Element::TIRE,
         name: "progressive tyre",
         equation: "F = q c^2",
         parts: &[part("tire.quadratic", Scale::QUADRATIC, (-5.0, 5.0), &[0.05])],
@@ -16,7 +16,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "20",
-        element: Element::Tire,
+        element: Element::TIRE,
         name: "lift-off",
         equation: "F >= -F_0",
         onset: Onset::Threshold,
@@ -27,7 +27,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "21",
-        element: Element::Tire,
+        element: Element::TIRE,
         name: "tyre friction",
         equation: "F = F_t tanh(c'/v_0)",
         parts: &[
@@ -40,7 +40,7 @@ pub(super) const EFFECTS: &[Effect] = &[
     },
     Effect {
         id: "22",
-        element: Element::Tire,
+        element: Element::TIRE,
         name: "enveloping (low-pass of the road)",
         equation: "T z' = z_r - z, F = f(z - z_u)",
         prevalence: Prevalence::Background,

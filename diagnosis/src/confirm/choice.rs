@@ -16,14 +16,15 @@ impl Baseline<'_> {
         named.map(|it| self.simplest(base, it, passing)).or_else(|| passing.first().copied())
     }
 
-    /// One that is simpler than the best, a part of it with fewer parameters, unless what the best one adds to it passes the
-    /// gates on its own.
+    /// One that is simpler than the best, a part of it with fewer parameters or at fewer places, unless what the best one adds
+    /// to it passes the gates on its own.
     fn simplest<'b>(&self, base: &Fitted, best: &'b Tried, passing: &[&'b Tried]) -> &'b Tried {
         let mut chosen = best;
         for other in passing {
             if let (Ok(fitted), Ok(simpler)) = (&chosen.fitted, &other.fitted)
-                && contains(chosen.term, other.term, &parts(fitted), &parts(simpler))
-                && simpler.coordinates.len() < fitted.coordinates.len()
+                && (self.is_one_of(other.term, chosen.term)
+                    || contains(chosen.term, other.term, &parts(fitted), &parts(simpler))
+                        && simpler.coordinates.len() < fitted.coordinates.len())
             {
                 let added = self.evidence(chosen.term, base, simpler, fitted);
                 // Whether it is common does not matter beside a part of itself.
@@ -70,7 +71,8 @@ impl Baseline<'_> {
         let rival = |other: &&&Tried| {
             let Ok(fitted) = &other.fitted else { return false };
             let more = contains(other.term, chosen.term, &parts(fitted), &own);
-            if other.term == chosen.term || has_no_name(other.term) || more {
+            let fewer = self.is_one_of(other.term, chosen.term);
+            if other.term == chosen.term || has_no_name(other.term) || more || fewer {
                 return false;
             }
             let closer = || self.closely(base, Ok(fitted.clone()), best);

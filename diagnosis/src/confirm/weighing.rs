@@ -217,5 +217,5 @@ fn everywhere(term: Term, [train, test]: [f64; 2]) -> f64 {
 /// Whether records that do not excite it show nothing of a term: how large it is, those tell that do. Whether it is there at
 /// all, the validation data have to tell as of any other.
 fn is_resonance(term: Term) -> bool {
-    matches!(term, Term::Effect(effect) if effect.element == Element::Frame)
+    matches!(term, Term::Effect(effect) if effect.element == Element::FRAME)
 }

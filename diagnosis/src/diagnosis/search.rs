@@ -184,7 +184,9 @@ impl Baseline<'_> {
             proposals.retain(|it| !refused.contains(&it.term));
             if !proposals.is_empty() {
                 progress(&format!("fitting {} effects", proposals.len()));
-                let tried = self.try_all(&found.base, &found.extended, &proposals);
+                let mut tried = self.try_all(&found.base, &found.extended, &proposals);
+                tried.extend(self.together(&found.base, &found.extended, &tried));
+                tried.sort_by(|a, b| b.score.total_cmp(&a.score));
                 if self.deadline.is_over(Stage::Search) {
                     found.tried.extend(tried);
                     return Ok(Next::Nothing);

@@ -5,7 +5,7 @@ use crate::catalogue::Element;
 use crate::catalogue::naming::is_command;
 use crate::dataset::recorded::{Dataset, Source};
 use crate::plant::Seed;
-use crate::rig::{ElementSignals, Rig};
+use crate::rig::Rig;
 
 /// Where a signal may be missing.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +18,13 @@ pub struct Port {
     pub element: Option<Element>,
     /// What adds the signal.
     pub entry: Entry,
+}
+
+/// The element that a variable is of, by its name.
+fn element_of(rig: &Rig, variable: &str) -> Option<Element> {
+    let all = rig.kind.elements.iter().map(|it| it.element);
+    let mut own = all.filter(|it| variable.strip_prefix(it.name()).is_some_and(|rest| rest.starts_with('.')));
+    own.next()
 }
 
 /// What adds a port's signal to the model.
@@ -54,10 +61,9 @@ impl Port {
         let mut ports: Vec<Self> = Vec::new();
         for (index, declared) in plant.parameters.iter().enumerate().filter(|(_, it)| it.port) {
             let group = declared.name.split_once('.').map(|(group, _)| group);
-            let of_group = |it: &&ElementSignals| group == Some(it.element.name());
             // A drive has one element, and its constant stands beside it.
-            let alone = rig.kind.elements.first().filter(|_| group.is_none());
-            let element = rig.kind.elements.iter().find(of_group).or(alone).map(|it| it.element);
+            let alone = || rig.kind.elements.first().filter(|_| group.is_none()).map(|it| it.element);
+            let element = element_of(rig, &declared.name).or_else(alone);
             let place = element.map_or(group.unwrap_or(&declared.name), |it| it.name());
             ports.push(Self {
                 place: place.to_owned(),
@@ -68,11 +74,12 @@ impl Port {
         }
         for (index, declared) in plant.inputs.iter().enumerate() {
             if is_measured(index) && is_command(&declared.name) {
-                let element = rig.kind.elements.iter().find(|it| it.element == Element::Actuator);
+                let only = || rig.kind.elements.iter().find(|it| it.element == Element::ACTUATOR);
+                let element = element_of(rig, &declared.name).or_else(|| only().map(|it| it.element));
                 ports.push(Self {
                     place: declared.name.clone(),
                     unit: declared.unit.symbol,
-                    element: element.map(|it| it.element),
+                    element,
                     entry: Entry::Input(index),
                 });
             }

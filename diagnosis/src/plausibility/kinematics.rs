@@ -49,7 +49,7 @@ pub(super) fn problems(rig: &Rig, record: &Dataset) -> Vec<DataProblem> {
 
 /// Positions beyond any test rig, by distance or speed. A drive may turn, and angles are no lengths: there, it is a note.
 pub(super) fn beyond_any_rig(rig: &Rig, record: &Dataset) -> Vec<DataProblem> {
-    let may_turn = rig.kind.elements.iter().all(|it| it.element == Element::Guide);
+    let may_turn = rig.kind.elements.iter().all(|it| it.element == Element::GUIDE);
     let of = |(name, si, values): Column<'_>| {
         let rates = record.sections.iter().flat_map(|it| derivative(&values[it.clone()], record.step));
         let (length, rate) = (rms(values), rms(&rates.collect::<Vec<_>>()));

@@ -114,7 +114,7 @@ impl Found<'_> {
             face: &face,
             strut: strut.as_ref(),
             stands_in: difference(rig)?.is_some_and(|it| it < UNSEEN),
-            parameters: plant.parameters.iter().zip(parameters).map(valued).collect(),
+            parameters: plant.parameters.iter().zip(&plant.own(parameters)).map(valued).collect(),
             memory: of_strut.map(valued).collect(),
             starts: Vec::new(),
             inputs: plant.inputs.iter().zip(&drive.inputs).map(|(it, of)| (&*it.name, &**of)).collect(),

@@ -302,7 +302,8 @@ fn said(rig: &Rig, foreign: &Foreign) -> Vec<String> {
             ));
         }
     }
-    let sized = |effect: &&Effect| rig.kind.elements.iter().all(|it| it.element != effect.element);
+    let sized =
+        |effect: &&Effect| rig.kind.elements.iter().all(|it| it.element.kind() != effect.element.kind());
     let mut unsized_: Vec<&str> =
         catalogue::effects(&rig.plant).filter(sized).map(|it| it.element.name()).collect();
     unsized_.dedup();

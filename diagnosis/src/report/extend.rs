@@ -29,9 +29,9 @@ impl Diagnosis<'_> {
         let rig = self.baseline.rig;
         let point = self.found.extended.point.within(&rig.plant);
         let mut kind = Kind::clone(&rig.kind);
-        for (declared, value) in rig.plant.parameters.iter().zip(&point.parameters) {
-            if *value != declared.start {
-                kind.values.insert(declared.name.clone(), rig::Given::Number(*value));
+        for (declared, value) in rig.plant.parameters.iter().zip(rig.plant.own(&point.parameters)) {
+            if value != declared.start {
+                kind.values.insert(declared.name.clone(), rig::Given::Number(value));
             }
         }
         format!(
@@ -57,15 +57,12 @@ impl Diagnosis<'_> {
              [values]\n",
             rig.plant.name, rig.fmu
         );
-        for (index, declared) in rig.plant.parameters.iter().enumerate() {
-            let (value, fitted) = match judged.plant.parameter(&declared.name) {
-                None => (rig.parameters[index], false),
-                Some(index) => {
-                    let value = point.parameters[index];
-                    let own = extended.coordinates.iter().any(|it| it.handle == Unknown::Parameter(index));
-                    (value, own || value != extended.point.parameters[index])
-                }
-            };
+        let found = judged.plant.own(&point.parameters);
+        for (declared, given) in rig.plant.parameters.iter().zip(rig.plant.own(&rig.parameters)) {
+            let index = judged.plant.parameter(&declared.name);
+            let value = index.map_or(given, |index| found[index]);
+            let own = extended.coordinates.iter().any(|it| index.map(Unknown::Parameter) == Some(it.handle));
+            let fitted = own || value != given;
             if fitted || value != declared.start {
                 let source = if fitted { "fitted to the records" } else { "starting model" };
                 let unit = declared.unit.symbol;
@@ -133,8 +130,9 @@ impl Diagnosis<'_> {
     fn fitted(&self) -> ParameterSet {
         let rig: &Rig = self.baseline.rig;
         let point = self.found.extended.point.within(&rig.plant);
-        let given = |(index, declared): (usize, &strut_model::Declaration)| {
-            let value = point.parameters[index];
+        let found = rig.plant.own(&point.parameters);
+        let given = |(index, (declared, value)): (usize, (&strut_model::Declaration, &f64))| {
+            let value = *value;
             if value == rig.parameters[index] {
                 return None;
             }
@@ -151,7 +149,7 @@ impl Diagnosis<'_> {
         ParameterSet {
             name: NAME.into(),
             description: format!("{} as a diagnosis has extended it", rig.fmu),
-            values: rig.plant.parameters.iter().enumerate().filter_map(given).collect(),
+            values: rig.plant.parameters.iter().zip(&found).enumerate().filter_map(given).collect(),
         }
     }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use strut_model::Value;
 
 use crate::catalogue::Element;
-use crate::plant::{self, Attachment, Foreign, Plant, is_of_strut, models};
+use crate::plant::{self, Attachment, Foreign, Instance, Plant, is_of_strut, models};
 
 use super::Rig;
 use super::kind::{ElementSignals, ForceOf, Given, Kind};
@@ -95,14 +95,19 @@ impl Kind {
             self.elements.iter().filter(|it| !it.acts_on.is_empty()).collect();
         match attached[..] {
             [] => Ok(None),
-            [element] if element.element == Element::Strut => element.attachment().map(Some),
+            [element] if element.element == Element::STRUT => element.attachment().map(Some),
             _ => Err("elements: acts_on is for one element, the strut".into()),
         }
     }
 
-    fn plant(&self) -> Result<Plant, String> {
+    /// Its model.
+    ///
+    /// # Errors
+    /// If there is none of that name, or it cannot be read.
+    pub fn plant(&self) -> Result<Plant, String> {
         if !self.is_foreign() {
-            return models::named(&self.model).ok_or_else(|| {
+            let instances = self.instances();
+            return models::named(&self.model).map(|it| it.with_instances(instances)).ok_or_else(|| {
                 let names: Vec<&str> = Self::published().iter().map(|it| it.model.as_str()).collect();
                 format!(
                     "model: there is no `{}`; name a file with the ending .fmu, a crate by its Cargo.toml, or one of {}",
@@ -117,7 +122,18 @@ impl Kind {
         parameters.extend(given.cloned().collect::<Vec<_>>());
         let strut = self.attached()?;
         let locals = self.signals().map(str::to_owned).collect();
-        Foreign { fmu: fmu_of(Path::new(&self.model))?, parameters, locals, strut }.plant()
+        let foreign = Foreign { fmu: fmu_of(Path::new(&self.model))?, parameters, locals, strut };
+        Ok(foreign.plant()?.with_instances(self.instances()))
+    }
+
+    /// Elements of which there are several.
+    fn instances(&self) -> Vec<Instance> {
+        let of = |only: Element| {
+            let own = self.elements.iter().map(|it| it.element).filter(|it| it.kind() == only.kind());
+            let places: Vec<&str> = own.filter_map(Element::place).collect();
+            Instance::of(only.name(), &places)
+        };
+        Element::ALL.into_iter().flat_map(of).collect()
     }
 
     /// All that is named as something to be measured.

@@ -297,8 +297,9 @@ impl Kind {
     }
 }
 
-const FILES: [&str; 8] = [
+const FILES: [&str; 9] = [
     include_str!("../../rigs/quarter-car.toml"),
+    include_str!("../../rigs/full-car.toml"),
     include_str!("../../rigs/sprung-mass.toml"),
     include_str!("../../rigs/element-dyno.toml"),
     include_str!("../../rigs/servo-suspension.toml"),

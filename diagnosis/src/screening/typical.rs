@@ -1,6 +1,6 @@
 //! How large the forces and motions of a rig's elements are.
 
-use crate::catalogue::{Element, Typical};
+use crate::catalogue::{Element, Typical, joints};
 use crate::dataset::recorded::{Dataset, Source, derivative};
 use crate::rig::{ElementSignals, ForceOf, Rig};
 
@@ -61,5 +61,21 @@ pub fn typical(
         };
         (element.element, Typical { force, deflection, velocity })
     };
-    rig.kind.elements.iter().map(of).collect()
+    let mut all: Vec<(Element, Typical)> = rig.kind.elements.iter().map(of).collect();
+    let several = joints(plant).map(|(joint, members)| {
+        let own: Vec<Typical> =
+            all.iter().filter(|(of, _)| members.contains(of)).map(|(_, typical)| *typical).collect();
+        let of = |value: fn(&Typical) -> f64| own.iter().map(value).sum::<f64>() / own.len().max(1) as f64;
+        (
+            joint,
+            Typical {
+                force: of(|it| it.force),
+                deflection: of(|it| it.deflection),
+                velocity: of(|it| it.velocity),
+            },
+        )
+    });
+    let several: Vec<(Element, Typical)> = several.collect();
+    all.extend(several);
+    all
 }

@@ -27,6 +27,12 @@ impl<T> Corners<T> {
     pub fn to_array(self) -> [T; 4] {
         [self.front_left, self.front_right, self.rear_left, self.rear_right]
     }
+
+    /// Each, without a copy.
+    #[inline]
+    pub fn each(&self) -> [&T; 4] {
+        [&self.front_left, &self.front_right, &self.rear_left, &self.rear_right]
+    }
 }
 
 impl<T> From<[T; 4]> for Corners<T> {
@@ -36,21 +42,20 @@ impl<T> From<[T; 4]> for Corners<T> {
     }
 }
 
-/// One of a kind at each axle; left and right have the same.
+/// Something for each corner. Arrays of the standard library are made by closures that copy their elements some times, and
+/// numbers with derivatives are large.
+#[inline(always)]
+pub(crate) fn four<T>(of: impl Fn(usize) -> T) -> [T; 4] {
+    [of(0), of(1), of(2), of(3)]
+}
+
+/// One of a kind at each axle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axles<T> {
     /// Front.
     pub front: T,
     /// Rear.
     pub rear: T,
-}
-
-impl<T> Axles<T> {
-    /// What each corner has of it, in the order of [`Corners`].
-    #[inline]
-    pub fn at_corners(&self) -> [&T; 4] {
-        [&self.front, &self.front, &self.rear, &self.rear]
-    }
 }
 
 /// Groups of variables that there are several of. Not generic over the group: on stable Rust no length can be
@@ -88,10 +93,10 @@ macro_rules! bundle_of {
 
 bundle_of! {
     Corners { front_left: "Front left", front_right: "Front right", rear_left: "Rear left", rear_right: "Rear right" }:
-    RoadMotion Motion Pushing Command WheelMotion Travel Deflection Load
+    RoadMotion Motion Pushing Command WheelMotion Travel Deflection Load Strut Tire Mode
 }
 bundle_of! {
-    Axles { front: "Front", rear: "Rear" }: Strut Tire AntiRollBar Mode
+    Axles { front: "Front", rear: "Rear" }: AntiRollBar
 }
 
 /// Where the wheels are.
@@ -145,7 +150,8 @@ impl<R: Real> Geometry<R> {
     /// What a small motion of the body is at its corners, upwards.
     #[inline]
     pub fn at_corners(&self, body: Modal<R>) -> [R; 4] {
-        self.corners().map(|[x, y]| body.heave + y * body.roll - x * body.pitch)
+        let corners = self.corners();
+        four(|i| body.heave + corners[i][1] * body.roll - corners[i][0] * body.pitch)
     }
 
     /// Force and moments of upward forces at the corners.
@@ -153,10 +159,10 @@ impl<R: Real> Geometry<R> {
     pub fn resultant(&self, forces: [R; 4]) -> Modal<R> {
         let zero = R::from(0.0);
         let mut sum = Modal { heave: zero, roll: zero, pitch: zero };
-        for ([x, y], force) in self.corners().into_iter().zip(forces) {
-            sum.heave += force;
-            sum.roll += y * force;
-            sum.pitch -= x * force;
+        for ([x, y], force) in self.corners().iter().zip(&forces) {
+            sum.heave += *force;
+            sum.roll += *y * *force;
+            sum.pitch -= *x * *force;
         }
         sum
     }

@@ -69,7 +69,9 @@ fn the_ports_are_these() {
         .collect();
     let expected = [
         "QuarterCar: strut.preload, guide.preload, tire.preload, wheel_guide.preload",
-        "FullCar: strut.front.preload, strut.rear.preload, tire.front.preload, tire.rear.preload",
+        "FullCar: strut.front_left.preload, strut.front_right.preload, strut.rear_left.preload, \
+         strut.rear_right.preload, tire.front_left.preload, tire.front_right.preload, tire.rear_left.preload, \
+         tire.rear_right.preload",
         "SprungMass: strut.preload, guide.preload",
         "SasRig: wheel_arm.load, body_arm.load, pivot.preload, tire.preload",
         "ServoSuspension: strut.preload, guide.preload, tire.preload, wheel_guide.preload, \

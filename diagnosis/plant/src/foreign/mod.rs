@@ -67,6 +67,8 @@ impl Foreign {
             states,
             settings: Vec::new(),
             choices: Vec::new(),
+            instances: Vec::new(),
+            joints: Arc::new([]),
             prepare,
         })
     }

@@ -1,6 +1,6 @@
 //! What the report says of what is in no catalogue.
 
-use crate::catalogue::{Element, Scale, Table, Unnamed};
+use crate::catalogue::{Element, ElementKind, Scale, Table, Unnamed};
 use crate::diagnosis::Diagnosis;
 use crate::estimation::coordinates::POINTS;
 use crate::estimation::fit::Unknown;
@@ -94,7 +94,7 @@ impl Diagnosis<'_> {
                 curve.high.push(value + half);
             }
         }
-        if table.element == Element::Tire {
+        if table.element.kind() == ElementKind::Tire {
             // The plant's table is over the compression, the FMU's output counts the other way.
             curve.x.iter_mut().for_each(|x| *x = -*x);
             for list in [&mut curve.x, &mut curve.y, &mut curve.low, &mut curve.high] {

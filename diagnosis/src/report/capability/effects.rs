@@ -1,6 +1,6 @@
 //! Which effects of the catalogue can be identified in a rig, and why others cannot.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::catalogue::{self, Effect, Element, RESPONSE, Signal};
 use crate::report::words::list;
@@ -54,21 +54,21 @@ impl Obstacle {
 }
 
 /// What keeps an effect from being identified in a rig; nothing if it can be.
-pub fn obstacle(effect: &Effect, rig: &Rig) -> Option<Obstacle> {
+pub fn obstacle(effect: &'static Effect, rig: &Rig) -> Option<Obstacle> {
     let plant = &rig.plant;
+    let effect = catalogue::first_of(plant, effect);
     if effect.is_in(plant) {
         return None;
     }
     if rig.kind.is_foreign() {
         let attached = rig.kind.elements.iter().find(|it| !it.acts_on.is_empty());
         return Some(match (effect.element, attached) {
-            (Element::Strut, None) => Obstacle::NoStrut,
-            (Element::Strut, Some(it)) if it.replaces.is_none() => Obstacle::NotReplaced,
+            (Element::STRUT, None) => Obstacle::NoStrut,
+            (Element::STRUT, Some(it)) if it.replaces.is_none() => Obstacle::NotReplaced,
             _ => Obstacle::Elsewhere,
         });
     }
-    let of_element = |it: &&Effect| it.element == effect.element && it.is_in(plant);
-    if !catalogue::all().any(|it| of_element(&it)) {
+    if !catalogue::effects(plant).any(|it| it.element.kind() == effect.element.kind()) {
         return Some(Obstacle::NoElement);
     }
     let lacking = effect.parts.iter().map(|it| it.parameter).find(|it| plant.parameter(it).is_none());
@@ -100,10 +100,18 @@ pub fn in_elements(rig: &Rig) -> Vec<Possible> {
         named.extend(tables.map(|it| format!("{} {}", it.law.id, it.name())));
         named
     };
-    let all = Element::ALL.into_iter().map(|element| (element, of(element)));
-    all.filter(|(_, effects)| !effects.is_empty())
-        .map(|(element, effects)| Possible { place: element.name().to_owned(), effects })
-        .collect()
+    let plant = &rig.plant;
+    let named = catalogue::effects(plant).map(|it| it.element);
+    let all: BTreeSet<Element> = named.chain(catalogue::tables(plant).map(|it| it.element)).collect();
+    let mut groups: Vec<(Vec<&str>, Vec<String>)> = Vec::new();
+    for element in all {
+        let effects = of(element);
+        match groups.iter_mut().find(|(_, own)| *own == effects) {
+            Some((names, _)) => names.push(element.name()),
+            None => groups.push((vec![element.name()], effects)),
+        }
+    }
+    groups.into_iter().map(|(names, effects)| Possible { place: names.join(", "), effects }).collect()
 }
 
 /// Effects that can be identified in the signals of a rig; signals with the same effects stand together.
@@ -165,7 +173,7 @@ mod tests {
     fn without_a_strut_beside_it_an_fmu_has_no_effect_of_one() {
         let rig = foreign("force = { output = \"f\" }", &["strut.", "hysteresis."]);
         let impossible = impossible(&rig);
-        let strut = catalogue::all().filter(|it| it.element == Element::Strut).count();
+        let strut = catalogue::all().filter(|it| it.element == Element::STRUT).count();
         assert_eq!(impossible[&Obstacle::NoStrut].len(), strut);
         assert_eq!(
             impossible[&Obstacle::NoStrut].len() + impossible[&Obstacle::Elsewhere].len(),
@@ -193,14 +201,14 @@ mod tests {
                        replaces = { stiffness = \"k\", damping = \"d\" }";
         let all = impossible(&foreign(element, &[]));
         assert_eq!(all.keys().collect::<Vec<_>>(), [&Obstacle::Elsewhere]);
-        assert!(all[&Obstacle::Elsewhere].iter().all(|it| it.element != Element::Strut));
+        assert!(all[&Obstacle::Elsewhere].iter().all(|it| it.element != Element::STRUT));
     }
 
     #[test]
     fn a_model_of_the_library_lacks_elements_or_parameters() {
         let rig = Rig::published("quarter-car").unwrap();
         let all = impossible(&rig);
-        let pivot = catalogue::all().find(|it| it.element == Element::Pivot).unwrap();
+        let pivot = catalogue::all().find(|it| it.element == Element::PIVOT).unwrap();
         assert_eq!(obstacle(pivot, &rig), Some(Obstacle::NoElement));
         for (obstacle, effects) in all {
             assert!(!effects.is_empty() && obstacle.sentence("QuarterCar").ends_with('.'), "{obstacle:?}");

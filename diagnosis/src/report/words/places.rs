@@ -1,6 +1,7 @@
 //! Effects and the places where they act.
 
 use super::value;
+use crate::catalogue::Element;
 use crate::report::findings::{AccountItem, Effect, Findings};
 
 /// A part of the rig.
@@ -24,7 +25,7 @@ pub enum Part {
 
 /// The part that an element's name means; none for a sensor.
 pub fn part(element: &str) -> Option<Part> {
-    Some(match element {
+    Some(match only(element).0 {
         "body" => Part::Body,
         "guide" | "body_guide" | "wheel_guide" => Part::Guide,
         "strut" => Part::Strut,
@@ -36,21 +37,32 @@ pub fn part(element: &str) -> Option<Part> {
     })
 }
 
-/// An element as a place: `in the strut`, `at body.acceleration`.
+/// What an element is, and in brackets where, if its rig has several: `strut` and ` (front left)`.
+fn only(element: &str) -> (&str, String) {
+    match Element::named(element).and_then(|it| Some((it, it.place()?))) {
+        Some((it, place)) => (it.only().name(), format!(" ({})", place.replace('_', " "))),
+        None => (element, String::new()),
+    }
+}
+
+/// An element as a place: `in the strut`, `in the strut (front left)`, `at body.acceleration`.
 pub fn place(element: &str) -> String {
-    match (part(element), element) {
+    let (element, at) = only(element);
+    let place = match (part(element), element) {
         (Some(Part::Tire), _) => "in the tyre".into(),
         (Some(_), "body_guide") => "in the body’s guide".into(),
         (Some(_), "wheel_guide") => "in the wheel’s guide".into(),
         (Some(_), _) | (None, "pump" | "valve") => format!("in the {element}"),
         (None, _) => format!("at {element}"),
-    }
+    };
+    place + &at
 }
 
 /// An effect with its place, which a name such as `guide friction` holds already.
 pub fn located(name: &str, element: &str) -> String {
-    match name.split(' ').any(|word| word == element) {
-        true => name.to_owned(),
+    let (own, at) = only(element);
+    match name.split(' ').any(|word| word == own) {
+        true => format!("{name}{at}"),
         false => format!("{name} {}", place(element)),
     }
 }
@@ -102,6 +114,15 @@ mod tests {
         let names = [("viscous guide", "guide"), ("force offset", "guide"), ("soft mount", "strut")];
         let located = names.map(|(name, element)| located(name, element));
         assert_eq!(located, ["viscous guide", "force offset in the guide", "soft mount in the strut"]);
+    }
+
+    #[test]
+    fn one_of_several_is_told_with_its_place() {
+        let [strut, guide] = [Element::STRUT, Element::GUIDE].map(|it| it.at("rear_left").name());
+        assert_eq!(located("Coulomb friction", strut), "Coulomb friction in the strut (rear left)");
+        assert_eq!(located("viscous guide", guide), "viscous guide (rear left)");
+        assert_eq!((part(strut), part("strut.deflection")), (Some(Part::Strut), None));
+        assert_eq!(place("tire.deflection"), "at tire.deflection");
     }
 
     #[test]

@@ -6,7 +6,7 @@ use strut_model::{
     About, Equation, Experiment, Instant, Kind, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
-use crate::car::{Axles, Corners, Geometry, Modal};
+use crate::car::{Axles, Corners, Geometry, Modal, four};
 use crate::elements::{AntiRollBar, Corner, Load, Mode, Moving, Strut, Tire};
 use crate::signals::{Acceleration, Deflection, Motion, Pushing, RoadMotion, Travel, WheelMotion};
 
@@ -42,12 +42,12 @@ pub struct Parameters<R> {
     pub unsprung_mass: UnsprungMass<R>,
     /// Where the wheels are
     pub geometry: Geometry<R>,
-    /// Struts
-    pub strut: Axles<Strut<R>>,
+    /// Strut
+    pub strut: Corners<Strut<R>>,
     /// Anti-roll bars
     pub anti_roll_bar: Axles<AntiRollBar<R>>,
-    /// Tyres
-    pub tire: Axles<Tire<R>>,
+    /// Tyre
+    pub tire: Corners<Tire<R>>,
 }
 
 /// Of one wheel.
@@ -129,7 +129,7 @@ pub struct Derived<R> {
     /// Body on its struts, pitching
     pub pitch: Mode<R>,
     /// Wheel alone
-    pub wheel: Axles<Mode<R>>,
+    pub wheel: Corners<Mode<R>>,
     /// Pitch inertia over m l_f l_r; at one the ends of the car move like quarter cars that are not connected
     #[var(unit = ONE)]
     pub dynamic_index: R,
@@ -228,7 +228,7 @@ impl Model for FullCar {
     fn derive<R: Real>(&self, p: &Parameters<R>) -> Derived<R> {
         let Geometry { front, rear, left, right } = p.geometry;
         let zero = R::from(0.0);
-        let struts = p.strut.at_corners();
+        let (struts, tires) = (p.strut.each(), p.tire.each());
         // What a unit of each modal motion is met with: the forces that its deflections make, taken together.
         let modal = |rates: [R; 4], motion: Modal<R>| {
             let deflections = p.geometry.at_corners(motion);
@@ -244,27 +244,24 @@ impl Model for FullCar {
         let one = R::from(1.0);
         let bars =
             (p.anti_roll_bar.front.stiffness + p.anti_roll_bar.rear.stiffness) * (left + right).squared();
-        let wheel = |mass: R, strut: &Strut<R>, tire: &Tire<R>| {
-            Mode::of(mass, tire.stiffness, strut.stiffness + tire.stiffness, strut.damping)
-        };
         let shares = p.geometry.distribution(Modal { heave: p.sprung_mass, ..rest });
-        let (wheels, tires) = (p.unsprung_mass.at_corners(), p.tire.at_corners());
-        let Axles { front: front_strut, rear: rear_strut } = &p.strut;
-        let Axles { front: front_tire, rear: rear_tire } = &p.tire;
+        let wheels = p.unsprung_mass.at_corners();
+        let wheel = |i: usize| {
+            let (strut, tire) = (struts[i], tires[i]);
+            Mode::of(wheels[i], tire.stiffness, strut.stiffness + tire.stiffness, strut.damping)
+        };
         Derived {
             heave: mode(p.sprung_mass, Modal { heave: one, ..rest }, |sum| sum.heave, zero),
             roll: mode(p.roll_inertia, Modal { roll: one, ..rest }, |sum| sum.roll, bars),
             pitch: mode(p.pitch_inertia, Modal { pitch: one, ..rest }, |sum| sum.pitch, zero),
-            wheel: Axles {
-                front: wheel(p.unsprung_mass.front, &p.strut.front, &p.tire.front),
-                rear: wheel(p.unsprung_mass.rear, &p.strut.rear, &p.tire.rear),
-            },
+            wheel: std::array::from_fn(wheel).into(),
             dynamic_index: p.pitch_inertia / (p.sprung_mass * front * rear),
             tire: std::array::from_fn(|i| tires[i].load(shares[i] + wheels[i])).into(),
-            active_effects: front_strut.active_effects()
-                + rear_strut.active_effects()
-                + front_tire.active_effects()
-                + rear_tire.active_effects(),
+            active_effects: struts
+                .iter()
+                .map(|it| it.active_effects())
+                .chain(tires.iter().map(|it| it.active_effects()))
+                .fold(zero, |sum, it| sum + it),
         }
     }
 
@@ -272,12 +269,10 @@ impl Model for FullCar {
         if !self.lift_off {
             return Ok(());
         }
-        let names = ["tire.front", "tire.front", "tire.rear", "tire.rear"];
+        let names = ["tire.front_left", "tire.front_right", "tire.rear_left", "tire.rear_right"];
         let loads = derived.tire.to_array();
-        for ((tire, name), load) in p.tire.at_corners().into_iter().zip(names).zip(&loads) {
-            tire.check_lift_off(name, load)?;
-        }
-        Ok(())
+        let mut tires = p.tire.each().into_iter().zip(names).zip(&loads);
+        tires.try_for_each(|((tire, name), load)| tire.check_lift_off(name, load))
     }
 
     #[inline(always)]
@@ -289,7 +284,7 @@ impl Model for FullCar {
                 roll: x.roll.angle,
                 pitch: x.pitch.angle,
             }),
-            x.wheel.to_array(),
+            x.wheel.each(),
         );
         let velocities = p.geometry.at_corners(Modal {
             heave: x.heave.velocity,
@@ -297,18 +292,19 @@ impl Model for FullCar {
             pitch: x.pitch.speed,
         });
         let pushing = {
-            let [fl, fr, rl, rr] = now.input.actuator.to_array().map(|actuator| actuator.force);
-            let bars = p.anti_roll_bar;
-            let deflections = |side: [usize; 2]| side.map(|i| heights[i] - wheels[i].position);
+            let Corners { front_left, front_right, rear_left, rear_right } = &now.input.actuator;
+            let [fl, fr, rl, rr] = [front_left.force, front_right.force, rear_left.force, rear_right.force];
+            let bars = &p.anti_roll_bar;
+            let deflection = |i: usize| heights[i] - wheels[i].position;
+            let deflections = |[left, right]: [usize; 2]| [deflection(left), deflection(right)];
             let [fl, fr] = bars.front.added_to([fl, fr], || deflections([0, 1]));
             let [rl, rr] = bars.rear.added_to([rl, rr], || deflections([2, 3]));
             [fl, fr, rl, rr]
         };
-        let (roads, loads) = (now.input.road.to_array(), now.derived.tire.to_array());
-        let (struts, masses, tires) =
-            (p.strut.at_corners(), p.unsprung_mass.at_corners(), p.tire.at_corners());
+        let (roads, loads) = (now.input.road.each(), now.derived.tire.each());
+        let (struts, masses, tires) = (p.strut.each(), p.unsprung_mass.at_corners(), p.tire.each());
         let further = now.derived.active_effects;
-        let corners: [Moving<R>; 4] = std::array::from_fn(|i| {
+        let corners: [Moving<R>; 4] = four(|i| {
             let corner = Corner {
                 unsprung_mass: masses[i],
                 tire: tires[i],
@@ -317,9 +313,9 @@ impl Model for FullCar {
             };
             let top = Motion { position: heights[i], velocity: velocities[i] };
             let strut = |deflection, velocity| struts[i].force(now.time, deflection, velocity, further);
-            corner.between(top, wheels[i], roads[i], pushing[i], strut)
+            corner.between(top, *wheels[i], *roads[i], pushing[i], strut)
         });
-        let sum = p.geometry.resultant(std::array::from_fn(|i| pushing[i] - corners[i].strut_force));
+        let sum = p.geometry.resultant(four(|i| pushing[i] - corners[i].strut_force));
 
         let one = R::from(1.0);
         let heave = Acceleration { acceleration: sum.heave * (one / p.sprung_mass) };
@@ -333,19 +329,16 @@ impl Model for FullCar {
             heave: Motion { position: x.heave.velocity, velocity: heave.acceleration },
             roll: turning(x.roll, roll),
             pitch: turning(x.pitch, pitch),
-            wheel: std::array::from_fn(|i| Motion {
-                position: wheels[i].velocity,
-                velocity: corners[i].wheel.acceleration,
-            })
-            .into(),
+            wheel: four(|i| Motion { position: wheels[i].velocity, velocity: corners[i].wheel.acceleration })
+                .into(),
         };
         let output = Output {
             heave,
             roll,
             pitch,
-            wheel: corners.map(|corner| corner.wheel).into(),
-            suspension: corners.map(|corner| corner.suspension).into(),
-            tire: corners.map(|corner| corner.tire).into(),
+            wheel: four(|i| corners[i].wheel).into(),
+            suspension: four(|i| corners[i].suspension).into(),
+            tire: four(|i| corners[i].tire).into(),
         };
         (rates, output)
     }

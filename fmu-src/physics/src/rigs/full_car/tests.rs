@@ -23,24 +23,51 @@ fn lopsided() -> Parameters<f64> {
     p.unsprung_mass = UnsprungMass { front: 42.0, rear: 38.0 };
     p.geometry = Geometry { front: 1.2, rear: 1.5, left: 0.8, right: 0.7 };
     p.anti_roll_bar.front.stiffness = 8e3;
-    (p.strut.front.stiffness, p.strut.rear.stiffness) = (20e3, 24e3);
-    (p.strut.front.damping, p.strut.rear.damping) = (1400.0, 1700.0);
-    (p.tire.front.stiffness, p.tire.rear.stiffness) = (200e3, 210e3);
+    for strut in [&mut p.strut.front_left, &mut p.strut.front_right] {
+        (strut.stiffness, strut.damping) = (20e3, 1400.0);
+    }
+    for strut in [&mut p.strut.rear_left, &mut p.strut.rear_right] {
+        (strut.stiffness, strut.damping) = (24e3, 1700.0);
+    }
+    for tire in [&mut p.tire.rear_left, &mut p.tire.rear_right] {
+        tire.stiffness = 210e3;
+    }
     p
 }
 
 /// The same with effects of each kind on.
 fn nonlinear() -> Parameters<f64> {
     let mut p = lopsided();
-    p.strut.front.asymmetry = Asymmetry { ratio: 0.3, smoothing: 0.005 };
-    p.strut.rear.asymmetry = Asymmetry { ratio: 0.25, smoothing: 0.01 };
-    p.strut.front.coulomb = Coulomb { force: 110.0, velocity: 0.008 };
-    p.strut.rear.coulomb = Coulomb { force: 90.0, velocity: 0.01 };
-    p.tire.front.coulomb = Coulomb { force: 60.0, velocity: 0.008 };
-    (p.tire.front.quadratic, p.tire.rear.quadratic) = (1.5e6, 2e6);
-    p.strut.front.orifice.coefficient = 300.0;
-    p.strut.rear.knee.ratio = -0.4;
+    for strut in [&mut p.strut.front_left, &mut p.strut.front_right] {
+        strut.asymmetry = Asymmetry { ratio: 0.3, smoothing: 0.005 };
+        strut.coulomb = Coulomb { force: 110.0, velocity: 0.008 };
+        strut.orifice.coefficient = 300.0;
+    }
+    for strut in [&mut p.strut.rear_left, &mut p.strut.rear_right] {
+        strut.asymmetry = Asymmetry { ratio: 0.25, smoothing: 0.01 };
+        strut.coulomb = Coulomb { force: 90.0, velocity: 0.01 };
+        strut.knee.ratio = -0.4;
+    }
+    for tire in [&mut p.tire.front_left, &mut p.tire.front_right] {
+        tire.coulomb = Coulomb { force: 60.0, velocity: 0.008 };
+        tire.quadratic = 1.5e6;
+    }
+    for tire in [&mut p.tire.rear_left, &mut p.tire.rear_right] {
+        tire.quadratic = 2e6;
+    }
     p
+}
+
+/// Takes away what makes heat of motion.
+fn without_losses(p: &mut Parameters<f64>) {
+    let Corners { front_left, front_right, rear_left, rear_right } = &mut p.strut;
+    for strut in [front_left, front_right, rear_left, rear_right] {
+        (strut.damping, strut.coulomb.force, strut.orifice.coefficient) = (0.0, 0.0, 0.0);
+    }
+    let Corners { front_left, front_right, rear_left, rear_right } = &mut p.tire;
+    for tire in [front_left, front_right, rear_left, rear_right] {
+        (tire.damping, tire.coulomb.force) = (0.0, 0.0);
+    }
 }
 
 fn evaluate<R: Real>(car: FullCar, p: &Parameters<R>, x: [R; 14], u: [R; 12]) -> (State<R>, Output<R>) {
@@ -90,8 +117,8 @@ fn names_are_those_of_the_corners() {
         "suspension.front_right.velocity",
         "tire.rear_right.deflection",
         "tire.rear_right.static_load",
-        "strut.front.coulomb.force",
-        "tire.rear.stiffness",
+        "strut.front_left.coulomb.force",
+        "tire.rear_right.stiffness",
         "anti_roll_bar.rear.stiffness",
         "geometry.left",
         "unsprung_mass.front",
@@ -148,33 +175,27 @@ const MODES: [(f64, [f64; 7]); 4] = [
 ];
 
 #[test]
-fn constant_forces_act_on_both_corners_of_their_axle() {
+fn constant_forces_act_on_one_corner() {
     let changes = |put: fn(&mut Parameters<f64>)| {
         let mut loaded = declared();
         put(&mut loaded);
         evaluate(CAR, &loaded, [0.0; 14], [0.0; 12]).1
     };
-    let output = changes(|p| p.strut.rear.preload = 10.0);
-    // Both rear corners are pulled down by 10 N, 1.35 m behind the centre.
-    assert!((output.heave.acceleration + 20.0 / 1400.0).abs() < 1e-12);
-    assert!((output.pitch.acceleration + 2.0 * 1.35 * 10.0 / 2300.0).abs() < 1e-12);
-    assert_eq!(output.wheel.to_array().map(|wheel| wheel.acceleration), [0.0, 0.0, 0.25, 0.25]);
-    let output = changes(|p| p.tire.front.preload = 10.0);
-    assert_eq!(output.wheel.to_array().map(|wheel| wheel.acceleration), [0.25, 0.25, 0.0, 0.0]);
-    assert_eq!(output.wheel.to_array().map(|wheel| wheel.force), [10.0, 10.0, 0.0, 0.0]);
+    let output = changes(|p| p.strut.rear_left.preload = 10.0);
+    // That corner is pulled down by 10 N, 1.35 m behind the centre and 0.78 m left of it.
+    assert!((output.heave.acceleration + 10.0 / 1400.0).abs() < 1e-12);
+    assert!((output.pitch.acceleration + 1.35 * 10.0 / 2300.0).abs() < 1e-12);
+    assert!((output.roll.acceleration + 0.78 * 10.0 / 500.0).abs() < 1e-12);
+    assert_eq!(output.wheel.to_array().map(|wheel| wheel.acceleration), [0.0, 0.0, 0.25, 0.0]);
+    let output = changes(|p| p.tire.front_right.preload = 10.0);
+    assert_eq!(output.wheel.to_array().map(|wheel| wheel.acceleration), [0.0, 0.25, 0.0, 0.0]);
+    assert_eq!(output.wheel.to_array().map(|wheel| wheel.force), [0.0, 10.0, 0.0, 0.0]);
 }
 
 #[test]
 fn the_undamped_modes_are_those_of_the_stiffness_matrix() {
     let mut p = lopsided();
-    for damping in [
-        &mut p.strut.front.damping,
-        &mut p.strut.rear.damping,
-        &mut p.tire.front.damping,
-        &mut p.tire.rear.damping,
-    ] {
-        *damping = 0.0;
-    }
+    without_losses(&mut p);
     for (frequency, shape) in MODES {
         // A millimetre of it: no wheel leaves the road.
         let x = std::array::from_fn(|i| if i % 2 == 0 { 1e-3 * shape[i / 2] } else { 0.0 });
@@ -198,8 +219,8 @@ fn uncoupled_modes_are_those_of_one_mass_on_its_springs() {
         (derived.heave, frequency(2.0 * 44e3, 1400.0)),
         (derived.roll, frequency(roll, 520.0)),
         (derived.pitch, frequency(pitch, 2300.0)),
-        (derived.wheel.front, frequency(200e3, 42.0)),
-        (derived.wheel.rear, frequency(210e3, 38.0)),
+        (derived.wheel.front_left, frequency(200e3, 42.0)),
+        (derived.wheel.rear_right, frequency(210e3, 38.0)),
     ] {
         assert!((mode.natural_frequency / expected - 1.0).abs() < 1e-12);
     }
@@ -210,9 +231,9 @@ fn uncoupled_modes_are_those_of_one_mass_on_its_springs() {
 #[test]
 fn a_parabola_that_never_reaches_zero_load_is_refused() {
     let mut p = nonlinear();
-    p.tire.rear.quadratic = 1e7;
+    p.tire.rear_right.quadratic = 1e7;
     let error = CAR.check(&p, &CAR.derive(&p)).unwrap_err();
-    assert!(error.contains("tire.rear.quadratic = 10000000 N/m2"), "{error}");
+    assert!(error.contains("tire.rear_right.quadratic = 10000000 N/m2"), "{error}");
     assert_eq!(FullCar { lift_off: false }.check(&p, &CAR.derive(&p)), Ok(()));
 }
 
@@ -222,7 +243,7 @@ fn energy<R: Real>(p: &Parameters<R>, loads: [Load<R>; 4], x: &[R; 14]) -> R {
         p.sprung_mass * x[1].squared() + p.roll_inertia * x[3].squared() + p.pitch_inertia * x[5].squared();
     let heights = p.geometry.at_corners(Modal { heave: x[0], roll: x[2], pitch: x[4] });
     let (wheel, speed) = ([x[6], x[8], x[10], x[12]], [x[7], x[9], x[11], x[13]]);
-    let (struts, tires, masses) = (p.strut.at_corners(), p.tire.at_corners(), p.unsprung_mass.at_corners());
+    let (struts, tires, masses) = (p.strut.each(), p.tire.each(), p.unsprung_mass.at_corners());
     let deflection: [R; 4] = std::array::from_fn(|i| heights[i] - wheel[i]);
     let mut sum = body * 0.5;
     for i in 0..4 {
@@ -259,12 +280,7 @@ proptest! {
     #[test]
     fn without_damping_energy_stays(x in states()) {
         let mut p = nonlinear();
-        for strut in [&mut p.strut.front, &mut p.strut.rear] {
-            (strut.damping, strut.coulomb.force, strut.orifice.coefficient) = (0.0, 0.0, 0.0);
-        }
-        for tire in [&mut p.tire.front, &mut p.tire.rear] {
-            (tire.damping, tire.coulomb.force) = (0.0, 0.0);
-        }
+        without_losses(&mut p);
         let power = power(&p, x);
         prop_assert!(power.abs() <= 1e-7, "{power}");
     }
@@ -335,7 +351,7 @@ proptest! {
         let masses = [p.unsprung_mass.front, p.unsprung_mass.rear];
         let wheels = output.wheel.to_array();
         for (end, (x, u)) in ends.into_iter().enumerate() {
-            let quarter = quarter(shares[end], masses[end], p.strut.at_corners()[2 * end], p.tire.at_corners()[2 * end]);
+            let quarter = quarter(shares[end], masses[end], p.strut.each()[2 * end], p.tire.each()[2 * end]);
             let (_, expected) = alone(&quarter, x, [u[0], u[1], 1e4 * u[2]]);
             let wheel = wheels[2 * end];
             for (found, expected) in [
