@@ -13,6 +13,7 @@ pub mod drive;
 pub mod dyno;
 pub mod excitation;
 pub mod files;
+pub mod four_wheels;
 pub mod friction;
 pub mod generate;
 pub mod pump;

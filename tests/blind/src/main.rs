@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 use strut_blind::run::{self, Run};
-use strut_blind::{Case, cases, files, generate, score};
+use strut_blind::{Case, cases, files, four_wheels, generate, score};
 
 /// Data with hidden causes, and the score of whoever names them.
 #[derive(Parser)]
@@ -59,6 +59,28 @@ enum Command {
         /// Further arguments of the program, after `--`
         #[arg(last = true)]
         arguments: Vec<String>,
+    },
+    /// Make cars on four wheels with a cause at one corner, at an axle, at all, and with none; run a diagnosis on each and write
+    /// a page
+    FourWheels {
+        /// The program, `diagnose` or one that takes its arguments
+        #[arg(long)]
+        program: PathBuf,
+        /// How many with a cause at one corner
+        #[arg(long, default_value_t = 10)]
+        seeds: u64,
+        /// A part of the list: `2/6` is every sixth car from the second on
+        #[arg(long, value_parser = part, default_value = "1/1")]
+        part: (usize, usize),
+        /// Where to: each car gets a folder there
+        #[arg(long)]
+        out: PathBuf,
+        /// An earlier page: a car that is wrong now and was right there is an error
+        #[arg(long)]
+        no_worse_than: Option<PathBuf>,
+        /// The page
+        #[arg(long)]
+        page: PathBuf,
     },
     /// Compare the reports in cases' folders with the truth
     Score {
@@ -158,6 +180,25 @@ fn execute(command: Command) -> Result<(), String> {
                     .map_err(|error| format!("{} cannot be read: {error}", earlier.display()))?;
                 let worse: Vec<&str> =
                     run::worse(&scores, &text).iter().map(|score| score.case.as_str()).collect();
+                if !worse.is_empty() {
+                    return Err(format!("wrong, and right in {}: {}", earlier.display(), worse.join(", ")));
+                }
+            }
+        }
+        Command::FourWheels { program, seeds, part: (first, step), out, no_worse_than, page } => {
+            let name = program.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let mut rows = vec![];
+            for (seed, hidden) in four_wheels::list(seeds).into_iter().skip(first - 1).step_by(step) {
+                let row = four_wheels::judged(&program, seed, hidden.as_ref(), &out)?;
+                eprint!("{row}");
+                rows.push(row);
+            }
+            std::fs::write(&page, four_wheels::page(&name, seeds, &rows))
+                .map_err(|error| format!("{} cannot be written: {error}", page.display()))?;
+            if let Some(earlier) = no_worse_than {
+                let text = std::fs::read_to_string(&earlier)
+                    .map_err(|error| format!("{} cannot be read: {error}", earlier.display()))?;
+                let worse = four_wheels::worse(&rows, &text);
                 if !worse.is_empty() {
                     return Err(format!("wrong, and right in {}: {}", earlier.display(), worse.join(", ")));
                 }
