@@ -85,9 +85,10 @@ impl Plant {
                 let Some(members) = instance.of.iter().map(member).collect::<Option<Vec<usize>>>() else {
                     continue;
                 };
-                // A constant is missing at one place, not at several at once.
                 let name = format!("{}.{}.{rest}", instance.group, instance.place);
-                declared.push(Declaration { name, port: false, ..parameter.clone() });
+                let doc = common(members.iter().map(|it| self.parameters[*it].doc.as_str()));
+                // A constant is missing at one place, not at several at once.
+                declared.push(Declaration { name, doc, port: false, ..parameter.clone() });
                 joints.push(Joint { start: self.parameters[index].start, members });
             }
         }
@@ -102,6 +103,15 @@ impl Plant {
             ..self
         }
     }
+}
+
+/// What descriptions say alike: `Strut: Front left: Damping rate` and that of the front right are of `Strut: Damping rate`.
+fn common<'a>(docs: impl Iterator<Item = &'a str>) -> String {
+    let all: Vec<Vec<&str>> = docs.map(|doc| doc.split(": ").collect()).collect();
+    let first = all.first().cloned().unwrap_or_default();
+    let alike = |(part, text): &(usize, &str)| all.iter().all(|doc| doc.get(*part) == Some(text));
+    let parts: Vec<&str> = first.into_iter().enumerate().filter(alike).map(|(_, text)| text).collect();
+    parts.join(": ")
 }
 
 /// The model's own parameters with what joint ones add, which are the last.
@@ -268,6 +278,13 @@ mod tests {
         let own = models::named("FullCar").unwrap().parameters.len();
         assert_eq!(plant.own(&joint), single[..own]);
         assert!(plant.parameters[own..].iter().all(|it| !it.port));
+        let damping = plant.parameter("strut.front.damping").unwrap();
+        assert!(plant.is_joint(damping) && !plant.is_joint(own - 1));
+        assert!(
+            plant.parameters[damping].doc.starts_with("Strut: Damping rate"),
+            "{}",
+            plant.parameters[damping].doc
+        );
     }
 
     #[test]

@@ -93,6 +93,11 @@ impl Plant {
         joint::own(&self.joints, parameters)
     }
 
+    /// Whether a parameter stands for several of the model's own, by its index.
+    pub fn is_joint(&self, index: usize) -> bool {
+        index + self.joints.len() >= self.parameters.len()
+    }
+
     /// Index of a parameter.
     pub fn parameter(&self, name: &str) -> Option<usize> {
         self.parameters.iter().position(|it| it.name == name)

@@ -80,3 +80,56 @@ impl Placed {
         Self { effects: effects.collect::<Vec<_>>().leak(), tables: tables.collect::<Vec<_>>().leak() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue::ElementKind;
+    use crate::rig::Rig;
+
+    fn of_struts<'a>(plant: &'a Plant, id: &'a str) -> impl Iterator<Item = &'static Effect> + use<'a> {
+        effects(plant).filter(move |it| it.id == id && it.element.kind() == ElementKind::Strut)
+    }
+
+    #[test]
+    fn an_effect_is_at_each_place_at_each_axle_and_at_all() {
+        let plant = Rig::published("full-car").unwrap().plant;
+        let names: Vec<&str> = of_struts(&plant, "01").map(|it| it.element.name()).collect();
+        let places = ["front_left", "front_right", "rear_left", "rear_right", "front", "rear", "all"];
+        assert_eq!(names, places.map(|place| format!("strut.{place}")));
+        let joint: Vec<bool> = of_struts(&plant, "01").map(|it| is_joint(&plant, it.element)).collect();
+        assert_eq!(joint, [false, false, false, false, true, true, true]);
+        for effect in of_struts(&plant, "08") {
+            let names: Vec<&str> = effect.parts.iter().map(|it| it.parameter).collect();
+            let name = effect.element.name();
+            assert_eq!(names, ["cubic", "quadratic"].map(|it| format!("{name}.spring.{it}")));
+        }
+    }
+
+    #[test]
+    fn one_place_is_part_of_its_axle_and_of_all() {
+        let plant = Rig::published("full-car").unwrap().plant;
+        let at = |place: &str| of_struts(&plant, "04").find(|it| it.element.place() == Some(place)).unwrap();
+        let several: Vec<&str> =
+            joints_of(&plant, at("rear_left")).iter().map(|it| it.element.name()).collect();
+        assert_eq!(several, ["strut.rear", "strut.all"]);
+        assert!(joints_of(&plant, at("all")).is_empty());
+        let only = all().find(|it| it.id == "01" && it.element == Element::STRUT).unwrap();
+        assert_eq!(first_of(&plant, only).element.name(), "strut.front_left");
+        let quarter = Rig::published("quarter-car").unwrap().plant;
+        assert!(std::ptr::eq(first_of(&quarter, only), only) && joints_of(&quarter, only).is_empty());
+    }
+
+    #[test]
+    fn an_entry_is_made_once() {
+        let made = || Placed::at(Element::TIRE.at("rear_left")).effects.as_ptr();
+        assert_eq!(made(), made());
+    }
+
+    #[test]
+    fn what_is_a_setting_alone_has_no_place() {
+        let plant = Rig::published("full-car").unwrap().plant;
+        let lift_off: Vec<&Effect> = effects(&plant).filter(|it| it.id == "20").collect();
+        assert_eq!(lift_off.iter().map(|it| it.element).collect::<Vec<_>>(), [Element::TIRE]);
+    }
+}

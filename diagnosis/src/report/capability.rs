@@ -228,7 +228,10 @@ fn parameters(text: &mut Text, rig: &Rig, foreign: &Foreign) {
     };
     let given: Vec<usize> = (0..plant.parameters.len())
         .filter(|it| {
-            !base.contains(it) && !plant.parameters[*it].port && !of_effects(&plant.parameters[*it].name)
+            !base.contains(it)
+                && !plant.parameters[*it].port
+                && !plant.is_joint(*it)
+                && !of_effects(&plant.parameters[*it].name)
         })
         .collect();
     if given.is_empty() && foreign.unnamed.is_empty() {

@@ -1,18 +1,18 @@
 //! A car on four wheels with one cause at a corner, at both corners of an axle, or at all: own equations, integrated at 20 kHz.
 
+mod page;
+
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
-use std::time::Instant;
-
-use serde_json::Value as Json;
 
 use crate::car::RATE;
 use crate::case::{Table, Value};
 use crate::excitation::{Profile, road};
 use crate::random::Random;
 use crate::sensors::Sensor;
+
+pub use page::{judged, page, worse};
 
 /// The corners, as the model calls them.
 const CORNERS: [&str; 4] = ["front_left", "front_right", "rear_left", "rear_right"];
@@ -28,6 +28,8 @@ const LATER: f64 = 0.3375;
 const HEIGHTS: [f64; 2] = [0.025, 0.03];
 /// Noise, in shares of each signal's root mean square: 40 dB below it.
 const NOISE: f64 = 0.01;
+/// That of the roads: 60 dB. At 40 dB, the tyres would make more force of it than the causes do.
+const ROAD_NOISE: f64 = 0.001;
 /// Share of some signal's root mean square that a cause changes at least. It is enlarged until it does.
 const VISIBLE: f64 = 0.1;
 /// How much of a record is looked at for that, in s.
@@ -239,7 +241,8 @@ impl Car {
         names.extend(at(|it| format!("wheel.{it}.force")).map(|it| (it, "N")));
         let column = |((name, unit), signal): ((String, &str), Vec<f64>)| {
             let mut random = Random::new(seed, &format!("noise of {name} in {purpose}"));
-            let sensor = Sensor { noise: NOISE * rms(&signal), ..Sensor::default() };
+            let share = if name.starts_with("road.") { ROAD_NOISE } else { NOISE };
+            let sensor = Sensor { noise: share * rms(&signal), ..Sensor::default() };
             let mut shown = sensor.measure(&signal, SAMPLED, &mut random);
             shown.truncate((DURATION * SAMPLED) as usize + 1);
             (name, unit.to_owned(), shown)
@@ -315,72 +318,6 @@ pub fn write(seed: u64, hidden: Option<&Hidden>, folder: &Path) -> Result<(), St
     fs::write(folder.join("start.toml"), text).map_err(failed)
 }
 
-/// A row of the page: what was hidden, what was found, how much of it, and how long that took.
-///
-/// # Errors
-/// If the program cannot be run or leaves no report.
-pub fn judged(program: &Path, seed: u64, hidden: Option<&Hidden>, below: &Path) -> Result<String, String> {
-    let name = hidden.map_or_else(|| format!("{seed} none"), |it| format!("{seed} {}", it.named()));
-    let folder = below.join(name.replace(' ', "-"));
-    write(seed, hidden, &folder)?;
-    let begin = Instant::now();
-    let file = |name: &str| folder.join(name);
-    let output = Command::new(program)
-        .args(["--parameters".as_ref(), file("start.toml").as_os_str()])
-        .args([
-            "--train".as_ref(),
-            file("train.csv").as_os_str(),
-            "--test".as_ref(),
-            file("test.csv").as_os_str(),
-        ])
-        .args(["--out".as_ref(), file("report").as_os_str(), "--no-fmu".as_ref()])
-        .output()
-        .map_err(|error| format!("{} cannot be run: {error}", program.display()))?;
-    let seconds = begin.elapsed().as_secs_f64();
-    let text = fs::read_to_string(file("report/report.json")).map_err(|error| {
-        format!("{name}: {error}; it said: {}", String::from_utf8_lossy(&output.stderr).trim())
-    })?;
-    let report: Json = serde_json::from_str(&text).map_err(|error| format!("{name}: {error}"))?;
-    let effects = report["effects"].as_array().map_or(&[][..], Vec::as_slice);
-    let text = |value: &Json| value.as_str().unwrap_or_default().to_owned();
-    let found: Vec<String> =
-        effects.iter().map(|it| format!("{} {}", text(&it["id"]), text(&it["element"]))).collect();
-    let expected: Vec<String> = hidden.iter().map(|it| it.named()).collect();
-    let size = effects.first().and_then(|it| it["parameters"][0]["value"].as_f64());
-    let right = if found == expected { "yes" } else { "no" };
-    let shown = |list: &[String]| if list.is_empty() { "nothing".to_owned() } else { list.join(", ") };
-    let size = size.map_or(String::new(), |it| format!("{it:.4}"));
-    Ok(format!(
-        "| {seed} | {} | {} | {size} | {right} | {} | {seconds:.0} |\n",
-        shown(&expected),
-        shown(&found),
-        text(&report["verdict"])
-    ))
-}
-
-/// The page of some rows.
-pub fn page(program: &str, seeds: u64, rows: &[String]) -> String {
-    let right = rows.iter().filter(|row| is_right(row)).count();
-    format!(
-        "# A car on four wheels\n\n{right} of {} cars right, by `blind four-wheels --program {program} --seeds {seeds}`. A size is that of \
-         the first effect's first parameter.\n\n| seed | hidden | found | size | right | verdict | seconds |\n\
-         |---|---|---|---|---|---|---|\n{}",
-        rows.len(),
-        rows.concat()
-    )
-}
-
-fn is_right(row: &str) -> bool {
-    row.contains("| yes |")
-}
-
-/// Seed and cause of rows that are wrong and are right on an earlier page.
-pub fn worse(rows: &[String], page: &str) -> Vec<String> {
-    let key = |row: &str| row.split('|').skip(1).take(2).map(str::trim).collect::<Vec<_>>().join(" ");
-    let was_right = |row: &str| page.lines().any(|it| is_right(it) && key(it) == key(row));
-    rows.iter().filter(|row| !is_right(row) && was_right(row)).map(|row| key(row)).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -399,16 +336,6 @@ mod tests {
                 .iter()
                 .all(|(_, it)| it.as_ref().is_some_and(|it| CORNERS.contains(&it.place.as_str())))
         );
-    }
-
-    #[test]
-    fn what_has_become_wrong_is_told_from_what_was_wrong() {
-        let row = |seed: u64, right: &str| {
-            format!("| {seed} | 01 strut.front_left | x | 1 | {right} | identified | 9 |\n")
-        };
-        let page = page("diagnose", 2, &[row(1, "yes"), row(2, "no")]);
-        assert!(page.contains("1 of 2 cars right"), "{page}");
-        assert_eq!(worse(&[row(1, "no"), row(2, "no"), row(3, "no")], &page), ["1 01 strut.front_left"]);
     }
 
     #[test]
