@@ -297,6 +297,18 @@ pub fn list(seeds: u64) -> Vec<(u64, Option<Hidden>)> {
     single.chain((seeds + 1..).zip(several)).collect()
 }
 
+/// How much of a cause is hidden in a car: N, share, N/m³, N/m².
+pub fn size(seed: u64, hidden: &Hidden) -> f64 {
+    let car = Car::real(seed, Some(hidden));
+    let corner = (0..4).find(|it| hidden.is_at(*it)).unwrap_or_default();
+    match hidden.law {
+        Law::Friction => car.friction[corner],
+        Law::Asymmetry => car.asymmetry[corner],
+        Law::CubicSpring => car.cubic[corner],
+        Law::ProgressiveTire => car.progressive[corner],
+    }
+}
+
 /// Writes a car's records and what is published of it to a folder.
 ///
 /// # Errors
