@@ -101,3 +101,24 @@ impl Port {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_port_is_at_the_element_whose_name_its_constant_has() {
+        let rig = Rig::published("full-car").unwrap();
+        let ports = Port::of_model(&rig, |_| true);
+        let (constants, commands) = ports.split_at(8);
+        for (port, element) in constants.iter().zip(rig.kind.elements.iter().map(|it| it.element)) {
+            assert_eq!((port.place.as_str(), port.element), (element.name(), Some(element)));
+        }
+        let of_command = |place: &str| commands.iter().find(|it| it.place == place).unwrap().element;
+        let rear_left = Element::ACTUATOR.at("rear_left");
+        assert_eq!((commands.len(), of_command("actuator.rear_left.force")), (4, Some(rear_left)));
+        let quarter = Rig::published("quarter-car").unwrap();
+        let force = Port::of_model(&quarter, |_| true).pop().unwrap();
+        assert_eq!((force.place.as_str(), force.element), ("actuator.force", Some(Element::ACTUATOR)));
+    }
+}
