@@ -3,6 +3,7 @@
 //! A joint parameter is added to those of its members: `strut.front.coulomb.force` to that of both front struts. Where it has
 //! its start value it changes nothing, and its derivative is the sum of its members'.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use strut_model::Declaration;
@@ -39,16 +40,13 @@ impl Instance {
             of: of.into_iter().map(str::to_owned).collect(),
         };
         let mut all: Vec<Self> = places.iter().map(|place| instance(place, Vec::new())).collect();
-        let mut words: Vec<&str> = places.iter().filter_map(|place| Some(place.split_once('_')?.0)).collect();
-        words.dedup();
-        for word in words {
-            let shared: Vec<&str> = places
-                .iter()
-                .copied()
-                .filter(|it| it.split_once('_').is_some_and(|(first, _)| first == word))
-                .collect();
-            if (2..places.len()).contains(&shared.len()) && !places.contains(&word) {
-                all.push(instance(word, shared));
+        let first = |place: &str| Some(place.split_once('_')?.0.to_owned());
+        for word in places.iter().filter_map(|place| first(place)) {
+            let has_it = |place: &&str| first(place).as_ref() == Some(&word);
+            let shared: Vec<&str> = places.iter().copied().filter(has_it).collect();
+            let is_new = all.iter().all(|it| it.place != word);
+            if (2..places.len()).contains(&shared.len()) && is_new {
+                all.push(instance(&word, shared));
             }
         }
         if places.len() > 1 && !places.contains(&ALL) {
@@ -75,7 +73,6 @@ impl Plant {
     /// The same with joint parameters of these instances, behind its own.
     #[must_use]
     pub fn with_instances(self, instances: Vec<Instance>) -> Self {
-        let own = self.parameters.len();
         let (mut joints, mut declared) = (Vec::new(), Vec::<Declaration>::new());
         for instance in instances.iter().filter(|it| it.is_joint()) {
             let first = format!("{}.{}.", instance.group, instance.of[0]);
@@ -92,13 +89,16 @@ impl Plant {
                 joints.push(Joint { start: self.parameters[index].start, members });
             }
         }
+        if joints.is_empty() {
+            return Self { instances, ..self };
+        }
         let (joints, inner): (Arc<[Joint]>, _) = (joints.into(), self.prepare);
         Self {
             parameters: self.parameters.into_iter().chain(declared).collect(),
             instances,
             joints: joints.clone(),
             prepare: Arc::new(move |choices| {
-                Ok(Box::new(Together { inner: inner(choices)?, own, joints: joints.clone() }))
+                Ok(Box::new(Together { inner: inner(choices)?, joints: joints.clone() }))
             }),
             ..self
         }
@@ -127,25 +127,31 @@ pub(super) fn own(joints: &[Joint], parameters: &[f64]) -> Vec<f64> {
 /// Equations whose joint parameters are added to their members.
 struct Together {
     inner: Box<dyn Dynamics>,
-    own: usize,
     joints: Arc<[Joint]>,
 }
 
 impl Together {
-    /// Seeds of the model's own, and for each seed the range of those that make it up.
-    fn members(&self, seeds: &[Seed]) -> (Vec<Seed>, Vec<std::ops::Range<usize>>) {
+    /// The joint parameter of a seed; `parameters` is the number of all parameters.
+    fn joint(&self, seed: &Seed, parameters: usize) -> Option<&Joint> {
+        let Seed::Parameter(index) = seed else { return None };
+        self.joints.get(index.checked_sub(parameters - self.joints.len())?)
+    }
+
+    /// Seeds of the model's own, and for each seed the range of its members; none if all are the model's own.
+    fn members(&self, seeds: &[Seed], parameters: usize) -> Option<(Vec<Seed>, Vec<Range<usize>>)> {
+        if seeds.iter().all(|seed| self.joint(seed, parameters).is_none()) {
+            return None;
+        }
         let (mut all, mut ranges) = (Vec::new(), Vec::new());
         for seed in seeds {
             let first = all.len();
-            match seed {
-                Seed::Parameter(index) if *index >= self.own => {
-                    all.extend(self.joints[index - self.own].members.iter().map(|it| Seed::Parameter(*it)));
-                }
-                other => all.push(other.clone()),
+            match self.joint(seed, parameters) {
+                Some(joint) => all.extend(joint.members.iter().map(|it| Seed::Parameter(*it))),
+                None => all.push(seed.clone()),
             }
             ranges.push(first..all.len());
         }
-        (all, ranges)
+        Some((all, ranges))
     }
 }
 
@@ -162,8 +168,11 @@ impl Dynamics for Together {
         seeds: &[Seed],
         wanted: &[usize],
     ) -> Linearised {
-        let (members, ranges) = self.members(seeds);
-        let mut all = self.inner.linearised(&own(&self.joints, parameters), start, drive, &members, wanted);
+        let numbers = own(&self.joints, parameters);
+        let Some((members, ranges)) = self.members(seeds, parameters.len()) else {
+            return self.inner.linearised(&numbers, start, drive, seeds, wanted);
+        };
+        let mut all = self.inner.linearised(&numbers, start, drive, &members, wanted);
         let mut own = std::mem::take(&mut all.slopes).into_iter();
         all.slopes = ranges
             .into_iter()
@@ -188,13 +197,12 @@ impl Dynamics for Together {
         (seeds, wanted): (&[Seed], &[usize]),
         follower: &mut dyn Follower,
     ) {
-        let (members, ranges) = self.members(seeds);
-        let parameters = own(&self.joints, parameters);
-        if members.len() == seeds.len() {
-            return self.inner.followed(&parameters, start, drive, (seeds, wanted), follower);
-        }
+        let numbers = own(&self.joints, parameters);
+        let Some((members, ranges)) = self.members(seeds, parameters.len()) else {
+            return self.inner.followed(&numbers, start, drive, (seeds, wanted), follower);
+        };
         let mut summed = Summed { follower, ranges, members: members.len(), slopes: Vec::new() };
-        self.inner.followed(&parameters, start, drive, (&members, wanted), &mut summed);
+        self.inner.followed(&numbers, start, drive, (&members, wanted), &mut summed);
     }
 
     fn check(&self, parameters: &[f64]) -> Result<(), String> {
@@ -205,7 +213,7 @@ impl Dynamics for Together {
 /// Hands the slopes of joint parameters on, the sums of their members'.
 struct Summed<'a> {
     follower: &'a mut dyn Follower,
-    ranges: Vec<std::ops::Range<usize>>,
+    ranges: Vec<Range<usize>>,
     members: usize,
     slopes: Vec<f64>,
 }
@@ -258,6 +266,9 @@ mod tests {
         let names: Vec<&str> = instances.iter().map(|it| it.place.as_str()).collect();
         assert_eq!(names, ["front_left", "front_right", "rear_left", "rear_right", "front", "rear", "all"]);
         assert_eq!(instances[4].of, ["front_left", "front_right"]);
+        let mixed = Instance::of("strut", &["front_left", "rear_left", "front_right", "rear_right"]);
+        let names: Vec<&str> = mixed[4..].iter().map(|it| it.place.as_str()).collect();
+        assert_eq!(names, ["front", "rear", "all"]);
         let two: Vec<Instance> = Instance::of("strut", &["a", "b"]);
         assert_eq!(two.iter().map(|it| it.of.len()).collect::<Vec<_>>(), [0, 0, 2]);
         assert_eq!(Instance::of("strut", &["left_one", "left_two"]).len(), 3);
