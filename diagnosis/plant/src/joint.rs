@@ -10,7 +10,7 @@ use strut_model::Declaration;
 
 use crate::{Drive, Dynamics, Follower, Linearised, Plant, Seed, Seen, Signals};
 
-/// What all places of an element are called together.
+/// Name of all places of an element together.
 pub const ALL: &str = "all";
 
 /// Several elements of one kind, or one of them.
@@ -18,7 +18,7 @@ pub const ALL: &str = "all";
 pub struct Instance {
     /// The group of parameters: `strut`.
     pub group: String,
-    /// The place, or what several places have in common: `front_left`, `front`, `all`.
+    /// The place, or the common name of several: `front_left`, `front`, `all`.
     pub place: String,
     /// Several places; empty if it is one.
     pub of: Vec<String>,
@@ -105,7 +105,7 @@ impl Plant {
     }
 }
 
-/// What descriptions say alike: `Strut: Front left: Damping rate` and that of the front right are of `Strut: Damping rate`.
+/// The common parts of descriptions: `Strut: Front left: Damping rate` and that of the front right are of `Strut: Damping rate`.
 fn common<'a>(docs: impl Iterator<Item = &'a str>) -> String {
     let all: Vec<Vec<&str>> = docs.map(|doc| doc.split(": ").collect()).collect();
     let first = all.first().cloned().unwrap_or_default();
@@ -137,7 +137,7 @@ impl Together {
         self.joints.get(index.checked_sub(parameters - self.joints.len())?)
     }
 
-    /// Seeds of the model's own, and for each seed the range of its members; none if all are the model's own.
+    /// Seeds of the model's own, with the range of each seed's members, where a joint parameter is among them.
     fn members(&self, seeds: &[Seed], parameters: usize) -> Option<(Vec<Seed>, Vec<Range<usize>>)> {
         if seeds.iter().all(|seed| self.joint(seed, parameters).is_none()) {
             return None;

@@ -1,4 +1,4 @@
-//! The elements of a rig: what effects act on.
+//! The elements of a rig, on which effects act.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -6,7 +6,7 @@ use serde::de::value::{Error as Unknown, StrDeserializer};
 use serde::de::{Error, IntoDeserializer};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// What an element is.
+/// Kinds of elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ElementKind {
@@ -105,7 +105,7 @@ impl Element {
         Self::of(self.kind)
     }
 
-    /// What it is.
+    /// Its kind.
     pub fn kind(self) -> ElementKind {
         self.kind
     }
@@ -115,7 +115,7 @@ impl Element {
         self.name
     }
 
-    /// Its place; none if it is the only one of its kind.
+    /// Its place among several of its kind.
     pub fn place(self) -> Option<&'static str> {
         self.name.strip_prefix(self.kind.name())?.strip_prefix('.')
     }

@@ -18,7 +18,7 @@ pub(super) fn placed(plant: &Plant) -> impl Iterator<Item = Placed> {
     plant.instances.iter().filter_map(|it| Some(Placed::at(element(it)?)))
 }
 
-/// What stands for several elements of a plant at once, with those elements.
+/// Elements that stand for several of a plant at once, with those.
 pub fn joints(plant: &Plant) -> impl Iterator<Item = (Element, Vec<Element>)> {
     let joint = plant.instances.iter().filter(|it| it.is_joint());
     joint.filter_map(|it| {
@@ -62,7 +62,7 @@ impl Placed {
     fn made(element: Element) -> Self {
         let place = element.place().unwrap_or_default();
         let name = |parameter: &str| -> &'static str { plant::placed(parameter, place).leak() };
-        // What is a setting of the model and nothing else is not of one place.
+        // An effect that is a setting of the model alone has no place.
         let own = all().filter(|it| it.element.kind() == element.kind() && !it.parts.is_empty());
         let effects = own.map(|effect| {
             let part = |part: &Part| Part { parameter: name(part.parameter), ..*part };
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_a_setting_alone_has_no_place() {
+    fn a_setting_alone_has_no_place() {
         let plant = Rig::published("full-car").unwrap().plant;
         let lift_off: Vec<&Effect> = effects(&plant).filter(|it| it.id == "20").collect();
         assert_eq!(lift_off.iter().map(|it| it.element).collect::<Vec<_>>(), [Element::TIRE]);

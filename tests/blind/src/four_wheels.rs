@@ -50,7 +50,7 @@ pub enum Law {
     ProgressiveTire,
 }
 
-/// What is hidden where.
+/// A cause and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hidden {
     /// The cause.
@@ -77,7 +77,7 @@ struct Car {
 /// Heave, roll and pitch, then the wheels: positions; the same: velocities.
 type State = [[f64; 7]; 2];
 
-/// What is measured of a state.
+/// Measured signals, without the roads.
 struct Shown {
     body: [f64; 3],
     wheels: [f64; 4],
@@ -113,7 +113,7 @@ impl Hidden {
 }
 
 impl Car {
-    /// What is published of it.
+    /// With the published values.
     fn published() -> Self {
         Self {
             mass: 1400.0,
@@ -160,15 +160,24 @@ impl Car {
     /// The same with a cause, `size` times a small one.
     fn with(&self, hidden: &Hidden, size: f64) -> Self {
         let mut car = self.clone();
-        for corner in (0..4).filter(|it| hidden.is_at(*it)) {
-            match hidden.law {
-                Law::Friction => car.friction[corner] = 10.0 * size,
-                Law::Asymmetry => car.asymmetry[corner] = 0.05 * size,
-                Law::CubicSpring => car.cubic[corner] = 5e6 * size,
-                Law::ProgressiveTire => car.progressive[corner] = 1e6 * size,
-            }
-        }
+        let (amounts, small) = car.amounts(hidden.law);
+        (0..4).filter(|it| hidden.is_at(*it)).for_each(|it| amounts[it] = small * size);
         car
+    }
+
+    /// The amounts of a law at the corners, and a small one: N, a share, N/m³ or N/m².
+    fn amounts(&mut self, law: Law) -> (&mut [f64; 4], f64) {
+        match law {
+            Law::Friction => (&mut self.friction, 10.0),
+            Law::Asymmetry => (&mut self.asymmetry, 0.05),
+            Law::CubicSpring => (&mut self.cubic, 5e6),
+            Law::ProgressiveTire => (&mut self.progressive, 1e6),
+        }
+    }
+
+    /// The largest amount of a law.
+    fn amount(&self, law: Law) -> f64 {
+        self.clone().amounts(law).0.iter().copied().fold(0.0, f64::max)
     }
 
     fn rates(&self, state: &State, roads: [f64; 4]) -> (State, Shown) {
@@ -194,7 +203,7 @@ impl Car {
         ([state[1], accelerations], shown)
     }
 
-    /// One step of the classical Runge–Kutta method, and what is measured at its beginning.
+    /// One step of the classical Runge–Kutta method, and the measured signals at its beginning.
     fn stepped(&self, state: &State, roads: impl Fn(f64) -> [f64; 4]) -> (State, Shown) {
         let h = 1.0 / RATE;
         let along = |rates: &State, by: f64| -> State {
@@ -210,7 +219,7 @@ impl Car {
         (along(&mean, h), shown)
     }
 
-    /// What is measured on two tracks, at every step.
+    /// All signals on two tracks, at every step: roads, body, wheels, deflections, forces.
     fn run(&self, tracks: &[Profile; 2], duration: f64) -> Vec<Vec<f64>> {
         let roads = |time: f64| -> [f64; 4] {
             std::array::from_fn(|corner| tracks[corner % 2].at(time - LATER * (corner / 2) as f64).0)
@@ -285,8 +294,8 @@ fn rms(signal: &[f64]) -> f64 {
     (signal.iter().map(|it| it * it).sum::<f64>() / signal.len() as f64).sqrt()
 }
 
-/// What is hidden in the cars of the list: one cause at one corner for so many seeds, then one at an axle, one at all corners,
-/// and nothing.
+/// The cars of the list, by their seeds: `seeds` with one cause at one corner, then one with a cause at an axle, one at all
+/// corners, and one with none.
 pub fn list(seeds: u64) -> Vec<(u64, Option<Hidden>)> {
     let single = (1..=seeds).map(|seed| {
         let corner = (Random::new(seed, "corner").unit() * 4.0) as usize;
@@ -297,31 +306,15 @@ pub fn list(seeds: u64) -> Vec<(u64, Option<Hidden>)> {
     single.chain((seeds + 1..).zip(several)).collect()
 }
 
-/// How much of a cause is hidden in a car: N, share, N/m³, N/m².
-pub fn size(seed: u64, hidden: &Hidden) -> f64 {
-    let car = Car::real(seed, Some(hidden));
-    let corner = (0..4).find(|it| hidden.is_at(*it)).unwrap_or_default();
-    match hidden.law {
-        Law::Friction => car.friction[corner],
-        Law::Asymmetry => car.asymmetry[corner],
-        Law::CubicSpring => car.cubic[corner],
-        Law::ProgressiveTire => car.progressive[corner],
-    }
-}
-
-/// Writes a car's records and what is published of it to a folder.
-///
-/// # Errors
-/// If that fails.
-pub fn write(seed: u64, hidden: Option<&Hidden>, folder: &Path) -> Result<(), String> {
+/// Writes a car's records and its published values to a folder.
+fn write(car: &Car, seed: u64, folder: &Path) -> Result<(), String> {
     let failed = |error: std::io::Error| format!("{} cannot be written: {error}", folder.display());
     fs::create_dir_all(folder).map_err(failed)?;
-    let car = Car::real(seed, hidden);
     for (purpose, height) in ["train", "test"].into_iter().zip(HEIGHTS) {
         let table = car.record(seed, purpose, height);
         fs::write(folder.join(format!("{purpose}.csv")), table.csv()).map_err(failed)?;
     }
-    let mut text = "fmu = \"BlindCar\"\nmodel = \"FullCar\"\ntitle = \"What is known of the car\"\nsource = \"start\"\n\n\
+    let mut text = "fmu = \"BlindCar\"\nmodel = \"FullCar\"\ntitle = \"Published values of a car\"\nsource = \"start\"\n\n\
                     [values]\ntire.lift_off = { value = false, source = \"start\" }\n"
         .to_owned();
     for Value { name, unit, value } in Car::published().values() {

@@ -36,51 +36,25 @@ enum Command {
     },
     /// Make cases, run a diagnosis on each, score it, and write a page; cases that have a report are not run again
     Run {
-        /// The program, `diagnose` or one that takes its arguments
-        #[arg(long)]
-        program: PathBuf,
+        #[command(flatten)]
+        trial: Trial,
         /// Only cases whose name contains one of these
         #[arg(long = "only")]
         only: Vec<String>,
-        /// A part of the list: `2/6` is every sixth case from the second on
-        #[arg(long, value_parser = part)]
-        part: Option<(usize, usize)>,
         #[command(flatten)]
         list: Selection,
-        /// Where to: each case gets a folder there
-        #[arg(long)]
-        out: PathBuf,
-        /// An earlier page: a case that is wrong now and is not listed there as wrong is an error
-        #[arg(long)]
-        no_worse_than: Option<PathBuf>,
-        /// The page with figures and confusion matrix
-        #[arg(long)]
-        page: PathBuf,
         /// Further arguments of the program, after `--`
         #[arg(last = true)]
         arguments: Vec<String>,
     },
     /// Make cars on four wheels with a cause at one corner, at an axle, at all, and with none; run a diagnosis on each and write
-    /// a page
+    /// a page; cars that have a report are not run again
     FourWheels {
-        /// The program, `diagnose` or one that takes its arguments
-        #[arg(long)]
-        program: PathBuf,
-        /// How many with a cause at one corner
+        #[command(flatten)]
+        trial: Trial,
+        /// Number of cars with a cause at one corner
         #[arg(long, default_value_t = 10)]
         seeds: u64,
-        /// A part of the list: `2/6` is every sixth car from the second on
-        #[arg(long, value_parser = part, default_value = "1/1")]
-        part: (usize, usize),
-        /// Where to: each car gets a folder there
-        #[arg(long)]
-        out: PathBuf,
-        /// An earlier page: a car that is wrong now and was right there is an error
-        #[arg(long)]
-        no_worse_than: Option<PathBuf>,
-        /// The page
-        #[arg(long)]
-        page: PathBuf,
     },
     /// Compare the reports in cases' folders with the truth
     Score {
@@ -88,6 +62,57 @@ enum Command {
         #[arg(required = true)]
         folders: Vec<PathBuf>,
     },
+}
+
+/// Program, part of a list, and files of a trial.
+#[derive(Args)]
+struct Trial {
+    /// The program, `diagnose` or one that takes its arguments
+    #[arg(long)]
+    program: PathBuf,
+    /// A part of the list: `2/6` is every sixth one from the second on
+    #[arg(long, value_parser = part)]
+    part: Option<(usize, usize)>,
+    /// Where to: each case gets a folder there
+    #[arg(long)]
+    out: PathBuf,
+    /// An earlier page: a case that is wrong now and was right there is an error
+    #[arg(long)]
+    no_worse_than: Option<PathBuf>,
+    /// The page
+    #[arg(long)]
+    page: PathBuf,
+}
+
+impl Trial {
+    /// The part of a list.
+    fn of<T>(&self, all: impl Iterator<Item = T>) -> impl Iterator<Item = T> {
+        let (first, step) = self.part.unwrap_or((1, 1));
+        all.skip(first - 1).step_by(step)
+    }
+
+    /// The program as a page calls it.
+    fn name(&self) -> String {
+        self.program.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    }
+
+    /// Writes the page.
+    fn write(&self, text: &str) -> Result<(), String> {
+        std::fs::write(&self.page, text)
+            .map_err(|error| format!("{} cannot be written: {error}", self.page.display()))
+    }
+
+    /// Refuses cases that are worse than on the earlier page.
+    fn compare(&self, worse: impl Fn(&str) -> Vec<String>) -> Result<(), String> {
+        let Some(earlier) = &self.no_worse_than else { return Ok(()) };
+        let text = std::fs::read_to_string(earlier)
+            .map_err(|error| format!("{} cannot be read: {error}", earlier.display()))?;
+        let worse = worse(&text);
+        if worse.is_empty() {
+            return Ok(());
+        }
+        Err(format!("wrong, and right in {}: {}", earlier.display(), worse.join(", ")))
+    }
 }
 
 /// Which list of cases.
@@ -145,16 +170,16 @@ fn execute(command: Command) -> Result<(), String> {
                 println!("{}", files::write(&generate(case)?, &out)?.display());
             }
         }
-        Command::Run { program, only, part, list, out, no_worse_than, page, arguments } => {
+        Command::Run { trial, only, list, arguments } => {
             let wanted =
                 |case: &&Case| only.is_empty() || only.iter().any(|part| case.name.contains(part.as_str()));
             let others =
                 if arguments.is_empty() { String::new() } else { format!(" -- {}", arguments.join(" ")) };
-            let (all, run) = (list.cases(), Run { program, arguments, out });
+            let all = list.cases();
+            let run = Run { program: trial.program.clone(), arguments, out: trial.out.clone() };
             let mut scores = vec![];
             let mut failed = vec![];
-            let (first, step) = part.unwrap_or((1, 1));
-            for case in all.iter().filter(wanted).skip(first - 1).step_by(step) {
+            for case in trial.of(all.iter().filter(wanted)) {
                 match run.case(case) {
                     Ok(score) => {
                         eprintln!("{}: {:?}, called {}", score.case, score.outcome, score.first);
@@ -167,42 +192,23 @@ fn execute(command: Command) -> Result<(), String> {
                 }
             }
             let mut parts: Vec<String> = only.iter().map(|part| format!(" --only {part}")).collect();
-            parts.extend(part.map(|(first, step)| format!(" --part {first}/{step}")));
-            let name = run.program.file_stem().unwrap_or_default().to_string_lossy();
-            let command = format!("blind run --program {name}{list}{}{others}", parts.concat());
-            std::fs::write(&page, run::page(&command, &scores))
-                .map_err(|error| format!("{} cannot be written: {error}", page.display()))?;
+            parts.extend(trial.part.map(|(first, step)| format!(" --part {first}/{step}")));
+            let command = format!("blind run --program {}{list}{}{others}", trial.name(), parts.concat());
+            trial.write(&run::page(&command, &scores))?;
             if !failed.is_empty() {
                 return Err(format!("no report of {}", failed.join(", ")));
             }
-            if let Some(earlier) = no_worse_than {
-                let text = std::fs::read_to_string(&earlier)
-                    .map_err(|error| format!("{} cannot be read: {error}", earlier.display()))?;
-                let worse: Vec<&str> =
-                    run::worse(&scores, &text).iter().map(|score| score.case.as_str()).collect();
-                if !worse.is_empty() {
-                    return Err(format!("wrong, and right in {}: {}", earlier.display(), worse.join(", ")));
-                }
-            }
+            trial.compare(|page| run::worse(&scores, page).iter().map(|it| it.case.clone()).collect())?;
         }
-        Command::FourWheels { program, seeds, part: (first, step), out, no_worse_than, page } => {
-            let name = program.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Command::FourWheels { trial, seeds } => {
             let mut rows = vec![];
-            for (seed, hidden) in four_wheels::list(seeds).into_iter().skip(first - 1).step_by(step) {
-                let row = four_wheels::judged(&program, seed, hidden.as_ref(), &out)?;
+            for (seed, hidden) in trial.of(four_wheels::list(seeds).into_iter()) {
+                let row = four_wheels::judged(&trial.program, seed, hidden.as_ref(), &trial.out)?;
                 eprint!("{row}");
                 rows.push(row);
             }
-            std::fs::write(&page, four_wheels::page(&name, seeds, &rows))
-                .map_err(|error| format!("{} cannot be written: {error}", page.display()))?;
-            if let Some(earlier) = no_worse_than {
-                let text = std::fs::read_to_string(&earlier)
-                    .map_err(|error| format!("{} cannot be read: {error}", earlier.display()))?;
-                let worse = four_wheels::worse(&rows, &text);
-                if !worse.is_empty() {
-                    return Err(format!("wrong, and right in {}: {}", earlier.display(), worse.join(", ")));
-                }
-            }
+            trial.write(&four_wheels::page(&trial.name(), seeds, &rows))?;
+            trial.compare(|page| four_wheels::worse(&rows, page))?;
         }
         Command::Score { folders } => {
             let mut scores = vec![];

@@ -1,4 +1,4 @@
-//! What a diagnosis finds in such cars, as a page.
+//! The findings of a diagnosis on such cars, as a page.
 
 use std::fs;
 use std::path::Path;
@@ -6,9 +6,9 @@ use std::process::Command;
 
 use serde_json::Value as Json;
 
-use super::{Hidden, size, write};
+use super::{Car, Hidden, write};
 
-/// A row of the page: what was hidden, what was found, how much of it, and how long that took. A car that has a report is not
+/// A row of the page: cause and size as hidden and as found, verdict and time. A car that has a report is not
 /// diagnosed again.
 ///
 /// # Errors
@@ -17,9 +17,10 @@ pub fn judged(program: &Path, seed: u64, hidden: Option<&Hidden>, below: &Path) 
     let name = hidden.map_or_else(|| format!("{seed} none"), |it| format!("{seed} {}", it.named()));
     let folder = below.join(name.replace(' ', "-"));
     let file = |name: &str| folder.join(name);
+    let car = Car::real(seed, hidden);
     let mut said = String::new();
     if !file("report/report.json").exists() {
-        write(seed, hidden, &folder)?;
+        write(&car, seed, &folder)?;
         let [train, test] = [file("train.csv"), file("test.csv")];
         let output = Command::new(program)
             .args(["--parameters".as_ref(), file("start.toml").as_os_str()])
@@ -47,7 +48,7 @@ pub fn judged(program: &Path, seed: u64, hidden: Option<&Hidden>, below: &Path) 
     Ok(format!(
         "| {seed} | {} | {} | {} | {} | {right} | {} | {:.0} |\n",
         shown(&expected),
-        number(hidden.map(|it| size(seed, it))),
+        number(hidden.map(|it| car.amount(it.law))),
         shown(&found),
         number(effects.first().and_then(|it| it["parameters"][0]["value"].as_f64())),
         text(&report["verdict"]),
