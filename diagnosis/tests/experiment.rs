@@ -39,6 +39,7 @@ fn record(rig: &Rig, parameters: &[f64], motion: Vec<f64>, seed: u64) -> Dataset
         between: Between::Lines,
         measured: vec![Measured { output, values, noise_floor: NOISE }],
         others: vec![],
+        errors: vec![],
         sections: std::iter::once(0..count).collect(),
     }
 }

@@ -98,6 +98,7 @@ fn seen(rig: &Rig, seed: u64, changes: &[(&str, f64)], push: f64, sensors: &[&st
         between: Between::Lines,
         measured: measured.collect(),
         others: vec![],
+        errors: vec![],
         sections: std::iter::once(0..n).collect(),
     }
 }

@@ -14,6 +14,7 @@ use crate::data::Channel;
 use crate::data::check::noise_floor;
 use crate::dataset::recorded::{Dataset, Measured, Source};
 use crate::plant::Between;
+use crate::signal::random::with_noise;
 use crate::signal::spectral::{about_line, filled};
 
 /// Samples a second that are enough.
@@ -54,13 +55,25 @@ impl Dataset {
             let parts = self.sections.iter().map(|section| present(&values[section.clone()], noise, factor));
             parts.flatten().collect()
         };
+        let known = |values: &[f64]| -> Vec<f64> {
+            self.sections.iter().flat_map(|it| values[it.clone()].to_vec()).collect()
+        };
         let inputs = self.inputs.iter().map(|source| match source {
             Source::Measured(values) => {
-                let known: Vec<f64> =
-                    self.sections.iter().flat_map(|it| values[it.clone()].to_vec()).collect();
-                Source::Measured(through(values, if denoised { noise_floor(&known) } else { 0.0 }))
+                Source::Measured(through(values, if denoised { noise_floor(&known(values)) } else { 0.0 }))
             }
             other => other.clone(),
+        });
+        let errors = (1..).zip(&self.inputs).map(|(channel, source)| match source {
+            Source::Measured(values) => {
+                let noise = noise_floor(&known(values));
+                let parts = self
+                    .sections
+                    .iter()
+                    .map(|it| error(&values[it.clone()], noise, (denoised, factor), channel));
+                parts.flatten().collect()
+            }
+            _ => Vec::new(),
         });
         let measured = self.measured.iter().map(|measured| Measured {
             output: measured.output,
@@ -72,6 +85,7 @@ impl Dataset {
             name: self.name.clone(),
             step: self.step * factor as f64,
             inputs: inputs.collect(),
+            errors: errors.collect(),
             between: Between::Curves,
             measured: measured.collect(),
             others: others.collect(),
@@ -104,6 +118,22 @@ fn filtered(values: &[f64], noise: f64, factor: usize) -> Vec<f64> {
     let (line, deviation) = about_line(values, |spectrum| {
         gains(spectrum, noise, factor).into_iter().map(Complex::from).collect()
     });
+    (0..values.len()).step_by(factor).map(|k| deviation[k] + line.at(k)).collect()
+}
+
+/// What white noise of a standard deviation makes of a signal's filtered samples: noise of another draw, through the same filter.
+fn error(values: &[f64], noise: f64, (denoised, factor): (bool, usize), channel: u64) -> Vec<f64> {
+    if noise == 0.0 || values.len() < 16 {
+        return vec![0.0; values.len().div_ceil(factor)];
+    }
+    let mut own = Vec::new();
+    let signal = filled(values).unwrap_or_else(|| values.to_vec());
+    about_line(&signal, |spectrum| {
+        own = gains(spectrum, if denoised { noise } else { 0.0 }, factor);
+        own.iter().map(|gain| Complex::from(*gain)).collect()
+    });
+    let drawn = with_noise(&vec![0.0; values.len()], noise, channel);
+    let (line, deviation) = about_line(&drawn, |_| own.into_iter().map(Complex::from).collect());
     (0..values.len()).step_by(factor).map(|k| deviation[k] + line.at(k)).collect()
 }
 

@@ -218,6 +218,7 @@ fn import(rig: &Rig, origin: &Origin, map: &Map) -> Result<Imported, String> {
             between: Between::Lines,
             measured,
             others: others(&mapped.record.time, mapped.unused),
+            errors: vec![],
             sections,
         }),
         problems,

@@ -252,6 +252,7 @@ mod tests {
             between: Between::Lines,
             measured: vec![Measured { output, values: force.collect(), noise_floor: 0.1 }],
             others: vec![],
+            errors: vec![],
             sections: std::iter::once(0..8000).collect(),
         }
     }

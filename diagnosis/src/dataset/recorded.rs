@@ -16,6 +16,9 @@ pub struct Dataset {
     pub step: f64,
     /// Where each input comes from.
     pub inputs: Vec<Source>,
+    /// What measured inputs may be off by: for each input, noise like that of its measurement, through the filters that its signal
+    /// passed; empty if it has none.
+    pub errors: Vec<Vec<f64>>,
     /// How the inputs go on between the samples.
     pub between: Between,
     /// What was measured.
@@ -85,6 +88,19 @@ impl Dataset {
     pub fn bent(&self, row: usize) -> Vec<f64> {
         let values = &self.measured[row].values;
         self.sections.iter().flat_map(|section| without_line(&values[section.clone()])).collect()
+    }
+
+    /// The same with inputs that are off by their errors; none if they have none.
+    pub fn disturbed(&self) -> Option<Self> {
+        let mut disturbed = self.clone();
+        let mut is_disturbed = false;
+        for (source, errors) in disturbed.inputs.iter_mut().zip(&self.errors) {
+            if let Source::Measured(values) = source {
+                is_disturbed |= errors.iter().any(|it| *it != 0.0);
+                values.iter_mut().zip(errors).for_each(|(value, error)| *value += error);
+            }
+        }
+        is_disturbed.then_some(disturbed)
     }
 
     /// The same with neighbouring sections in one: a filter needs no new start where a simulation does.
@@ -235,6 +251,7 @@ mod tests {
                 between,
                 measured: vec![],
                 others: vec![],
+                errors: vec![],
                 sections: std::iter::once(0..80).collect(),
             };
             let error = |(k, rate): (i32, &f64)| (rate / omega - (omega * time(k)).cos()).abs();

@@ -102,6 +102,7 @@ mod tests {
             between,
             measured,
             others: vec![],
+            errors: vec![],
             sections: vec![0..10, 20..23],
         };
         let sections = in_parts(&record).sections;

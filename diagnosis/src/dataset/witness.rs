@@ -141,6 +141,7 @@ mod tests {
             between: Between::Lines,
             measured: vec![Measured { output: 0, values, noise_floor: 0.1 }],
             others: vec![],
+            errors: vec![],
             sections: std::iter::once(0..length).collect(),
         }
     }

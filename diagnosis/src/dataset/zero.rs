@@ -102,6 +102,7 @@ mod tests {
             between: Between::Lines,
             measured: Vec::new(),
             others: Vec::new(),
+            errors: vec![],
             sections: std::iter::once(0..500).collect(),
         };
         let outputs = responses(rig, &*rig.plant.prepare(&rig.choices).unwrap(), &record).remove(0);

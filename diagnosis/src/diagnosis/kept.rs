@@ -110,6 +110,7 @@ mod tests {
             between: Between::Lines,
             measured: vec![Measured { output: 0, values, noise_floor: 0.0 }],
             others: vec![],
+            errors: vec![],
             sections: std::iter::once(0..100).collect(),
         };
         let left = vec![vec![vec![0.01; 100]]];

@@ -6,7 +6,7 @@ use crate::estimation::deadline::Stage;
 use crate::estimation::fit::Estimate;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::explain::describe::{MissingSignal, Unmodelled};
-use crate::explain::selection::{Choice, Compared, MOST_FITTED, Score, choose, likely};
+use crate::explain::selection::{Choice, Compared, MOST_FITTED, Score, Simulated, best_of, choose, likely};
 use crate::missing::innovations::Noise;
 use crate::missing::locate::Location;
 use crate::missing::motion::outputs;
@@ -85,7 +85,7 @@ impl Baseline<'_> {
             if found.compared.is_empty() {
                 found.compared = compared.ranking();
             }
-            let mut next = self.named(found, &compared, &mut refused, progress)?;
+            let mut next = self.named(found, (&missing, &compared), &mut refused, progress)?;
             let over = self.deadline.is_over(Stage::Search);
             if !matches!(next, Next::Effect) && refinements < REFINEMENTS && !over {
                 // Sensors that disagree by more than their noise decide the comparison until larger errors are assumed.
@@ -156,15 +156,15 @@ impl Baseline<'_> {
     fn named(
         &self,
         found: &mut Found,
-        compared: &Compared,
+        (missing, compared): (&Missing<'_>, &Compared),
         refused: &mut Vec<Term>,
         progress: &(dyn Fn(&str) + Sync),
     ) -> Result<Next, String> {
         let mut names = compared.named.clone();
-        let mut features = &compared.features[..];
+        let mut features = compared.features.clone();
         let mut curve = None;
         for _ in 0..ATTEMPTS {
-            let (scores, least) = match choose(compared.misses, &names, features) {
+            let (scores, least) = match choose(compared.misses, &names, &features) {
                 Choice::Nothing => return Ok(Next::Nothing),
                 Choice::Unmodelled(score) => {
                     curve = Some(score);
@@ -176,8 +176,9 @@ impl Baseline<'_> {
             // the innovations says little: a nominal parameter may have taken the effect's place. A rough shape promises less than
             // its fit holds.
             let open = self.is_open(&found.extended.test);
-            let promised = |it: &Score| self.improvement(&found.extended, if open { 1.0 } else { it.share });
-            if scores.first().is_none_or(|it| promised(it) < CRITERIA.rough * CRITERIA.improvement) {
+            let promised = |it: &Score| self.simulated((missing, compared), *it).improvement;
+            let visible = |it: &Score| open || promised(it) >= CRITERIA.rough * CRITERIA.improvement;
+            if !scores.first().is_some_and(visible) {
                 return Ok(curve.map_or(Next::Nothing, Next::Curve));
             }
             let mut proposals = compared.proposals(&scores, MOST_FITTED);
@@ -208,9 +209,16 @@ impl Baseline<'_> {
             if let Some(score) = curve {
                 return Ok(Next::Curve(score));
             }
-            // A signal that these laws nearly explain is not unmodelled.
+            // A signal of which these laws explain nearly as much in a simulation is not unmodelled.
+            let own = |it: &&Tried| scores.iter().any(|score| compared.is_of(score, it.term));
+            let explained = found.tried.iter().filter(own).map(|it| it.evidence.residual_reduction);
+            let explained = explained.fold(0.0, f64::max);
+            if let Some(best) = best_of(&features)
+                && explained >= CRITERIA.fitted * self.simulated((missing, compared), best).reduction
+            {
+                features.clear();
+            }
             names.retain(|it| !refused.iter().any(|term| compared.is_of(it, *term)));
-            features = &[];
         }
         Ok(Next::Nothing)
     }
@@ -222,8 +230,10 @@ impl Baseline<'_> {
         (missing, compared): (&Missing<'_>, &Compared),
         score: Score,
     ) -> Result<bool, String> {
-        let improvement = self.improvement(&found.extended, score.share);
-        if found.unmodelled.len() == PLACES || improvement < CRITERIA.improvement {
+        let improvement = self.simulated((missing, compared), score).improvement;
+        // Free features take the shape of what every rig has a little of, too.
+        let background = if self.is_open(&found.extended.test) { 1.0 } else { CRITERIA.background };
+        if found.unmodelled.len() == PLACES || improvement < background * CRITERIA.improvement {
             return Ok(false);
         }
         let port = compared.feature(score.candidate).map(|(port, _)| &missing.setting.ports[port]);
@@ -275,6 +285,13 @@ impl Baseline<'_> {
     fn is_worth_a_look(&self, fitted: &Fitted) -> bool {
         let above = |(row, error): (usize, f64)| (error - self.floor[row]) / bent_rms(self.train, row);
         self.roots(fitted).map(above).any(|it| it >= CRITERIA.improvement)
+    }
+
+    /// What a candidate would do in a simulation of the estimation records.
+    fn simulated(&self, (missing, compared): (&Missing<'_>, &Compared), score: Score) -> Simulated {
+        let magnitudes: Vec<f64> =
+            (0..missing.setting.magnitudes.len()).map(|row| bent_rms(self.train, row)).collect();
+        compared.simulated(score.candidate, missing, &magnitudes, self.rig.segment()).unwrap_or_default()
     }
 
     /// By how much the fit of the worst signal would rise without a share of its error's power.

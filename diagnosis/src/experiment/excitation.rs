@@ -74,6 +74,7 @@ impl Excitation {
             between: Between::Lines,
             measured: like.measured.iter().map(unknown).collect(),
             others: vec![],
+            errors: vec![],
             sections: (0..parts).map(|part| count * part / parts..count * (part + 1) / parts).collect(),
         }
     }
@@ -157,6 +158,7 @@ mod tests {
             between: Between::Curves,
             measured,
             others: vec![],
+            errors: vec![],
             sections,
         };
         let waves = vec![Wave { input: road, shape: Shape::Sine { frequency: 1.0 }, amplitude: 0.01 }];

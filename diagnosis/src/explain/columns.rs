@@ -6,7 +6,7 @@ use crate::estimation::hypothesis::Term;
 use crate::missing::innovations::Column;
 use crate::missing::ports::{Entry, Port};
 use crate::missing::trajectory::{Setting, Window};
-use crate::plant::{Dynamics, Follower, Seen};
+use crate::plant::{Drive, Dynamics, Follower, Seen};
 use crate::screening::rms;
 use crate::signal::distortion::Fault;
 
@@ -96,10 +96,32 @@ impl Setting<'_> {
         let changed =
             (point.inputs != self.point.inputs).then(|| record.drive(&window.samples, &point.inputs));
         let drive = changed.as_ref().unwrap_or(&window.drive);
+        self.along_driven(record, (window, shift), (dynamics, drive), point)
+    }
+
+    fn along_driven<'b>(
+        &'b self,
+        record: &Dataset,
+        (window, shift): (&'b Window, Option<&'b Shift>),
+        (dynamics, drive): (&dyn Dynamics, &Drive),
+        point: &Estimate,
+    ) -> Along<'b> {
         let wanted: Vec<usize> = record.measured.iter().map(|it| it.output).collect();
         let mut along = Along { active: &self.active, window, shift, rates: Vec::new(), outputs: Vec::new() };
         dynamics.followed(&point.parameters, &window.trajectory[0], drive, (&[], &wanted), &mut along);
         along
+    }
+
+    /// What another drive changes along the trajectory.
+    pub fn driven_otherwise(
+        &self,
+        record: &Dataset,
+        window: &Window,
+        drive: &Drive,
+        point: &Estimate,
+    ) -> Column {
+        let along = self.along_driven(record, (window, None), (self.dynamics, drive), point);
+        Column { next: along.increments(), outputs: along.outputs }
     }
 
     /// What other parameters, inputs or outputs change of the predictions in a window; none if the model diverges.

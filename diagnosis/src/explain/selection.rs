@@ -33,6 +33,15 @@ impl Score {
     }
 }
 
+/// What a candidate would do in a simulation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Simulated {
+    /// By how much all signals together would miss less, in shares of their magnitudes.
+    pub improvement: f64,
+    /// Share of the squared errors that would go.
+    pub reduction: f64,
+}
+
 /// What explains a missing signal best.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
@@ -54,11 +63,7 @@ pub fn choose(misses: f64, named: &[Score], features: &[Score]) -> Choice {
     if misses < 1.0 {
         return Choice::Nothing;
     }
-    let best = |all: &[Score]| {
-        let holds = all.iter().filter(|it| it.is_confirmed()).copied();
-        holds.max_by(|a, b| a.share.total_cmp(&b.share))
-    };
-    let (name, feature) = (best(named), best(features));
+    let (name, feature) = (best_of(named), best_of(features));
     let largest = [name, feature].into_iter().flatten().map(|it| it.share).fold(0.0, f64::max);
     if largest < CRITERIA.background_share {
         return Choice::Nothing;
@@ -76,6 +81,12 @@ pub fn choose(misses: f64, named: &[Score], features: &[Score]) -> Choice {
         (_, Some(feature)) => Choice::Unmodelled(feature),
         _ => Choice::Nothing,
     }
+}
+
+/// The one that explains most, of those that the validation records show, too.
+pub fn best_of(all: &[Score]) -> Option<Score> {
+    let holds = all.iter().filter(|it| it.is_confirmed()).copied();
+    holds.max_by(|a, b| a.share.total_cmp(&b.share))
 }
 
 /// Names worth a fit although free features explain more, the best first: each explains some of both data, or nearly as much of the
@@ -344,6 +355,37 @@ impl Compared {
             Kind::Named { term, .. } if it.candidate == score.candidate => Some((term, *it)),
             _ => None,
         })
+    }
+
+    /// What a simulation of the estimation records would miss less with a candidate, all signals in shares of their `magnitudes`:
+    /// what explains most of each sample's surprise may add up to little, and the other way round. Simulations are of a `length` in
+    /// seconds. None if nothing can be told apart.
+    pub fn simulated(
+        &self,
+        candidate: usize,
+        missing: &Missing<'_>,
+        magnitudes: &[f64],
+        length: f64,
+    ) -> Option<Simulated> {
+        let range = self.candidates.list[candidate].columns.clone();
+        let columns: Vec<Vec<Column>> =
+            self.candidates.columns.iter().map(|all| all[range.clone()].to_vec()).collect();
+        let noise = Noise {
+            ports: vec![0.0; missing.setting.ports.len()],
+            outputs: magnitudes.iter().map(|it| it * it).collect(),
+            simulated: Some(length),
+        };
+        let blocks = missing.setting.innovations(&missing.windows, &noise, &columns);
+        let sums = Sums::of(blocks.iter().filter(|block| block.record < missing.train))?;
+        let own = missing.nuisances();
+        let all: Vec<usize> = (1..=own.len() + range.len()).collect();
+        let mut precisions = missing.precisions.clone();
+        precisions.resize(all.len(), 0.0);
+        let before = sums.fitted(&own, &missing.precisions)?.left;
+        let after = sums.fitted(&all, &precisions)?.left;
+        let samples = (sums.count as f64 / magnitudes.len().max(1) as f64).max(1.0);
+        let root = |left: f64| (left.max(0.0) / samples).sqrt();
+        Some(Simulated { improvement: root(before) - root(after), reduction: 1.0 - after / before })
     }
 
     /// Amounts of a candidate's columns.

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::filter::{Filter, Passed, Smoothed, smoothed};
 use super::ports::{Entry, Port};
-use super::trajectory::{MEMORY, Setting, Window};
+use super::trajectory::{MEMORY, ROUNDING, Setting, Window};
 
 /// Length of the blocks of time over which sums are kept apart, in seconds.
 const BLOCK: f64 = 0.5;
@@ -17,6 +17,9 @@ pub struct Noise {
     pub ports: Vec<f64>,
     /// Variance of each measured output's noise.
     pub outputs: Vec<f64>,
+    /// Length of simulations in seconds, if states follow from their starts and the inputs alone: innovations are the errors of the
+    /// simulations then.
+    pub simulated: Option<f64>,
 }
 
 /// What a candidate changes in the next state and in the outputs, along a trajectory.
@@ -37,16 +40,24 @@ impl Column {
 }
 
 impl Window {
-    /// Variance of an output's noise at a sample, with what laws add.
-    fn noise(&self, noise: &Noise, sample: usize, output: usize) -> f64 {
-        noise.outputs[output] + self.loose.1.get(sample * self.outputs + output).unwrap_or(&0.0)
+    /// What laws and inputs add to the variances; nothing where a model is simulated.
+    fn loose(&self, noise: &Noise) -> [&[f64]; 2] {
+        let (next, outputs) = &self.loose;
+        if noise.simulated.is_some() { [&[]; 2] } else { [next, outputs] }
     }
 
-    /// Variances of what drives states and ports after a sample, with what laws add.
-    fn driven<'a>(&self, driven: &[f64], sample: usize, all: &'a mut Vec<f64>) -> &'a [f64] {
+    /// Variance of an output's noise at a sample.
+    fn noise(&self, noise: &Noise, sample: usize, output: usize) -> f64 {
+        let [_, loose] = self.loose(noise);
+        noise.outputs[output] + loose.get(sample * self.outputs + output).unwrap_or(&0.0)
+    }
+
+    /// Variances of what drives states and ports after a sample.
+    fn driven<'a>(&self, noise: &Noise, driven: &[f64], sample: usize, all: &'a mut Vec<f64>) -> &'a [f64] {
         all.clear();
         all.extend_from_slice(driven);
-        let loose = self.loose.0.iter().skip(sample * self.states);
+        let [loose, _] = self.loose(noise);
+        let loose = loose.iter().skip(sample * self.states);
         all[..self.states].iter_mut().zip(loose).for_each(|(own, more)| *own += more);
         all
     }
@@ -135,8 +146,9 @@ impl Setting<'_> {
         states.chain(entered.ports.iter().map(|(_, deviation)| deviation * deviation)).collect()
     }
 
-    fn driven(&self, entered: &Entered<'_>, decay: f64) -> Vec<f64> {
-        let states = self.active.iter().map(|it| (1e-7 * self.nominal[*it]).powi(2));
+    fn driven(&self, entered: &Entered<'_>, noise: &Noise, decay: f64) -> Vec<f64> {
+        let rounding = if noise.simulated.is_some() { 0.0 } else { ROUNDING };
+        let states = self.active.iter().map(|it| (rounding * self.nominal[*it]).powi(2));
         let ports = entered.ports.iter().map(|(_, deviation)| deviation * deviation * (1.0 - decay * decay));
         states.chain(ports).collect()
     }
@@ -155,8 +167,10 @@ impl Setting<'_> {
         let decay = (-window.step / MEMORY).exp();
         let parameters = self.parameters.len();
         let columns = 1 + parameters + window.timing.len() + candidates.len();
-        let mut filter = Filter::new(&self.variances(&entered), columns);
-        let (driven, mut spread) = (self.driven(&entered, decay), Vec::new());
+        let start = self.variances(&entered);
+        let mut filter = Filter::new(&start, columns);
+        let restart = noise.simulated.map_or(usize::MAX, |length| ((length / window.step) as usize).max(2));
+        let (driven, mut spread) = (self.driven(&entered, noise, decay), Vec::new());
         let samples = window.samples.len();
         let length = ((BLOCK / window.step).round() as usize).max(4);
         let (mut h, mut a) = (vec![0.0; own], vec![0.0; own * own]);
@@ -165,6 +179,9 @@ impl Setting<'_> {
         let mut blocks = Vec::new();
         let mut log_variance = 0.0;
         for sample in 0..samples {
+            if sample % restart == 0 {
+                filter = Filter::new(&start, columns);
+            }
             for output in 0..m {
                 let residual = window.residuals[sample * m + output];
                 if !residual.is_finite() {
@@ -213,7 +230,7 @@ impl Setting<'_> {
                 }
             }
             entered.transition(sample, decay, &mut a);
-            filter.predict(&a, &input, window.driven(&driven, sample, &mut spread));
+            filter.predict(&a, &input, window.driven(noise, &driven, sample, &mut spread));
         }
         blocks
     }
@@ -231,7 +248,7 @@ impl Setting<'_> {
         let (n, m, width, own) = (window.states, window.outputs, window.width, entered.width());
         let decay = (-window.step / MEMORY).exp();
         let mut filter = Filter::new(&self.variances(&entered), 1);
-        let (driven, mut spread) = (self.driven(&entered, decay), Vec::new());
+        let (driven, mut spread) = (self.driven(&entered, noise, decay), Vec::new());
         let samples = window.samples.len();
         let mut passed = Vec::with_capacity(samples);
         let parameters = |slopes: &[f64]| -> f64 {
@@ -273,7 +290,7 @@ impl Setting<'_> {
                         + taken
                         + parameters(&window.next_slopes[place * width..][..width]);
                 }
-                filter.predict(&a, &input, window.driven(&driven, sample, &mut spread));
+                filter.predict(&a, &input, window.driven(noise, &driven, sample, &mut spread));
                 at.a = a;
             }
             passed.push(at);

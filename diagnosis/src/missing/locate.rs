@@ -88,7 +88,8 @@ impl Missing<'_> {
     pub fn located(&self) -> Location {
         let setting = &self.setting;
         let with = |share: f64| {
-            let noise = Noise { ports: setting.shared(share), outputs: setting.noise.clone() };
+            let noise =
+                Noise { ports: setting.shared(share), outputs: setting.noise.clone(), simulated: None };
             let likelihood = self.log_likelihood(&noise);
             (noise, likelihood)
         };

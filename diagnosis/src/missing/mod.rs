@@ -13,6 +13,7 @@ mod look;
 pub mod motion;
 mod nominal;
 pub mod ports;
+mod rough;
 mod start;
 pub mod trajectory;
 
@@ -266,6 +267,7 @@ impl Baseline<'_> {
                 setting.take_along(record, &mut window, &stated, &lawful);
                 setting.loosen(record, &mut window, (&lawful, &sharp));
             }
+            setting.roughen(&records[*record], &mut window, &lawful);
             let late = |handle: &Unknown| {
                 let mut late = lawful.clone();
                 late.set(*handle, DELAY);

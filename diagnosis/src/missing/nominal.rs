@@ -145,7 +145,8 @@ impl Baseline<'_> {
         let (setting, windows) = self.along(about, point)?;
         let columns: Vec<usize> = (1..=precisions.len()).collect();
         let tried = shares.iter().filter_map(|share| {
-            let noise = Noise { ports: setting.shared(*share), outputs: setting.noise.clone() };
+            let noise =
+                Noise { ports: setting.shared(*share), outputs: setting.noise.clone(), simulated: None };
             let blocks = setting.innovations(&windows, &noise, &[]);
             let sums = Sums::of(blocks.iter().filter(|block| block.record < self.train.len()))?;
             Some((sums.log_likelihood(precisions), sums.fitted(&columns, precisions)?))

@@ -105,6 +105,7 @@ mod tests {
             between: Between::Lines,
             measured: vec![],
             others: vec![],
+            errors: vec![],
             sections: std::iter::once(0..400).collect(),
         };
         let drive: Drive = record.drive(&(0..400), &vec![Correction::default(); plant.inputs.len()]);

@@ -21,7 +21,7 @@ const BELIEVED: f64 = 2.0;
 /// Resolution of a signal without noise, in shares of its root mean square.
 const RESOLUTION: f64 = 1e-4;
 /// Share of a state's nominal value by which the model's own integration may be wrong in a sample.
-const ROUNDING: f64 = 1e-7;
+pub const ROUNDING: f64 = 1e-7;
 
 /// What a smoother has to know of a rig and its records.
 pub struct Setting<'a> {

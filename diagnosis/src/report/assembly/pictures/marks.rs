@@ -105,6 +105,7 @@ mod tests {
             between: Between::Lines,
             measured: vec![],
             others: vec![],
+            errors: vec![],
             sections: vec![],
         };
         // Blocks of fifty samples; missing samples do not count.

@@ -196,6 +196,7 @@ mod tests {
             between: Between::Lines,
             measured: measured.into(),
             others: vec![],
+            errors: vec![],
             sections: vec![0..3000, 3000..6000],
         }
     }

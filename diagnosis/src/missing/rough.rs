@@ -1,0 +1,139 @@
+//! What noise of measured inputs makes of the predictions.
+//!
+//! A road that is measured with an error of 80 µm shakes a tyre of 200 kN/m with 16 N: as much as a small cause does. A smoother
+//! that held its inputs for exact would take that for a missing signal. So the noise that may be left of an input adds to the
+//! variances of next states and outputs.
+
+use crate::dataset::recorded::Dataset;
+use crate::estimation::fit::Estimate;
+
+use super::trajectory::{Setting, Window};
+
+/// Samples after which noise has no memory.
+const LAGS: usize = 100;
+
+impl Setting<'_> {
+    /// Adds what errors of a record's measured inputs make of next states and outputs, at a point with the laws of the window.
+    pub fn roughen(&self, record: &Dataset, window: &mut Window, point: &Estimate) {
+        let Some(disturbed) = record.disturbed() else { return };
+        let drive = disturbed.drive(&window.samples, &point.inputs);
+        let made = self.driven_otherwise(record, window, &drive, point);
+        add(&mut window.loose.0, &made.next, window.states);
+        add(&mut window.loose.1, &made.outputs, window.outputs);
+    }
+}
+
+/// Adds the variance of each signal's changes to what each of its samples has.
+fn add(variances: &mut Vec<f64>, changes: &[f32], signals: usize) {
+    variances.resize(changes.len(), 0.0);
+    for signal in 0..signals {
+        let own: Vec<f64> = changes.iter().skip(signal).step_by(signals).map(|it| f64::from(*it)).collect();
+        let variance = as_if_white(&own);
+        variances.iter_mut().skip(signal).step_by(signals).for_each(|it| *it += variance);
+    }
+}
+
+/// Variance of white noise from which as much is known by its independent samples as from noise with a memory by its fewer
+/// ones: times the ratio of white noise's bandwidth to the noise's own, which is the sum of its squared autocorrelations
+/// (M. S. Bartlett, Journal of the Royal Statistical Society 98 (1935)).
+fn as_if_white(noise: &[f64]) -> f64 {
+    let product =
+        |lag: usize| -> f64 { noise.iter().zip(&noise[lag..]).map(|(now, later)| now * later).sum() };
+    let power = product(0);
+    if power == 0.0 {
+        return 0.0;
+    }
+    let memory: f64 = (1..LAGS.min(noise.len())).map(|lag| (product(lag) / power).powi(2)).sum();
+    power / noise.len() as f64 * (1.0 + 2.0 * memory)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dataset::recorded::{Measured, Source};
+    use crate::plant::Between;
+    use crate::rig::Rig;
+    use crate::signal::distortion::Correction;
+    use crate::signal::random::with_noise;
+
+    #[test]
+    fn noise_with_a_memory_has_fewer_independent_samples() {
+        let white = with_noise(&[0.0; 20_000], 0.1, 3);
+        let of_white = as_if_white(&white);
+        assert!((of_white / 0.01 - 1.0).abs() < 0.05, "{of_white}");
+        // A first-order recursion with a factor a: variance 1/(1 - a²), and (1 + a²)/(1 - a²) as few samples.
+        let mut last = 0.0;
+        let slow: Vec<f64> = white
+            .iter()
+            .map(|it| {
+                last = 0.8 * last + it;
+                last
+            })
+            .collect();
+        let wanted = 0.01 / 0.36 * 1.64 / 0.36;
+        let of_slow = as_if_white(&slow);
+        assert!((of_slow / wanted - 1.0).abs() < 0.1, "{of_slow}, {wanted}");
+        assert_eq!((as_if_white(&[]), as_if_white(&[0.0; 9])), (0.0, 0.0));
+    }
+
+    /// 50 µm on a tyre of k N/m: a force of 5e-5 k on the wheel and in the force cell below it.
+    #[test]
+    fn noise_of_a_road_shakes_the_wheel() {
+        let rig = Rig::published("quarter-car").unwrap();
+        let plant = &rig.plant;
+        let dynamics = plant.prepare(&rig.choices).unwrap();
+        let [road, rate] = ["road.position", "road.velocity"].map(|name| plant.input(name).unwrap());
+        let samples = 2000;
+        let inputs = (0..plant.inputs.len()).map(|input| match input {
+            it if it == road => Source::Measured(vec![0.0; samples]),
+            it if it == rate => Source::DerivativeOf(road),
+            _ => Source::Constant(0.0),
+        });
+        let errors = |deviation: f64| {
+            let of = |input| {
+                if input == road { with_noise(&vec![0.0; samples], deviation, 5) } else { Vec::new() }
+            };
+            (0..plant.inputs.len()).map(of).collect::<Vec<_>>()
+        };
+        let measured = ["body.acceleration", "wheel.acceleration", "wheel.force"].map(|name| Measured {
+            output: plant.output(name).unwrap(),
+            values: vec![0.0; samples],
+            noise_floor: 1e-3,
+        });
+        let step = 2.5e-3;
+        let still = Dataset {
+            name: String::new(),
+            step,
+            inputs: inputs.collect(),
+            errors: errors(0.0),
+            between: Between::Lines,
+            measured: measured.to_vec(),
+            others: vec![],
+            sections: std::iter::once(0..samples).collect(),
+        };
+        let point = Estimate {
+            parameters: rig.parameters.clone(),
+            inputs: vec![Correction::default(); plant.inputs.len()],
+            outputs: vec![Correction::default(); plant.outputs.len()],
+            starts: vec![],
+        };
+        let nominal: Vec<f64> = plant.states.iter().map(|it| it.nominal.unwrap_or(1.0)).collect();
+        let records = [Dataset { errors: errors(5e-5), ..still.clone() }];
+        let setting = Setting::new(&*dynamics, (&point, &rig.start), &[], &[], &nominal, &records);
+        let mut window = setting.window(&records, 0, 0..samples, &rig.start).unwrap();
+        setting.roughen(&still, &mut window, &point);
+        assert!(window.loose.0.is_empty() && window.loose.1.is_empty());
+        setting.roughen(&records[0], &mut window, &point);
+        let value = |name: &str| rig.parameters[plant.parameter(name).unwrap()];
+        let force = 5e-5 * value("tire.stiffness");
+        let wheel = plant.state("wheel.velocity").unwrap();
+        let place = setting.active.iter().position(|it| *it == wheel).unwrap();
+        let kick = window.loose.0[place].sqrt();
+        // Within a step the road goes straight from one error to the next, so that neighbours share them.
+        let wanted = force * step / value("unsprung_mass");
+        assert!((0.7..1.1).contains(&(kick / wanted)), "{kick} of {wanted}");
+        let cell = window.loose.1[2].sqrt();
+        assert!((cell / force - 1.0).abs() < 0.1, "{cell} of {force}");
+        assert!(window.loose.1[0].sqrt() < 1e-6, "the body does not feel it at once");
+    }
+}
