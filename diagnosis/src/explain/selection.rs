@@ -66,17 +66,14 @@ pub fn choose(misses: f64, named: &[Score], features: &[Score]) -> Choice {
     let (name, feature) = (best_of(named), best_of(features));
     let largest = [name, feature].into_iter().flatten().map(|it| it.share).fold(0.0, f64::max);
     if largest < CRITERIA.background_share {
-        return Choice::Nothing;
+        // A rough shape of a law that explains most of the estimation data may fail on others. Its fit is judged there, too.
+        let most = named.iter().filter(|it| it.share >= CRITERIA.rough).copied().collect::<Vec<_>>();
+        return if most.is_empty() { Choice::Nothing } else { Choice::Named(by_share(most)) };
     }
     match (name, feature) {
         (Some(name), feature) if name.share >= CRITERIA.rough * feature.map_or(0.0, |it| it.share) => {
-            let mut near: Vec<Score> = named
-                .iter()
-                .filter(|it| it.share >= CRITERIA.rival * name.share && it.validated > 0.0)
-                .copied()
-                .collect();
-            near.sort_by(|a, b| b.share.total_cmp(&a.share));
-            Choice::Named(near)
+            let near = |it: &&Score| it.share >= CRITERIA.rival * name.share && it.validated > 0.0;
+            Choice::Named(by_share(named.iter().filter(near).copied().collect()))
         }
         (_, Some(feature)) => Choice::Unmodelled(feature),
         _ => Choice::Nothing,
@@ -94,9 +91,13 @@ pub fn best_of(all: &[Score]) -> Option<Score> {
 pub fn likely(named: &[Score], features: &Score) -> Vec<Score> {
     let enough = CRITERIA.rough * features.share;
     let is_likely = |it: &&Score| it.share > 0.0 && (it.validated > 0.0 || it.share >= enough);
-    let mut likely: Vec<Score> = named.iter().filter(is_likely).copied().collect();
-    likely.sort_by(|a, b| b.share.total_cmp(&a.share));
-    likely
+    by_share(named.iter().filter(is_likely).copied().collect())
+}
+
+/// The one that explains most first.
+fn by_share(mut scores: Vec<Score>) -> Vec<Score> {
+    scores.sort_by(|a, b| b.share.total_cmp(&a.share));
+    scores
 }
 
 /// A name to be fitted, and from where.
@@ -443,6 +444,15 @@ mod tests {
     #[test]
     fn background_and_what_the_validation_records_deny_is_nothing() {
         assert_eq!(choose(2.0, &[score(0, 0.03, 0.03)], &[score(1, 0.02, 0.1)]), Choice::Nothing);
-        assert_eq!(choose(2.0, &[score(0, 0.5, -0.2)], &[]), Choice::Nothing);
+        assert_eq!(choose(2.0, &[score(0, 0.5, -0.2)], &[score(1, 0.8, -0.1)]), Choice::Nothing);
+    }
+
+    #[test]
+    fn a_law_that_explains_most_is_fitted_though_its_rough_shape_fails_on_other_data() {
+        let named = [score(0, 0.7, -3.0), score(1, 0.9, -60.0), score(2, 0.3, -0.1)];
+        assert_eq!(choose(2.0, &named, &[score(3, 0.02, 0.02)]), Choice::Named(vec![named[1], named[0]]));
+        // Where something holds on both data, that is chosen.
+        let holds = score(4, 0.2, 0.2);
+        assert_eq!(choose(2.0, &[&named[..], &[holds]].concat(), &[]), Choice::Named(vec![holds]));
     }
 }
