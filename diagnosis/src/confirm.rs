@@ -20,6 +20,8 @@ use crate::estimation::lsq::Stop;
 use crate::explain::selection::Proposal;
 use crate::signal::distortion::Fault;
 
+use weighing::is_in_time;
+
 /// Share of what may matter that any fit that is compared has to promise.
 const HINT: f64 = 0.2;
 
@@ -83,6 +85,7 @@ impl Baseline<'_> {
     fn weighed(&self, base: &Fitted, null: &Fitted, term: Term, fitted: Result<Fitted, String>) -> Tried {
         let fitted = fitted.and_then(|it| match self.driven_off(null, &it).filter(|_| !has_no_name(term)) {
             Some(parameter) => Err(format!("drives {parameter} to its bound")),
+            None if is_in_time(term, &it) => Err("no later than the timing of any measurement".into()),
             None => Ok(it),
         });
         let (evidence, score) = match &fitted {

@@ -6,7 +6,7 @@ use crate::dataset::recorded::Dataset;
 use crate::decision::account::account;
 use crate::decision::evidence::Evidence;
 use crate::estimation::comparison::{Errors, Student, student};
-use crate::estimation::coordinates::TIMING;
+use crate::estimation::coordinates::{IN_TIME, TIMING};
 use crate::estimation::fit::{Residuals, Unknown, strain};
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::screening::{bent_rms, rms};
@@ -92,8 +92,8 @@ impl Baseline<'_> {
     /// what signals usually have.
     fn is_usual(&self, term: Term, fitted: &Fitted) -> bool {
         let plant = &self.rig.plant;
-        let driving = matches!(term, Term::Fault(Unknown::Input(..)));
-        let timing = is_in_time(term, fitted).is_some_and(|it| driving && (name(term, plant).sensor || it));
+        let few = late_by(term, fitted).is_some_and(|it| it < LATE);
+        let timing = late_by(term, fitted).is_some() && (name(term, plant).sensor || few);
         prevalence(term, plant) == Prevalence::Background || timing
     }
 
@@ -198,13 +198,17 @@ impl Baseline<'_> {
     }
 }
 
-/// Whether a signal is late by no more than measurements make any; none of what is not about its timing.
-pub(super) fn is_in_time(term: Term, fitted: &Fitted) -> Option<bool> {
+/// Whether an input is late by no more than measurements make any: that is no effect. Outputs are fitted with such timing.
+pub(super) fn is_in_time(term: Term, fitted: &Fitted) -> bool {
+    late_by(term, fitted).is_some_and(|it| it < IN_TIME)
+}
+
+/// By how many standard deviations of a channel's timing an input is late or early; none of what is not about that.
+fn late_by(term: Term, fitted: &Fitted) -> Option<f64> {
     match term {
-        Term::Fault(
-            handle @ (Unknown::Input(_, Fault::Lag | Fault::Delay)
-            | Unknown::Output(_, Fault::Lag | Fault::Delay)),
-        ) => Some(fitted.point.get(handle).abs() < LATE * TIMING),
+        Term::Fault(handle @ Unknown::Input(_, Fault::Lag | Fault::Delay)) => {
+            Some(fitted.point.get(handle).abs() / TIMING)
+        }
         _ => None,
     }
 }

@@ -6,7 +6,7 @@ use crate::estimation::deadline::Stage;
 use crate::estimation::fit::Estimate;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::explain::describe::{MissingSignal, Unmodelled};
-use crate::explain::selection::{Choice, Compared, MOST_FITTED, Score, Simulated, best_of, choose, likely};
+use crate::explain::selection::{Choice, Compared, MOST_FITTED, Score, best_of, choose, likely};
 use crate::missing::innovations::Noise;
 use crate::missing::locate::Location;
 use crate::missing::motion::outputs;
@@ -176,7 +176,8 @@ impl Baseline<'_> {
             // the innovations says little: a nominal parameter may have taken the effect's place. A rough shape promises less than
             // its fit holds.
             let open = self.is_open(&found.extended.test);
-            let promised = |it: &Score| self.simulated((missing, compared), *it).improvement;
+            let promised =
+                |it: &Score| self.improvement(&found.extended, self.reduction((missing, compared), *it));
             let visible = |it: &Score| open || promised(it) >= CRITERIA.rough * CRITERIA.improvement;
             if !scores.first().is_some_and(visible) {
                 return Ok(curve.map_or(Next::Nothing, Next::Curve));
@@ -214,7 +215,7 @@ impl Baseline<'_> {
             let explained = found.tried.iter().filter(own).map(|it| it.evidence.residual_reduction);
             let explained = explained.fold(0.0, f64::max);
             if let Some(best) = best_of(&features)
-                && explained >= CRITERIA.fitted * self.simulated((missing, compared), best).reduction
+                && explained >= CRITERIA.fitted * self.reduction((missing, compared), best)
             {
                 features.clear();
             }
@@ -230,7 +231,8 @@ impl Baseline<'_> {
         (missing, compared): (&Missing<'_>, &Compared),
         score: Score,
     ) -> Result<bool, String> {
-        let improvement = self.simulated((missing, compared), score).improvement;
+        let reduction = self.reduction((missing, compared), score);
+        let improvement = self.improvement(&found.extended, reduction);
         // Free features take the shape of what every rig has a little of, too.
         let background = if self.is_open(&found.extended.test) { 1.0 } else { CRITERIA.background };
         if found.unmodelled.len() == PLACES || improvement < background * CRITERIA.improvement {
@@ -287,11 +289,11 @@ impl Baseline<'_> {
         self.roots(fitted).map(above).any(|it| it >= CRITERIA.improvement)
     }
 
-    /// What a candidate would do in a simulation of the estimation records.
-    fn simulated(&self, (missing, compared): (&Missing<'_>, &Compared), score: Score) -> Simulated {
+    /// Share of a simulation's errors that would go with a candidate, all signals in shares of their magnitudes.
+    fn reduction(&self, (missing, compared): (&Missing<'_>, &Compared), score: Score) -> f64 {
         let magnitudes: Vec<f64> =
             (0..missing.setting.magnitudes.len()).map(|row| bent_rms(self.train, row)).collect();
-        compared.simulated(score.candidate, missing, &magnitudes, self.rig.segment()).unwrap_or_default()
+        compared.reduction(score.candidate, missing, &magnitudes, self.rig.segment()).unwrap_or_default()
     }
 
     /// By how much the fit of the worst signal would rise without a share of its error's power.

@@ -19,7 +19,7 @@ pub const TIMING: f64 = 4e-4;
 pub(crate) const SURE: f64 = 3.0;
 
 /// Standard deviations of a channel's timing within which a signal is in time.
-const IN_TIME: f64 = 2.5;
+pub(crate) const IN_TIME: f64 = 2.5;
 
 /// Standard deviation of the logarithm of a nominal parameter that is stated, before the data are seen: a data sheet's damping or
 /// tyre stiffness is right within a third.

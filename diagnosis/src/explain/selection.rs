@@ -33,15 +33,6 @@ impl Score {
     }
 }
 
-/// What a candidate would do in a simulation.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Simulated {
-    /// By how much all signals together would miss less, in shares of their magnitudes.
-    pub improvement: f64,
-    /// Share of the squared errors that would go.
-    pub reduction: f64,
-}
-
 /// What explains a missing signal best.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
@@ -358,16 +349,16 @@ impl Compared {
         })
     }
 
-    /// What a simulation of the estimation records would miss less with a candidate, all signals in shares of their `magnitudes`:
-    /// what explains most of each sample's surprise may add up to little, and the other way round. Simulations are of a `length` in
-    /// seconds. None if nothing can be told apart.
-    pub fn simulated(
+    /// Share of the squared errors of a simulation of the estimation records that would go with a candidate, all signals in shares
+    /// of their `magnitudes`: what explains most of each sample's surprise may add up to little, and the other way round.
+    /// Simulations are of a `length` in seconds, about the trajectory. None if nothing can be told apart.
+    pub fn reduction(
         &self,
         candidate: usize,
         missing: &Missing<'_>,
         magnitudes: &[f64],
         length: f64,
-    ) -> Option<Simulated> {
+    ) -> Option<f64> {
         let range = self.candidates.list[candidate].columns.clone();
         let columns: Vec<Vec<Column>> =
             self.candidates.columns.iter().map(|all| all[range.clone()].to_vec()).collect();
@@ -384,9 +375,7 @@ impl Compared {
         precisions.resize(all.len(), 0.0);
         let before = sums.fitted(&own, &missing.precisions)?.left;
         let after = sums.fitted(&all, &precisions)?.left;
-        let samples = (sums.count as f64 / magnitudes.len().max(1) as f64).max(1.0);
-        let root = |left: f64| (left.max(0.0) / samples).sqrt();
-        Some(Simulated { improvement: root(before) - root(after), reduction: 1.0 - after / before })
+        (before > 0.0).then(|| 1.0 - after / before)
     }
 
     /// Amounts of a candidate's columns.

@@ -48,7 +48,7 @@ impl Filter {
     /// Takes in a measurement `y = h x + e` with variance `noise` of e; `y` becomes the innovations, of each right-hand side.
     pub fn measure(&mut self, h: &[f64], noise: f64, y: &mut [f64]) -> Update {
         let n = self.n;
-        for (gain, row) in self.gain.iter_mut().zip(self.p.chunks_exact(n)) {
+        for (gain, row) in self.gain.iter_mut().zip(self.p.chunks_exact(n.max(1))) {
             *gain = row.iter().zip(h).map(|(p, h)| p * h).sum();
         }
         // Rounding must not make less of it than the noise.
@@ -76,7 +76,7 @@ impl Filter {
     pub fn predict(&mut self, a: &[f64], input: &[f64], driven: &[f64]) {
         let (n, columns) = (self.n, self.columns);
         self.next.copy_from_slice(input);
-        for (row, next) in a.chunks_exact(n).zip(self.next.chunks_exact_mut(columns)) {
+        for (row, next) in a.chunks_exact(n.max(1)).zip(self.next.chunks_exact_mut(columns)) {
             for (a, x) in row.iter().zip(self.x.chunks_exact(columns)) {
                 if *a != 0.0 {
                     next.iter_mut().zip(x).for_each(|(next, x)| *next += a * x);
@@ -91,8 +91,8 @@ impl Filter {
     pub fn spread(&mut self, a: &[f64], driven: &[f64]) {
         let n = self.n;
         self.product.fill(0.0);
-        for (row, product) in a.chunks_exact(n).zip(self.product.chunks_exact_mut(n)) {
-            for (a, p) in row.iter().zip(self.p.chunks_exact(n)) {
+        for (row, product) in a.chunks_exact(n.max(1)).zip(self.product.chunks_exact_mut(n.max(1))) {
+            for (a, p) in row.iter().zip(self.p.chunks_exact(n.max(1))) {
                 if *a != 0.0 {
                     product.iter_mut().zip(p).for_each(|(product, p)| *product += a * p);
                 }
@@ -148,7 +148,7 @@ pub fn smoothed(passed: &[Passed]) -> Vec<Smoothed> {
             // (I − K h)ᵀ applied from the left, and from both sides.
             let along: f64 = gain.iter().zip(&adjoint).map(|(k, a)| k * a).sum();
             let mut pulled = vec![0.0; n];
-            for (pulled, row) in pulled.iter_mut().zip(information.chunks_exact(n)) {
+            for (pulled, row) in pulled.iter_mut().zip(information.chunks_exact(n.max(1))) {
                 *pulled = row.iter().zip(gain).map(|(m, k)| m * k).sum();
             }
             let twice: f64 = pulled.iter().zip(gain).map(|(m, k)| m * k).sum::<f64>() + 1.0 / variance;
@@ -180,7 +180,7 @@ pub fn smoothed(passed: &[Passed]) -> Vec<Smoothed> {
 fn transposed_times(a: &[f64], x: &[f64]) -> Vec<f64> {
     let n = x.len();
     let mut result = vec![0.0; n];
-    for (row, x) in a.chunks_exact(n).zip(x) {
+    for (row, x) in a.chunks_exact(n.max(1)).zip(x) {
         result.iter_mut().zip(row).for_each(|(result, a)| *result += a * x);
     }
     result
@@ -190,13 +190,13 @@ fn transposed_times(a: &[f64], x: &[f64]) -> Vec<f64> {
 fn congruence(a: &[f64], m: &mut [f64], scratch: &mut [f64]) {
     let n = a.len().isqrt();
     scratch.fill(0.0);
-    for (row, product) in m.chunks_exact(n).zip(scratch.chunks_exact_mut(n)) {
-        for (m, a) in row.iter().zip(a.chunks_exact(n)) {
+    for (row, product) in m.chunks_exact(n.max(1)).zip(scratch.chunks_exact_mut(n.max(1))) {
+        for (m, a) in row.iter().zip(a.chunks_exact(n.max(1))) {
             product.iter_mut().zip(a).for_each(|(product, a)| *product += m * a);
         }
     }
     m.fill(0.0);
-    for (a, product) in a.chunks_exact(n).zip(scratch.chunks_exact(n)) {
+    for (a, product) in a.chunks_exact(n.max(1)).zip(scratch.chunks_exact(n.max(1))) {
         for (i, a) in a.iter().enumerate().filter(|(_, a)| **a != 0.0) {
             m[i * n..(i + 1) * n].iter_mut().zip(product).for_each(|(m, product)| *m += a * product);
         }
