@@ -298,3 +298,85 @@ impl Setting<'_> {
         smoothed(&passed)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimation::fit::Estimate;
+    use crate::plant::{Between, Drive};
+    use crate::rig::Rig;
+
+    const DECAY: f64 = 0.9;
+
+    /// A state that is measured, and decays: what drives it and what is measured beside it are given.
+    fn window(defects: &[f64], residuals: &[f64]) -> Window {
+        let samples = residuals.len();
+        Window {
+            record: 0,
+            samples: 0..samples,
+            step: 0.01,
+            states: 1,
+            outputs: 1,
+            width: 1,
+            trajectory: vec![vec![0.0]; samples],
+            next_slopes: vec![DECAY; samples - 1],
+            output_slopes: vec![1.0; samples],
+            defects: defects.to_vec(),
+            rates: vec![0.0; samples],
+            predicted: vec![0.0; samples],
+            residuals: residuals.to_vec(),
+            drive: Drive { start: 0.0, step: 0.01, inputs: vec![], finer: 1, between: Between::Lines },
+            timing: vec![],
+            lawful: None,
+            loose: (vec![1.0; samples - 1], vec![1.0; samples]),
+            pushes: vec![],
+        }
+    }
+
+    /// Of a simulation from a known start nothing is corrected: its errors are those of all that has driven it by then.
+    #[test]
+    fn a_simulations_innovations_are_its_errors() {
+        let rig = Rig::published("quarter-car").unwrap();
+        let dynamics = rig.plant.prepare(&rig.choices).unwrap();
+        let setting = Setting {
+            dynamics: &*dynamics,
+            point: Estimate { parameters: vec![], inputs: vec![], outputs: vec![], starts: vec![] },
+            ports: &[],
+            parameters: &[],
+            nominal: &[1e-9],
+            active: vec![0],
+            ties: vec![],
+            sizes: vec![],
+            free: vec![],
+            noise: vec![0.01],
+            floors: vec![0.01],
+            magnitudes: vec![1.0],
+        };
+        let drives = [0.3, -0.2, 0.5, 0.0, 0.1];
+        let measured = [0.1, 0.0, -0.4, 0.2, 0.3, -0.1];
+        let window = window(&drives, &measured);
+        // The candidate is what drives it, so that nothing but what is measured is left with it.
+        let candidate = Column { next: drives.map(|it| it as f32).to_vec(), outputs: vec![] };
+        let blocks = |length: f64| {
+            let noise = Noise { ports: vec![], outputs: vec![0.25], simulated: Some(length) };
+            setting.innovations(std::slice::from_ref(&window), &noise, &[vec![candidate.clone()]])
+        };
+        let squares = |restart: usize| {
+            let (mut state, mut all) = (0.0, 0.0);
+            for (k, measured) in measured.iter().enumerate() {
+                state = if k % restart == 0 { 0.0 } else { DECAY * state + drives[k - 1] };
+                all += (measured - state).powi(2) / 0.25;
+            }
+            all
+        };
+        for (length, restart) in [(1.0, 6), (0.03, 3)] {
+            let blocks = blocks(length);
+            let sum: f64 = blocks.iter().map(|it| it.normal[(0, 0)]).sum();
+            assert!((sum - squares(restart)).abs() < 1e-5, "{sum} and {}", squares(restart));
+        }
+        let all: DMatrix<f64> = blocks(1.0).iter().map(|it| it.normal.clone()).sum();
+        let without = all[(0, 0)] - 2.0 * all[(0, 1)] + all[(1, 1)];
+        let left: f64 = measured.iter().map(|it| it * it / 0.25).sum();
+        assert!((without - left).abs() < 1e-5, "{without} and {left}");
+    }
+}
