@@ -176,10 +176,8 @@ impl Baseline<'_> {
             // the innovations says little: a nominal parameter may have taken the effect's place. A rough shape promises less than
             // its fit holds.
             let open = self.is_open(&found.extended.test);
-            let promised =
-                |it: &Score| self.improvement(&found.extended, self.reduction((missing, compared), *it));
-            let visible = |it: &Score| open || promised(it) >= CRITERIA.rough * CRITERIA.improvement;
-            if !scores.first().is_some_and(visible) {
+            let promised = |it: &Score| self.improvement(&found.extended, if open { 1.0 } else { it.share });
+            if scores.first().is_none_or(|it| promised(it) < CRITERIA.rough * CRITERIA.improvement) {
                 return Ok(curve.map_or(Next::Nothing, Next::Curve));
             }
             let mut proposals = compared.proposals(&scores, MOST_FITTED);
