@@ -184,6 +184,25 @@ mod tests {
         assert!(error(&clean) < 0.3 * error(&noisy), "{} {}", error(&clean), error(&noisy));
     }
 
+    /// What is left of noise in a filtered signal, and another draw of it.
+    #[test]
+    fn an_inputs_error_is_as_large_as_what_its_noise_leaves() {
+        let white = crate::data::check::tests::noise(7, 20_000);
+        let noisy: Vec<f64> = white.iter().enumerate().map(|(k, noise)| signal(k) + 0.01 * noise).collect();
+        let rms =
+            |values: &[f64]| (values.iter().map(|it| it * it).sum::<f64>() / values.len() as f64).sqrt();
+        let kept: Vec<f64> =
+            filtered(&noisy, 0.01, 2).iter().enumerate().map(|(k, value)| value - signal(2 * k)).collect();
+        let drawn = error(&noisy, 0.01, (true, 2), 3);
+        assert_eq!(drawn.len(), kept.len());
+        let ratio = rms(&drawn) / rms(&kept);
+        assert!((0.5..2.0).contains(&ratio) && rms(&drawn) < 0.005, "{ratio}, {}", rms(&drawn));
+        // Where nothing is filtered out but what is above the band, all noise below it is left.
+        let plain = rms(&error(&noisy, 0.01, (false, 2), 3));
+        assert!((plain / (0.01 * (KEPT / 2.0).sqrt()) - 1.0).abs() < 0.05, "{plain}");
+        assert!(error(&noisy, 0.0, (true, 2), 3).iter().all(|it| *it == 0.0));
+    }
+
     /// Of a damper on a bench the force is that of the velocity, which is derived from a noisy position.
     #[test]
     fn the_derivative_of_a_noisy_position_is_a_velocity() {

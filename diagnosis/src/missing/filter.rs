@@ -5,6 +5,18 @@
 //! squares on the innovations is then the likelihood (B. Rosenberg, Annals of Economic and Social Measurement 2 (1973);
 //! P. de Jong, Annals of Statistics 19 (1991)).
 
+use std::slice::{ChunksExact, ChunksExactMut};
+
+/// The rows of a matrix with n columns; of a rig without states there are none.
+fn rows(matrix: &[f64], n: usize) -> ChunksExact<'_, f64> {
+    matrix.chunks_exact(n.max(1))
+}
+
+/// The same, to be changed.
+fn rows_mut(matrix: &mut [f64], n: usize) -> ChunksExactMut<'_, f64> {
+    matrix.chunks_exact_mut(n.max(1))
+}
+
 /// The state of a filter: estimates for each right-hand side, and one covariance for all.
 #[derive(Clone, Debug)]
 pub struct Filter {
@@ -48,7 +60,7 @@ impl Filter {
     /// Takes in a measurement `y = h x + e` with variance `noise` of e; `y` becomes the innovations, of each right-hand side.
     pub fn measure(&mut self, h: &[f64], noise: f64, y: &mut [f64]) -> Update {
         let n = self.n;
-        for (gain, row) in self.gain.iter_mut().zip(self.p.chunks_exact(n.max(1))) {
+        for (gain, row) in self.gain.iter_mut().zip(rows(&self.p, n)) {
             *gain = row.iter().zip(h).map(|(p, h)| p * h).sum();
         }
         // Rounding must not make less of it than the noise.
@@ -76,7 +88,7 @@ impl Filter {
     pub fn predict(&mut self, a: &[f64], input: &[f64], driven: &[f64]) {
         let (n, columns) = (self.n, self.columns);
         self.next.copy_from_slice(input);
-        for (row, next) in a.chunks_exact(n.max(1)).zip(self.next.chunks_exact_mut(columns)) {
+        for (row, next) in rows(a, n).zip(self.next.chunks_exact_mut(columns)) {
             for (a, x) in row.iter().zip(self.x.chunks_exact(columns)) {
                 if *a != 0.0 {
                     next.iter_mut().zip(x).for_each(|(next, x)| *next += a * x);
@@ -91,8 +103,8 @@ impl Filter {
     pub fn spread(&mut self, a: &[f64], driven: &[f64]) {
         let n = self.n;
         self.product.fill(0.0);
-        for (row, product) in a.chunks_exact(n.max(1)).zip(self.product.chunks_exact_mut(n.max(1))) {
-            for (a, p) in row.iter().zip(self.p.chunks_exact(n.max(1))) {
+        for (row, product) in rows(a, n).zip(rows_mut(&mut self.product, n)) {
+            for (a, p) in row.iter().zip(rows(&self.p, n)) {
                 if *a != 0.0 {
                     product.iter_mut().zip(p).for_each(|(product, p)| *product += a * p);
                 }
@@ -148,7 +160,7 @@ pub fn smoothed(passed: &[Passed]) -> Vec<Smoothed> {
             // (I − K h)ᵀ applied from the left, and from both sides.
             let along: f64 = gain.iter().zip(&adjoint).map(|(k, a)| k * a).sum();
             let mut pulled = vec![0.0; n];
-            for (pulled, row) in pulled.iter_mut().zip(information.chunks_exact(n.max(1))) {
+            for (pulled, row) in pulled.iter_mut().zip(rows(&information, n)) {
                 *pulled = row.iter().zip(gain).map(|(m, k)| m * k).sum();
             }
             let twice: f64 = pulled.iter().zip(gain).map(|(m, k)| m * k).sum::<f64>() + 1.0 / variance;
@@ -180,7 +192,7 @@ pub fn smoothed(passed: &[Passed]) -> Vec<Smoothed> {
 fn transposed_times(a: &[f64], x: &[f64]) -> Vec<f64> {
     let n = x.len();
     let mut result = vec![0.0; n];
-    for (row, x) in a.chunks_exact(n.max(1)).zip(x) {
+    for (row, x) in rows(a, n).zip(x) {
         result.iter_mut().zip(row).for_each(|(result, a)| *result += a * x);
     }
     result
@@ -190,13 +202,13 @@ fn transposed_times(a: &[f64], x: &[f64]) -> Vec<f64> {
 fn congruence(a: &[f64], m: &mut [f64], scratch: &mut [f64]) {
     let n = a.len().isqrt();
     scratch.fill(0.0);
-    for (row, product) in m.chunks_exact(n.max(1)).zip(scratch.chunks_exact_mut(n.max(1))) {
-        for (m, a) in row.iter().zip(a.chunks_exact(n.max(1))) {
+    for (row, product) in rows(m, n).zip(rows_mut(scratch, n)) {
+        for (m, a) in row.iter().zip(rows(a, n)) {
             product.iter_mut().zip(a).for_each(|(product, a)| *product += m * a);
         }
     }
     m.fill(0.0);
-    for (a, product) in a.chunks_exact(n.max(1)).zip(scratch.chunks_exact(n.max(1))) {
+    for (a, product) in rows(a, n).zip(rows(scratch, n)) {
         for (i, a) in a.iter().enumerate().filter(|(_, a)| **a != 0.0) {
             m[i * n..(i + 1) * n].iter_mut().zip(product).for_each(|(m, product)| *m += a * product);
         }

@@ -28,6 +28,8 @@ const LATER: f64 = 0.3375;
 const HEIGHTS: [f64; 2] = [0.025, 0.03];
 /// Noise, in shares of each signal's root mean square: 40 dB below it.
 const NOISE: f64 = 0.01;
+/// That of the roads: 60 dB. At 40 dB, the tyres make about as much force of it as the causes do.
+const ROAD_NOISE: f64 = 0.001;
 /// Share of some signal's root mean square that a cause changes at least. It is enlarged until it does.
 const VISIBLE: f64 = 0.1;
 /// How much of a record is looked at for that, in s.
@@ -248,7 +250,8 @@ impl Car {
         names.extend(at(|it| format!("wheel.{it}.force")).map(|it| (it, "N")));
         let column = |((name, unit), signal): ((String, &str), Vec<f64>)| {
             let mut random = Random::new(seed, &format!("noise of {name} in {purpose}"));
-            let sensor = Sensor { noise: NOISE * rms(&signal), ..Sensor::default() };
+            let share = if name.starts_with("road.") { ROAD_NOISE } else { NOISE };
+            let sensor = Sensor { noise: share * rms(&signal), ..Sensor::default() };
             let mut shown = sensor.measure(&signal, SAMPLED, &mut random);
             shown.truncate((DURATION * SAMPLED) as usize + 1);
             (name, unit.to_owned(), shown)
