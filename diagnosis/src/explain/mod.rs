@@ -5,3 +5,4 @@ pub mod columns;
 pub mod describe;
 pub mod features;
 pub mod selection;
+mod simulated;
