@@ -92,8 +92,7 @@ impl Baseline<'_> {
     /// what signals usually have.
     fn is_usual(&self, term: Term, fitted: &Fitted) -> bool {
         let plant = &self.rig.plant;
-        let few = late_by(term, fitted).is_some_and(|it| it < LATE);
-        let timing = late_by(term, fitted).is_some() && (name(term, plant).sensor || few);
+        let timing = late_by(term, fitted).is_some_and(|it| it < LATE || name(term, plant).sensor);
         prevalence(term, plant) == Prevalence::Background || timing
     }
 
@@ -198,12 +197,12 @@ impl Baseline<'_> {
     }
 }
 
-/// Whether an input is late by no more than measurements make any: that is no effect. Outputs are fitted with such timing.
+/// Whether a delay or lag of an input is within the timing of any measurement: no effect then. Outputs are fitted with such timing.
 pub(super) fn is_in_time(term: Term, fitted: &Fitted) -> bool {
     late_by(term, fitted).is_some_and(|it| it < IN_TIME)
 }
 
-/// By how many standard deviations of a channel's timing an input is late or early; none of what is not about that.
+/// Delay or lag of an input in standard deviations of a channel's timing; none for other terms.
 fn late_by(term: Term, fitted: &Fitted) -> Option<f64> {
     match term {
         Term::Fault(handle @ Unknown::Input(_, Fault::Lag | Fault::Delay)) => {

@@ -121,7 +121,7 @@ fn filtered(values: &[f64], noise: f64, factor: usize) -> Vec<f64> {
     (0..values.len()).step_by(factor).map(|k| deviation[k] + line.at(k)).collect()
 }
 
-/// What white noise of a standard deviation makes of a signal's filtered samples: noise of another draw, through the same filter.
+/// White noise of a standard deviation behind a signal's own filter.
 fn error(values: &[f64], noise: f64, (denoised, factor): (bool, usize), channel: u64) -> Vec<f64> {
     if noise == 0.0 || values.len() < 16 {
         return vec![0.0; values.len().div_ceil(factor)];
@@ -184,7 +184,7 @@ mod tests {
         assert!(error(&clean) < 0.3 * error(&noisy), "{} {}", error(&clean), error(&noisy));
     }
 
-    /// What is left of noise in a filtered signal, and another draw of it.
+    /// The remaining noise of a filtered signal, and another draw of it.
     #[test]
     fn an_inputs_error_is_as_large_as_what_its_noise_leaves() {
         let white = crate::data::check::tests::noise(7, 20_000);
@@ -197,7 +197,7 @@ mod tests {
         assert_eq!(drawn.len(), kept.len());
         let ratio = rms(&drawn) / rms(&kept);
         assert!((0.5..2.0).contains(&ratio) && rms(&drawn) < 0.005, "{ratio}, {}", rms(&drawn));
-        // Where nothing is filtered out but what is above the band, all noise below it is left.
+        // A filter that only ends the band leaves all noise below its end.
         let plain = rms(&error(&noisy, 0.01, (false, 2), 3));
         assert!((plain / (0.01 * (KEPT / 2.0).sqrt()) - 1.0).abs() < 0.05, "{plain}");
         assert!(error(&noisy, 0.0, (true, 2), 3).iter().all(|it| *it == 0.0));

@@ -14,13 +14,11 @@ use rustfft::num_complex::Complex;
 use strut_model::Declaration;
 
 use super::recorded::{Dataset, Source};
-use crate::data::check::noise_floor;
 use crate::report::findings::DataProblem;
 use crate::report::words::digits;
 use crate::rig::{Inverse, Rig};
 use crate::screening::rms;
 use crate::signal::distortion::Correction;
-use crate::signal::random::with_noise;
 use crate::signal::spectral::{about_line, filled};
 
 /// Lowest end of a band in Hz: at its sampling rate, a block of errors has ten samples.
@@ -67,7 +65,7 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
         if !records.iter().zip(&banded).all(|pair| covered(pair).unwrap_or(false)) {
             return None;
         }
-        if records.iter().zip(&banded).all(|pair| signals.noise(pair, top).is_some_and(|it| it < NOISY)) {
+        if banded.iter().all(|it| signals.noise(it).is_some_and(|it| it < NOISY)) {
             break banded;
         }
         if top <= LOWEST {
@@ -114,9 +112,9 @@ impl Signals {
     }
 
     /// Share of the force's power that the noise of the position makes up by way of mass or damper.
-    fn noise(self, (record, banded): (&Dataset, &Dataset), top: f64) -> Option<f64> {
+    fn noise(self, banded: &Dataset) -> Option<f64> {
         let (motion, force) = (motion(banded), self.force(banded)?);
-        let noisier = self::motion(&below(&with_noise_again(record), top));
+        let noisier = banded.disturbed().map_or_else(|| motion.clone(), |it| self::motion(&it));
         let pairs = motion[self.derivative].iter().zip(&noisier[self.derivative]);
         let noise: Vec<f64> = pairs.map(|(one, two)| one - two).collect();
         let factor = coefficient(&motion, force, self.derivative)?;
@@ -207,17 +205,6 @@ fn coefficient(inputs: &[Vec<f64>], signal: &[f64], wanted: usize) -> Option<f64
     let right = DVector::from_fn(known.len(), |row, _| signal[known[row]]);
     let solution = rows.svd(true, true).solve(&right, 1e-9).ok()?;
     Some(solution[column] / scales[column])
-}
-
-/// The record with as much noise on its measured inputs once more.
-fn with_noise_again(record: &Dataset) -> Dataset {
-    let mut inputs = record.inputs.clone();
-    for (channel, source) in (1..).zip(&mut inputs) {
-        if let Source::Measured(values) = source {
-            *values = with_noise(values, noise_floor(values), channel);
-        }
-    }
-    Dataset { inputs, ..record.clone() }
 }
 
 #[cfg(test)]

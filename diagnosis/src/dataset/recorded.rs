@@ -16,8 +16,8 @@ pub struct Dataset {
     pub step: f64,
     /// Where each input comes from.
     pub inputs: Vec<Source>,
-    /// What measured inputs may be off by: for each input, noise like that of its measurement, through the filters that its signal
-    /// passed; empty if it has none.
+    /// Possible errors of each measured input: another draw of its measurement's noise, behind the same filters. Empty until a
+    /// record is filtered.
     pub errors: Vec<Vec<f64>>,
     /// How the inputs go on between the samples.
     pub between: Between,
@@ -90,7 +90,7 @@ impl Dataset {
         self.sections.iter().flat_map(|section| without_line(&values[section.clone()])).collect()
     }
 
-    /// The same with inputs that are off by their errors; none if they have none.
+    /// The same with these errors on its inputs; none without noise.
     pub fn disturbed(&self) -> Option<Self> {
         let mut disturbed = self.clone();
         let mut is_disturbed = false;

@@ -208,7 +208,7 @@ impl Baseline<'_> {
             if let Some(score) = curve {
                 return Ok(Next::Curve(score));
             }
-            // A signal of which these laws explain nearly as much in a simulation is not unmodelled.
+            // Where refused laws reduce a simulation's errors nearly as much as features do, nothing is unmodelled.
             let own = |it: &&Tried| scores.iter().any(|score| compared.is_of(score, it.term));
             let explained = found.tried.iter().filter(own).map(|it| it.evidence.residual_reduction);
             let explained = explained.fold(0.0, f64::max);
@@ -287,7 +287,7 @@ impl Baseline<'_> {
         self.roots(fitted).map(above).any(|it| it >= CRITERIA.improvement)
     }
 
-    /// Share of a simulation's errors that would go with a candidate, all signals in shares of their magnitudes.
+    /// Share by which a candidate reduces the squared errors of a simulation, signals in shares of their magnitudes.
     fn reduction(&self, (missing, compared): (&Missing<'_>, &Compared), score: Score) -> f64 {
         let magnitudes: Vec<f64> =
             (0..missing.setting.magnitudes.len()).map(|row| bent_rms(self.train, row)).collect();

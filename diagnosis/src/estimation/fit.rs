@@ -123,6 +123,16 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// Parameters of a plant with undistorted signals, and no starts yet.
+    pub fn undistorted(plant: &Plant, parameters: &[f64]) -> Self {
+        Self {
+            parameters: parameters.to_vec(),
+            inputs: vec![Correction::default(); plant.inputs.len()],
+            outputs: vec![Correction::default(); plant.outputs.len()],
+            starts: Vec::new(),
+        }
+    }
+
     /// The value of what can be changed.
     pub fn get(&self, handle: Unknown) -> f64 {
         match handle {

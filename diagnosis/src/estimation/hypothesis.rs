@@ -12,7 +12,6 @@ use crate::estimation::fit::{Estimate, Fit, FreeParameter, Residuals, Trace, Unk
 use crate::estimation::lsq::{self, Linear, Problem, Stop};
 use crate::plant::Dynamics;
 use crate::rig::Rig;
-use crate::signal::distortion::Correction;
 
 /// Time over which the velocity at a section's start is guessed from a measured position, in seconds.
 const RATE: f64 = 0.02;
@@ -140,12 +139,8 @@ impl Baseline<'_> {
 
     /// The point that everything starts from.
     pub fn origin(&self) -> Estimate {
-        Estimate {
-            parameters: self.rig.parameters.clone(),
-            inputs: vec![Correction::default(); self.rig.plant.inputs.len()],
-            outputs: vec![Correction::default(); self.rig.plant.outputs.len()],
-            starts: self.starts(self.train),
-        }
+        let point = Estimate::undistorted(&self.rig.plant, &self.rig.parameters);
+        Estimate { starts: self.starts(self.train), ..point }
     }
 
     /// A first guess of the states at the start of each section: what was measured of them or follows from it,

@@ -54,6 +54,12 @@ pub struct Candidates {
 }
 
 impl Candidates {
+    /// The columns of a candidate, one list for each window.
+    pub fn of(&self, candidate: usize) -> Vec<Vec<Column>> {
+        let range = &self.list[candidate].columns;
+        self.columns.iter().map(|all| all[range.clone()].to_vec()).collect()
+    }
+
     fn add(&mut self, kind: Kind, columns: Vec<Vec<Column>>, peaks: Vec<f64>) {
         let first = self.columns.first().map_or(0, Vec::len);
         let count = columns.first().map_or(0, Vec::len);

@@ -290,8 +290,7 @@ impl Compared {
     pub fn best(&self) -> Option<Vec<Vec<Column>>> {
         let all = self.named.iter().chain(&self.features);
         let best = all.max_by(|a, b| a.share.total_cmp(&b.share))?;
-        let range = &self.candidates.list[best.candidate].columns;
-        Some(self.candidates.columns.iter().map(|all| all[range.clone()].to_vec()).collect())
+        Some(self.candidates.of(best.candidate))
     }
 
     /// The best shape of each effect with a name, the best effect first.

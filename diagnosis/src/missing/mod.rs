@@ -64,6 +64,8 @@ pub struct Missing<'a> {
 pub struct Frame {
     /// Estimation records, then validation records, freed of what sensors are known to do.
     records: Vec<Dataset>,
+    /// The same with errors of their inputs, where these are noisy.
+    disturbed: Vec<Option<Dataset>>,
     point: Estimate,
     /// Whether those that nobody states may be off by decades.
     far: bool,
@@ -160,6 +162,7 @@ impl Baseline<'_> {
         }
         let states = self.rig.plant.states.iter();
         Ok(Frame {
+            disturbed: records.iter().map(Dataset::disturbed).collect(),
             records,
             point,
             far: false,
@@ -267,7 +270,9 @@ impl Baseline<'_> {
                 setting.take_along(record, &mut window, &stated, &lawful);
                 setting.loosen(record, &mut window, (&lawful, &sharp));
             }
-            setting.roughen(&records[*record], &mut window, &lawful);
+            if let Some(disturbed) = &frame.disturbed[*record] {
+                setting.roughen(disturbed, &mut window, &lawful);
+            }
             let late = |handle: &Unknown| {
                 let mut late = lawful.clone();
                 late.set(*handle, DELAY);

@@ -1,23 +1,23 @@
-//! What noise of measured inputs makes of the predictions.
+//! Errors of the predictions by noise of measured inputs.
 //!
 //! A road that is measured with an error of 80 µm shakes a tyre of 200 kN/m with 16 N: as much as a small cause does. A smoother
-//! that held its inputs for exact would take that for a missing signal. So the noise that may be left of an input adds to the
-//! variances of next states and outputs.
+//! with exact inputs would take that for a missing signal. So the remaining noise of the inputs adds to the variances of next states
+//! and outputs.
 
 use crate::dataset::recorded::Dataset;
 use crate::estimation::fit::Estimate;
 
 use super::trajectory::{Setting, Window};
 
-/// Samples after which noise has no memory.
+/// Samples over which noise may have a memory.
 const LAGS: usize = 100;
 
 impl Setting<'_> {
-    /// Adds what errors of a record's measured inputs make of next states and outputs, at a point with the laws of the window.
-    pub fn roughen(&self, record: &Dataset, window: &mut Window, point: &Estimate) {
-        let Some(disturbed) = record.disturbed() else { return };
+    /// Adds the variances of next states and outputs by errors of the inputs, at a point with the laws of the window; `disturbed`
+    /// is the window's record with such errors.
+    pub fn roughen(&self, disturbed: &Dataset, window: &mut Window, point: &Estimate) {
         let drive = disturbed.drive(&window.samples, &point.inputs);
-        let made = self.driven_otherwise(record, window, &drive, point);
+        let made = self.driven_otherwise(disturbed, window, &drive, point);
         add(&mut window.loose.0, &made.next, window.states);
         add(&mut window.loose.1, &made.outputs, window.outputs);
     }
@@ -33,8 +33,8 @@ fn add(variances: &mut Vec<f64>, changes: &[f32], signals: usize) {
     }
 }
 
-/// Variance of white noise from which as much is known by its independent samples as from noise with a memory by its fewer
-/// ones: times the ratio of white noise's bandwidth to the noise's own, which is the sum of its squared autocorrelations
+/// Variance of white noise that is as uncertain as noise with a memory. Such noise has fewer independent samples: by the ratio of
+/// the bandwidths, which is the sum of its squared autocorrelations
 /// (M. S. Bartlett, Journal of the Royal Statistical Society 98 (1935)).
 fn as_if_white(noise: &[f64]) -> f64 {
     let product =
@@ -53,7 +53,6 @@ mod tests {
     use crate::dataset::recorded::{Measured, Source};
     use crate::plant::Between;
     use crate::rig::Rig;
-    use crate::signal::distortion::Correction;
     use crate::signal::random::with_noise;
 
     #[test]
@@ -111,27 +110,22 @@ mod tests {
             others: vec![],
             sections: std::iter::once(0..samples).collect(),
         };
-        let point = Estimate {
-            parameters: rig.parameters.clone(),
-            inputs: vec![Correction::default(); plant.inputs.len()],
-            outputs: vec![Correction::default(); plant.outputs.len()],
-            starts: vec![],
-        };
+        let point = Estimate::undistorted(plant, &rig.parameters);
         let nominal: Vec<f64> = plant.states.iter().map(|it| it.nominal.unwrap_or(1.0)).collect();
         let records = [Dataset { errors: errors(5e-5), ..still.clone() }];
         let setting = Setting::new(&*dynamics, (&point, &rig.start), &[], &[], &nominal, &records);
         let mut window = setting.window(&records, 0, 0..samples, &rig.start).unwrap();
-        setting.roughen(&still, &mut window, &point);
-        assert!(window.loose.0.is_empty() && window.loose.1.is_empty());
-        setting.roughen(&records[0], &mut window, &point);
+        assert_eq!(still.disturbed(), None);
+        setting.roughen(&records[0].disturbed().unwrap(), &mut window, &point);
         let value = |name: &str| rig.parameters[plant.parameter(name).unwrap()];
         let force = 5e-5 * value("tire.stiffness");
         let wheel = plant.state("wheel.velocity").unwrap();
         let place = setting.active.iter().position(|it| *it == wheel).unwrap();
         let kick = window.loose.0[place].sqrt();
-        // Within a step the road goes straight from one error to the next, so that neighbours share them.
-        let wanted = force * step / value("unsprung_mass");
-        assert!((0.7..1.1).contains(&(kick / wanted)), "{kick} of {wanted}");
+        // Within a step the road goes straight from one error to the next: half of the variance, and neighbours share one, whose
+        // correlation of a half makes it 1.5 times as much.
+        let wanted = 0.75_f64.sqrt() * force * step / value("unsprung_mass");
+        assert!((kick / wanted - 1.0).abs() < 0.05, "{kick} of {wanted}");
         let cell = window.loose.1[2].sqrt();
         assert!((cell / force - 1.0).abs() < 0.1, "{cell} of {force}");
         assert!(window.loose.1[0].sqrt() < 1e-6, "the body does not feel it at once");

@@ -114,12 +114,7 @@ mod tests {
             .map(|name| plant.outputs.iter().position(|it| it.name == name).unwrap())
             .map(|output| Measured { output, values: seen[output].clone(), noise_floor: 1e-3 })
             .to_vec();
-        let point = Estimate {
-            parameters: rig.parameters.clone(),
-            inputs: vec![Correction::default(); plant.inputs.len()],
-            outputs: vec![Correction::default(); plant.outputs.len()],
-            starts: vec![],
-        };
+        let point = Estimate::undistorted(plant, &rig.parameters);
         let nominal: Vec<f64> = plant.states.iter().map(|it| it.nominal.unwrap_or(1.0)).collect();
         let records = [record];
         let setting = Setting::new(&*dynamics, (&point, &rig.start), &[], &[], &nominal, &records);

@@ -159,7 +159,6 @@ mod tests {
     use crate::estimation::fit::Estimate;
     use crate::plant::{Between, Drive};
     use crate::rig::Rig;
-    use crate::signal::distortion::Correction;
 
     const STEP: f64 = 1e-3;
     const MEASURED: [&str; 5] = [
@@ -202,12 +201,7 @@ mod tests {
     }
 
     fn point(rig: &Rig) -> Estimate {
-        Estimate {
-            parameters: rig.parameters.clone(),
-            inputs: vec![Correction::default(); rig.plant.inputs.len()],
-            outputs: vec![Correction::default(); rig.plant.outputs.len()],
-            starts: Vec::new(),
-        }
+        Estimate::undistorted(&rig.plant, &rig.parameters)
     }
 
     /// What is left of r1 to r4, with the rig's own laws.
