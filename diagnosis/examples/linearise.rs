@@ -12,8 +12,9 @@ use std::time::Instant;
 use strut_diagnosis::data::Origin;
 use strut_diagnosis::data::map::Map;
 use strut_diagnosis::dataset::import::load;
-use strut_diagnosis::estimation::fit::{Estimate, Fit, FreeParameter, Unknown};
+use strut_diagnosis::estimation::fit::Fit;
 use strut_diagnosis::estimation::lsq::Problem;
+use strut_diagnosis::estimation::unknowns::{Estimate, FreeParameter, Unknown};
 use strut_diagnosis::rig::Rig;
 use strut_diagnosis::signal::distortion::Correction;
 

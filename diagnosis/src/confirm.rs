@@ -14,9 +14,9 @@ use crate::decision::criteria::CRITERIA;
 use crate::decision::evidence::Evidence;
 use crate::decision::rules::{Amount, is_determined};
 use crate::estimation::deadline::Stage;
-use crate::estimation::fit::{Estimate, Unknown};
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::lsq::Stop;
+use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::explain::selection::Proposal;
 use crate::signal::distortion::Fault;
 

@@ -13,8 +13,8 @@ use crate::decision::plausible::{
     Alternative, FACTOR, Likeness, Plausible, Reading, chosen, is_exchanged, usual_units,
 };
 use crate::diagnosis::{Options, root_mean_square};
-use crate::estimation::fit::{Estimate, Unknown};
 use crate::estimation::hypothesis::Baseline;
+use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::plant::Dynamics;
 use crate::report::findings::DataProblem;
 use crate::report::words::{digits, unit};

@@ -13,8 +13,9 @@ use rayon::prelude::*;
 use crate::catalogue::naming::name;
 use crate::catalogue::{self, Signal};
 use crate::dataset::recorded::{Dataset, Source};
-use crate::estimation::fit::{Estimate, Normal, Unknown};
+use crate::estimation::fit::Normal;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
+use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::plant::{Dynamics, Signals};
 use crate::signal::distortion::{AFTER, Correction, Fault};
 

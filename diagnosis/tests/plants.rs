@@ -9,7 +9,7 @@ use strut_diagnosis::data::map::Map;
 use strut_diagnosis::dataset::import::{Loaded, load};
 use strut_diagnosis::dataset::split::Split;
 use strut_diagnosis::diagnosis::{Options, diagnose};
-use strut_diagnosis::estimation::fit::Unknown;
+use strut_diagnosis::estimation::unknowns::Unknown;
 use strut_diagnosis::rig::Rig;
 
 /// A plant whose record is made, read and diagnosed.

@@ -4,7 +4,7 @@ use strut_diagnosis::catalogue::naming::name;
 use strut_diagnosis::dataset::recorded::{Dataset, Measured, Source, derivative};
 use strut_diagnosis::dataset::split::Split;
 use strut_diagnosis::diagnosis::{Diagnosis, Options, diagnose};
-use strut_diagnosis::estimation::fit::Unknown;
+use strut_diagnosis::estimation::unknowns::Unknown;
 use strut_diagnosis::plant::{Between, Drive};
 use strut_diagnosis::rig::Rig;
 use strut_diagnosis::screening::rms;

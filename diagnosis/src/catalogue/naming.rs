@@ -4,8 +4,8 @@ use strut_model::Declaration;
 
 use super::signals::At;
 use super::{Distortion, Onset, Prevalence, RESPONSE, Signal, distortion, distortions, effects, tables};
-use crate::estimation::fit::Unknown;
 use crate::estimation::hypothesis::Term;
+use crate::estimation::unknowns::Unknown;
 use crate::plant::Plant;
 use crate::signal::distortion::Fault;
 

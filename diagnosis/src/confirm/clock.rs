@@ -2,8 +2,8 @@
 //! to the right rate. So every rate is compared with the signal's own simulation.
 
 use crate::diagnosis::{root_mean_square, simulated};
-use crate::estimation::fit::{Estimate, Unknown};
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
+use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::signal::distortion::Fault;
 
 /// Share of a period of the fastest signal by which neighbouring rates may differ at a record's end.

@@ -3,8 +3,8 @@
 
 use rayon::prelude::*;
 
-use crate::estimation::fit::Estimate;
 use crate::estimation::hypothesis::{Baseline, Fitted};
+use crate::estimation::unknowns::Estimate;
 use crate::explain::selection::Proposal;
 
 use super::{Tried, comparing, contains_by_name, parts};

@@ -7,8 +7,9 @@ use crate::decision::account::account;
 use crate::decision::evidence::Evidence;
 use crate::estimation::comparison::{Errors, Student, student};
 use crate::estimation::coordinates::{IN_TIME, TIMING};
-use crate::estimation::fit::{Residuals, Unknown, strain};
+use crate::estimation::fit::Residuals;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
+use crate::estimation::unknowns::{Unknown, strain};
 use crate::screening::{bent_rms, rms};
 use crate::signal::distortion::Fault;
 

@@ -1,6 +1,7 @@
 //! Decisions as pure functions of numbers: no file, no simulation.
 
 pub mod account;
+pub mod choice;
 pub mod criteria;
 pub mod disagreement;
 pub mod evidence;

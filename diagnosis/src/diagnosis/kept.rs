@@ -2,9 +2,10 @@
 
 use crate::dataset::recorded::Dataset;
 use crate::decision::rules::{Amount, is_determined, lowers};
-use crate::estimation::fit::{Estimate, Residuals, Unknown};
+use crate::estimation::fit::Residuals;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::intervals::Interval;
+use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::signal::distortion::Fault;
 
 use super::{Found, phi};

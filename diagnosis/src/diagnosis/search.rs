@@ -1,12 +1,13 @@
 //! The search: place, law, confirmation, repeated until no error worth reporting remains.
 
 use crate::confirm::{Confirmed, Tried};
+use crate::decision::choice::{Choice, Score, best_of, choose, likely};
 use crate::decision::criteria::CRITERIA;
 use crate::estimation::deadline::Stage;
-use crate::estimation::fit::Estimate;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
+use crate::estimation::unknowns::Estimate;
 use crate::explain::describe::{MissingSignal, Unmodelled};
-use crate::explain::selection::{Choice, Compared, MOST_FITTED, Score, best_of, choose, likely};
+use crate::explain::selection::{Compared, MOST_FITTED};
 use crate::missing::innovations::Noise;
 use crate::missing::locate::Location;
 use crate::missing::motion::outputs;

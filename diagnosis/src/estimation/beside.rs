@@ -8,8 +8,9 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use crate::confirm::worth;
 use crate::decision::criteria::CRITERIA;
 use crate::estimation::coordinates::POINTS;
-use crate::estimation::fit::{Normal, Unknown};
+use crate::estimation::fit::Normal;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
+use crate::estimation::unknowns::Unknown;
 use crate::screening::TriedOut;
 use crate::signal::distortion::Fault;
 

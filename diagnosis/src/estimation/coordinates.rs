@@ -4,8 +4,8 @@ use strut_model::unit;
 
 use crate::catalogue::{self, Bounds, Part, Scale, Signal};
 use crate::dataset::recorded::Source;
-use crate::estimation::fit::{FreeParameter, Prior, Unknown};
 use crate::estimation::hypothesis::{Baseline, Term};
+use crate::estimation::unknowns::{FreeParameter, Prior, Unknown};
 use crate::signal::distortion::{AFTER, Fault, UNKNOWN};
 
 /// Points of a table without a name.

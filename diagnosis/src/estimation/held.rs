@@ -2,7 +2,7 @@
 //!
 //! The search looks for them in the signals, where a delay is exact and costs nothing; the extended model has them inside.
 
-use crate::estimation::fit::Estimate;
+use crate::estimation::unknowns::Estimate;
 use crate::plant::Plant;
 use crate::signal::distortion::Fault;
 

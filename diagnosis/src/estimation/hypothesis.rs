@@ -8,8 +8,9 @@ use crate::dataset::recorded::Dataset;
 use crate::dataset::split::Split;
 use crate::diagnosis::Options;
 use crate::estimation::deadline::Deadline;
-use crate::estimation::fit::{Estimate, Fit, FreeParameter, Residuals, Trace, Unknown};
+use crate::estimation::fit::{Fit, Residuals, Trace};
 use crate::estimation::lsq::{self, Linear, Problem, Stop};
+use crate::estimation::unknowns::{Estimate, FreeParameter, Unknown};
 use crate::plant::Dynamics;
 use crate::rig::Rig;
 

@@ -19,9 +19,9 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 use crate::dataset::recorded::Dataset;
 use crate::decision::disagreement::{Wish, wish};
 use crate::estimation::beside::Assumed;
-use crate::estimation::fit::{Estimate, FreeParameter, Unknown};
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::lsq::Problem;
+use crate::estimation::unknowns::{Estimate, FreeParameter, Unknown};
 
 /// Excitations that are compared at least: fewer records are cut in pieces.
 const EXCITATIONS: usize = 4;

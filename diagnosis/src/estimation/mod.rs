@@ -9,3 +9,4 @@ pub mod held;
 pub mod hypothesis;
 pub mod intervals;
 pub mod lsq;
+pub mod unknowns;

@@ -3,9 +3,10 @@
 use nalgebra::DVector;
 
 use crate::dataset::recorded::{Dataset, Measured};
-use crate::estimation::fit::{Estimate, Residuals, strain};
+use crate::estimation::fit::Residuals;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::lsq::Stop;
+use crate::estimation::unknowns::{Estimate, strain};
 use crate::plant::{Dynamics, Signals};
 
 use super::bounds::Bounds;

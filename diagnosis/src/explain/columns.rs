@@ -1,8 +1,8 @@
 //! What each candidate would change along the trajectory.
 
 use crate::dataset::recorded::Dataset;
-use crate::estimation::fit::{Estimate, Unknown};
 use crate::estimation::hypothesis::Term;
+use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::missing::innovations::Column;
 use crate::missing::ports::{Entry, Port};
 use crate::missing::trajectory::{Setting, Window};

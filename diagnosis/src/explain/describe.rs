@@ -12,7 +12,8 @@ use crate::missing::trajectory::Window;
 use crate::plant::{Plant, Signals};
 
 use super::features::{Group, RESONANCES, features};
-use super::selection::{Compared, Score};
+use super::selection::Compared;
+use crate::decision::choice::Score;
 
 /// Kurtosis beyond which a signal comes in bursts: ten percent of the time hold all of it.
 const BURSTS: f64 = 8.0;

@@ -302,7 +302,7 @@ impl Setting<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::estimation::fit::Estimate;
+    use crate::estimation::unknowns::Estimate;
     use crate::plant::{Between, Drive};
     use crate::rig::Rig;
 

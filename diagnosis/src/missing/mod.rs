@@ -24,8 +24,8 @@ use rayon::prelude::*;
 use crate::catalogue;
 use crate::dataset::recorded::Dataset;
 use crate::estimation::coordinates::{TIMING, TOLERANCE};
-use crate::estimation::fit::{Estimate, Unknown};
 use crate::estimation::hypothesis::{Baseline, Term};
+use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::plant::Dynamics;
 use crate::signal::distortion::Correction;
 

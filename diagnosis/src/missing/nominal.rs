@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::estimation::coordinates::TOLERANCE;
-use crate::estimation::fit::{Estimate, Unknown};
 use crate::estimation::hypothesis::Baseline;
+use crate::estimation::unknowns::{Estimate, Unknown};
 
 use super::Frame;
 use super::innovations::Noise;

@@ -5,7 +5,7 @@
 //! and outputs.
 
 use crate::dataset::recorded::Dataset;
-use crate::estimation::fit::Estimate;
+use crate::estimation::unknowns::Estimate;
 
 use super::trajectory::{Setting, Window};
 

@@ -73,7 +73,7 @@ impl Follower for Last {
 mod tests {
     use super::*;
     use crate::dataset::recorded::{Measured, Source};
-    use crate::estimation::fit::Estimate;
+    use crate::estimation::unknowns::Estimate;
     use crate::plant::{Between, Drive};
     use crate::rig::Rig;
     use crate::signal::distortion::Correction;

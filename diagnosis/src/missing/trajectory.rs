@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::dataset::recorded::{Dataset, Source};
-use crate::estimation::fit::Estimate;
+use crate::estimation::unknowns::Estimate;
 use crate::plant::{Drive, Dynamics, Follower, Seed, Seen};
 use crate::screening::rms;
 

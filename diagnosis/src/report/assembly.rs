@@ -16,12 +16,13 @@ use crate::catalogue::naming::{self, name};
 use crate::confirm::{Accepted, has_no_name};
 use crate::dataset::recorded::Dataset;
 use crate::dataset::witness::same_excitation;
+use crate::decision::choice::Score;
 use crate::decision::verdict::{Facts, verdict};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::estimation::coordinates::SURE;
-use crate::estimation::fit::{Estimate, Residuals, Unknown};
+use crate::estimation::fit::Residuals;
 use crate::estimation::hypothesis::{Fitted, Term};
-use crate::explain::selection::Score;
+use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::report::findings::{
     Answer, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, FittedValue, NominalParameter,
     Signal, SignalDistortion, Start,

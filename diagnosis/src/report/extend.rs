@@ -10,7 +10,7 @@ use strut_related::{Files, Given, ParameterSet, Related, media};
 
 use crate::catalogue::naming;
 use crate::diagnosis::Diagnosis;
-use crate::estimation::fit::Unknown;
+use crate::estimation::unknowns::Unknown;
 use crate::report::file::replace;
 use crate::report::findings::Findings;
 use crate::rig::{self, Kind, Rig};

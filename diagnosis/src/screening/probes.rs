@@ -3,8 +3,8 @@
 use crate::catalogue::{Effect, Part, Table};
 use crate::dataset::recorded::Source;
 use crate::estimation::coordinates::POINTS;
-use crate::estimation::fit::{Estimate, Unknown};
 use crate::estimation::hypothesis::{Baseline, Term};
+use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::signal::distortion::{AFTER, Fault};
 
 use super::rms;

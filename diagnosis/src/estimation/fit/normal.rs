@@ -6,10 +6,11 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::dataset::recorded::Dataset;
+use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::plant::{Linearised, Seed, Signals};
 use crate::signal::distortion::{Correction, Fault};
 
-use super::{Estimate, Fit, Unknown};
+use super::Fit;
 
 /// Samples whose products are added in one go: their Jacobian stays in the processor's cache.
 const TOGETHER: usize = 256;

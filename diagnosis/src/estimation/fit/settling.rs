@@ -5,8 +5,9 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::dataset::recorded::Dataset;
+use crate::estimation::unknowns::Estimate;
 
-use super::{Estimate, Fit};
+use super::Fit;
 
 /// Steps at most.
 const STEPS: usize = 6;

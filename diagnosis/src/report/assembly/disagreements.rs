@@ -2,7 +2,7 @@
 
 use crate::decision::disagreement::{Wish, disagreement};
 use crate::diagnosis::Diagnosis;
-use crate::estimation::fit::Unknown;
+use crate::estimation::unknowns::Unknown;
 use crate::report::findings::{Disagreement, RecordValue};
 
 /// Quantile of the normal distribution for 95 % within.

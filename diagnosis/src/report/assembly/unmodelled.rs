@@ -3,9 +3,9 @@
 use crate::catalogue::{Element, ElementKind, Scale, Table, Unnamed};
 use crate::diagnosis::Diagnosis;
 use crate::estimation::coordinates::POINTS;
-use crate::estimation::fit::Unknown;
 use crate::estimation::hypothesis::{Fitted, Term};
 use crate::estimation::intervals::Interval;
+use crate::estimation::unknowns::Unknown;
 use crate::explain::describe::{self as described, MissingSignal};
 use crate::report::findings::{Curve, Missing, PlaceLikelihood, Unmodelled};
 use crate::screening::rms;

@@ -10,7 +10,7 @@ use strut_related::{
 
 use crate::dataset::recorded::Dataset;
 use crate::diagnosis::{Diagnosis, root_mean_square};
-use crate::estimation::fit::Estimate;
+use crate::estimation::unknowns::Estimate;
 use crate::plant::{self, Dynamics};
 
 /// Most samples of the record: at 500 samples a second, 5 s, and less than a fifth of the FMU's size.

@@ -10,8 +10,8 @@ mod laws;
 mod stretch;
 
 use crate::diagnosis::{Diagnosis, root_mean_square, simulated};
-use crate::estimation::fit::{Estimate, Unknown};
 use crate::estimation::hypothesis::Term;
+use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::report::findings::Parity;
 use crate::signal::distortion::Fault;
 

@@ -156,7 +156,7 @@ mod tests {
     use super::*;
     use crate::dataset::recorded::{Measured, Source, derivative};
     use crate::diagnosis::root_mean_square;
-    use crate::estimation::fit::Estimate;
+    use crate::estimation::unknowns::Estimate;
     use crate::plant::{Between, Drive};
     use crate::rig::Rig;
 

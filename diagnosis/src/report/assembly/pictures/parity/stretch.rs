@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::data::check::noise_floor;
 use crate::dataset::recorded::{Dataset, Source};
-use crate::estimation::fit::Estimate;
+use crate::estimation::unknowns::Estimate;
 use crate::plant::{Between, Drive, Plant};
 use crate::signal::random::with_noise;
 use crate::signal::spectral::{filled, in_band, power_spectrum};
