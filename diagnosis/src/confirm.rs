@@ -13,6 +13,7 @@ use crate::catalogue::{self, Onset, Part, RESPONSE, naming};
 use crate::decision::criteria::CRITERIA;
 use crate::decision::evidence::Evidence;
 use crate::decision::rules::{Amount, is_determined};
+use crate::diagnosis::component::Component;
 use crate::estimation::deadline::Stage;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::lsq::Stop;
@@ -175,10 +176,12 @@ impl Baseline<'_> {
     /// # Errors
     /// If the model diverges in the close fit.
     pub fn confirmed(&self, base: &Fitted, tried: &[Tried]) -> Result<Option<Confirmed>, String> {
+        let sure = self.uses(Component::Confirmation);
         let determined = |it: &Tried| {
             it.fitted.as_ref().is_ok_and(|fitted| is_determined(&self.amounts(it.term, fitted, base)))
         };
-        let passes = |it: &&Tried| it.evidence.refusal().is_none() && determined(it);
+        let passes =
+            |it: &&Tried| it.evidence.refusal().is_none() && determined(it) || !sure && it.fitted.is_ok();
         let passing: Vec<&Tried> = tried.iter().filter(passes).collect();
         let Some(chosen) = self.chosen(base, &passing).cloned() else { return Ok(None) };
         let Ok(fitted) = &chosen.fitted else { return Ok(None) };

@@ -1,5 +1,6 @@
 //! From records to findings: nominal fit, search, intervals.
 
+pub mod component;
 mod kept;
 mod nominal;
 mod search;
@@ -16,6 +17,8 @@ use crate::explain::describe::{MissingSignal, Unmodelled};
 use crate::plant::Drive;
 use crate::rig::Rig;
 use crate::screening::rms;
+
+use component::Component;
 
 /// A diagnosis that has come to its end.
 pub struct Diagnosis<'a> {
@@ -62,6 +65,8 @@ pub struct Options {
     pub known: Vec<(usize, f64, f64)>,
     /// Numbers of the effects that are looked at; none: all.
     pub only: Vec<String>,
+    /// A component of the method that is left out, for an ablation.
+    pub without: Option<Component>,
     /// Until when it may be looked further.
     pub deadline: Deadline,
 }

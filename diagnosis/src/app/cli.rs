@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::diagnosis::component::Component;
+
 const EXAMPLES: &str = "\
 Examples:
   diagnose rigs tum-quarter-vehicle   what its records may hold: names, units, and what is looked for in them
@@ -163,6 +165,10 @@ pub struct DiagnosisArguments {
     /// Duration of a deciding experiment in s [default: as the records, at most 20 s]
     #[arg(long, value_name = "S", value_parser = positive)]
     pub duration: Option<f64>,
+
+    /// Leave a component of the method out, to measure its contribution
+    #[arg(long, value_enum, value_name = "COMPONENT", hide = true)]
+    pub without: Option<Component>,
 
     /// Folder for the report and the extended model; made if it is missing
     #[arg(long, value_name = "DIR", default_value = "report")]

@@ -137,6 +137,7 @@ fn study(arguments: &DiagnosisArguments) -> Result<Study, String> {
     if let Some(path) = &arguments.map {
         study.map = Map::parse(&read(path)?).map_err(|error| format!("{}: {error}", path.display()))?;
     }
+    study.without = arguments.without;
     study.map.reading = study.map.reading.or(arguments.sampling_rate, arguments.skip_rows);
     study.limits = Limits {
         stroke: arguments.stroke,

@@ -14,6 +14,7 @@ use crate::dataset::import::{Loaded, load};
 use crate::dataset::recorded::Dataset;
 use crate::dataset::split::Split;
 use crate::dataset::witness;
+use crate::diagnosis::component::Component;
 use crate::diagnosis::{Diagnosis, Options};
 use crate::estimation::deadline::{Deadline, Stage};
 use crate::experiment::Limits;
@@ -41,6 +42,8 @@ pub struct Study {
     pub effects: Vec<String>,
     /// Limits of a deciding experiment.
     pub limits: Limits,
+    /// A component of the method that is left out, for an ablation.
+    pub without: Option<Component>,
 }
 
 /// What a diagnosis tells while it runs.
@@ -65,7 +68,7 @@ impl Study {
     /// A diagnosis of a rig from estimation and validation records, with nothing else known.
     pub fn new(rig: Rig, train: Vec<Origin>, test: Vec<Origin>) -> Self {
         let (map, limits) = (Map::default(), Limits::default());
-        Self { rig, train, test, map, effects: Vec::new(), limits }
+        Self { rig, train, test, map, effects: Vec::new(), limits, without: None }
     }
 
     /// Takes a parameter as measured independently, e.g. `sprung_mass=94.4±0.5` (or with `+-`), in its SI unit.
@@ -127,7 +130,8 @@ impl Study {
         }
         let test: Vec<Dataset> = records.split_off(self.train.len());
         problems.extend(witness::notes(&records, &test));
-        let options = Options { known: self.rig.known.clone(), only: self.effects.clone(), deadline };
+        let (known, only) = (self.rig.known.clone(), self.effects.clone());
+        let options = Options { known, only, without: self.without, deadline };
         progress("removing the noise of the inputs");
         let whole = Split::new(&records, test);
         progress("comparing each column with the model");

@@ -5,6 +5,7 @@ use crate::catalogue::{Element, Prevalence};
 use crate::dataset::recorded::Dataset;
 use crate::decision::account::account;
 use crate::decision::evidence::Evidence;
+use crate::diagnosis::component::Component;
 use crate::estimation::comparison::{Errors, Student, student};
 use crate::estimation::coordinates::{IN_TIME, TIMING};
 use crate::estimation::fit::Residuals;
@@ -94,7 +95,7 @@ impl Baseline<'_> {
     fn is_usual(&self, term: Term, fitted: &Fitted) -> bool {
         let plant = &self.rig.plant;
         let timing = late_by(term, fitted).is_some_and(|it| it < LATE || name(term, plant).sensor);
-        prevalence(term, plant) == Prevalence::Background || timing
+        self.uses(Component::Background) && (prevalence(term, plant) == Prevalence::Background || timing)
     }
 
     /// Whether these errors on the validation records leave the account of some signal open. What every rig has a little of leaves
@@ -104,7 +105,7 @@ impl Baseline<'_> {
             let noise = self.floor[row].powi(2);
             account(power, power, &[], noise, 0.0).is_open(self.signal(row))
         };
-        self.errors(left).mean_squares().into_iter().enumerate().any(open)
+        self.uses(Component::Account) && self.errors(left).mean_squares().into_iter().enumerate().any(open)
     }
 
     /// Mean square of a measured output on the validation records.

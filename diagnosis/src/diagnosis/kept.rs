@@ -8,11 +8,15 @@ use crate::estimation::intervals::Interval;
 use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::signal::distortion::Fault;
 
+use super::component::Component;
 use super::{Found, phi};
 
 impl Baseline<'_> {
     /// The last effect whose interval holds zero.
     pub(super) fn doubtful(&self, found: &Found, intervals: &[Interval]) -> Option<usize> {
+        if !self.uses(Component::Confirmation) {
+            return None;
+        }
         let amount = |handle: Unknown| {
             let it = intervals.iter().find(|it| it.handle == handle)?;
             let value = it.value - found.base.point.get(handle);
@@ -27,6 +31,9 @@ impl Baseline<'_> {
 
     /// The first effect that lowers the fit of a signal of the records as measured, in the simulation that an importer makes.
     pub(super) fn harmful(&self, found: &Found, measured: &[Dataset]) -> Option<usize> {
+        if !self.uses(Component::Confirmation) {
+            return None;
+        }
         let rows = measured.first().map_or(0, |record| record.measured.len());
         let fits = |stage: &Fitted| -> Vec<f64> {
             let Some((_, residuals)) = self.as_measured(measured, (&stage.terms, &stage.point), stage) else {

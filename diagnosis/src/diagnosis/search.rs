@@ -16,6 +16,7 @@ use crate::plant::Signals;
 use crate::screening::bent_rms;
 
 use super::Found;
+use super::component::Component;
 
 /// Effects at most.
 const MOST: usize = 4;
@@ -114,6 +115,7 @@ impl Baseline<'_> {
                 // An unfinished search claims nothing.
                 _ if over => false,
                 Next::Curve(score) => self.unmodelled(found, (&missing, &compared), score)?,
+                Next::Nothing if !self.uses(Component::Ports) => false,
                 Next::Nothing => {
                     let rest = self.remainder(&found.extended, &missing, &location, &compared);
                     found.unmodelled.extend(rest);
@@ -150,6 +152,8 @@ impl Baseline<'_> {
         }
         let candidates = self.candidates(&missing, &signals, &found.extended.terms);
         let compared = self.compared(&missing, candidates, &location.background);
+        let compared = compared.map(|it| if self.uses(Component::Ports) { it } else { it.undecided() });
+        let compared = compared.map(|it| if self.uses(Component::Features) { it } else { it.of_names() });
         Ok(compared.map(|compared| Looked { missing, signals, location, compared }))
     }
 
@@ -181,7 +185,8 @@ impl Baseline<'_> {
             if scores.first().is_none_or(|it| promised(it) < CRITERIA.rough * CRITERIA.improvement) {
                 return Ok(curve.map_or(Next::Nothing, Next::Curve));
             }
-            let mut proposals = compared.proposals(&scores, MOST_FITTED);
+            let most = if self.uses(Component::Ports) { MOST_FITTED } else { usize::MAX };
+            let mut proposals = compared.proposals(&scores, most);
             proposals.retain(|it| !refused.contains(&it.term));
             if !proposals.is_empty() {
                 progress(&format!("fitting {} effects", proposals.len()));

@@ -4,6 +4,7 @@ use strut_model::unit;
 
 use crate::catalogue::{self, Bounds, Part, Scale, Signal};
 use crate::dataset::recorded::Source;
+use crate::diagnosis::component::Component;
 use crate::estimation::hypothesis::{Baseline, Term};
 use crate::estimation::unknowns::{FreeParameter, Prior, Unknown};
 use crate::signal::distortion::{AFTER, Fault, UNKNOWN};
@@ -63,11 +64,13 @@ impl Baseline<'_> {
                 (low.max(mean - SURE * deviation), high.min(mean + SURE * deviation))
             });
             // It is right within a factor where the data do not know better; of what nobody knows it says zero.
-            let sheet = (value != 0.0).then_some(match (value > 0.0 && low >= 0.0, stated) {
-                (true, true) => Prior::Factor { mean: value, deviation: TOLERANCE },
-                (true, false) => Prior::Guess { mean: value },
-                (false, _) => Prior::Value { mean: value, deviation: SIGNED * value.abs() },
-            });
+            let sheet = (value != 0.0 && (self.uses(Component::Tolerances) || !stated)).then_some(
+                match (value > 0.0 && low >= 0.0, stated) {
+                    (true, true) => Prior::Factor { mean: value, deviation: TOLERANCE },
+                    (true, false) => Prior::Guess { mean: value },
+                    (false, _) => Prior::Value { mean: value, deviation: SIGNED * value.abs() },
+                },
+            );
             let known = known.map(|(_, mean, deviation)| Prior::Value { mean: *mean, deviation: *deviation });
             let prior = known.or(sheet);
             coordinates.push(FreeParameter { handle: Unknown::Parameter(index), bounds, prior });

@@ -7,6 +7,7 @@ use crate::catalogue::{Effect, Element, Table, Typical};
 use crate::dataset::recorded::Dataset;
 use crate::dataset::split::Split;
 use crate::diagnosis::Options;
+use crate::diagnosis::component::Component;
 use crate::estimation::deadline::Deadline;
 use crate::estimation::fit::{Fit, Residuals, Trace};
 use crate::estimation::lsq::{self, Linear, Problem, Stop};
@@ -61,6 +62,8 @@ pub struct Baseline<'a> {
     pub known: Vec<(usize, f64, f64)>,
     /// Numbers of the effects that are looked at; none: all.
     pub only: Vec<String>,
+    /// A component of the method that is left out, for an ablation.
+    pub without: Option<Component>,
     /// Number of independent looks at the errors that comparing every effect to them amounts to.
     pub looks: f64,
     /// Standard deviation of each output's residuals.
@@ -123,6 +126,7 @@ impl<'a> Baseline<'a> {
             sheet: rig.parameters.clone(),
             known: options.known,
             only: options.only,
+            without: options.without,
             looks: 1.0,
             sigma: vec![1.0; rig.plant.outputs.len()],
             floor: Vec::new(),
@@ -132,6 +136,11 @@ impl<'a> Baseline<'a> {
 }
 
 impl Baseline<'_> {
+    /// Whether a component of the method is used.
+    pub fn uses(&self, component: Component) -> bool {
+        self.without != Some(component)
+    }
+
     /// Typical magnitudes of an element.
     pub fn typical(&self, element: Element) -> Typical {
         let found = self.typical.iter().find(|(of, _)| *of == element);

@@ -192,6 +192,19 @@ fn with_amounts(sums: &Sums, missing: &Missing<'_>, columns: &[usize], fitted: &
 }
 
 impl Compared {
+    /// Without the features: only effects with a name are compared.
+    #[must_use]
+    pub fn of_names(self) -> Self {
+        Self { features: Vec::new(), ..self }
+    }
+
+    /// Without the comparison: any effect may be it.
+    #[must_use]
+    pub fn undecided(self) -> Self {
+        let named = self.named.iter().map(|it| Score { share: 1.0, validated: 1.0, ..*it }).collect();
+        Self { misses: self.misses.max(1.0), named, ..self.of_names() }
+    }
+
     /// Names to be fitted, each once, from its best shapes.
     pub fn proposals(&self, scores: &[Score], most: usize) -> Vec<Proposal> {
         let mut all: Vec<Proposal> = Vec::new();

@@ -5,6 +5,7 @@
 //! delays, its own [`sensors`]. [`catalogue`] says what can be hidden, [`case`](mod@case) what is asked for,
 //! [`generate()`] makes it.
 
+pub mod ablation;
 pub mod car;
 pub mod case;
 pub mod cases;

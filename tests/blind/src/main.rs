@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 use strut_blind::run::{self, Run};
-use strut_blind::{Case, cases, files, four_wheels, generate, score};
+use strut_blind::{Case, ablation, cases, files, four_wheels, generate, score};
 
 /// Data with hidden causes, and the score of whoever names them.
 #[derive(Parser)]
@@ -38,6 +38,8 @@ enum Command {
     Run {
         #[command(flatten)]
         trial: Trial,
+        #[command(flatten)]
+        earlier: Earlier,
         /// Only cases whose name contains one of these
         #[arg(long = "only")]
         only: Vec<String>,
@@ -47,11 +49,19 @@ enum Command {
         #[arg(last = true)]
         arguments: Vec<String>,
     },
+    /// Run a diagnosis on the compact list with each of its components left out in turn, and write a page; what has a report is
+    /// not run again
+    Ablation {
+        #[command(flatten)]
+        trial: Trial,
+    },
     /// Make cars on four wheels with a cause at one corner, at an axle, at all, and with none; run a diagnosis on each and write
     /// a page; cars that have a report are not run again
     FourWheels {
         #[command(flatten)]
         trial: Trial,
+        #[command(flatten)]
+        earlier: Earlier,
         /// Number of cars with a cause at one corner
         #[arg(long, default_value_t = 10)]
         seeds: u64,
@@ -76,9 +86,6 @@ struct Trial {
     /// Where to: each case gets a folder there
     #[arg(long)]
     out: PathBuf,
-    /// An earlier page: a case that is wrong now and was right there is an error
-    #[arg(long)]
-    no_worse_than: Option<PathBuf>,
     /// The page
     #[arg(long)]
     page: PathBuf,
@@ -101,8 +108,18 @@ impl Trial {
         std::fs::write(&self.page, text)
             .map_err(|error| format!("{} cannot be written: {error}", self.page.display()))
     }
+}
 
-    /// Refuses cases that are worse than on the earlier page.
+/// The page that a trial is compared with.
+#[derive(Args)]
+struct Earlier {
+    /// An earlier page: a case that is wrong now and was right there is an error
+    #[arg(long)]
+    no_worse_than: Option<PathBuf>,
+}
+
+impl Earlier {
+    /// Refuses cases that are worse than on the page.
     fn compare(&self, worse: impl Fn(&str) -> Vec<String>) -> Result<(), String> {
         let Some(earlier) = &self.no_worse_than else { return Ok(()) };
         let text = std::fs::read_to_string(earlier)
@@ -170,7 +187,7 @@ fn execute(command: Command) -> Result<(), String> {
                 println!("{}", files::write(&generate(case)?, &out)?.display());
             }
         }
-        Command::Run { trial, only, list, arguments } => {
+        Command::Run { trial, earlier, only, list, arguments } => {
             let wanted =
                 |case: &&Case| only.is_empty() || only.iter().any(|part| case.name.contains(part.as_str()));
             let others =
@@ -198,9 +215,19 @@ fn execute(command: Command) -> Result<(), String> {
             if !failed.is_empty() {
                 return Err(format!("no report of {}", failed.join(", ")));
             }
-            trial.compare(|page| run::worse(&scores, page).iter().map(|it| it.case.clone()).collect())?;
+            earlier.compare(|page| run::worse(&scores, page).iter().map(|it| it.case.clone()).collect())?;
         }
-        Command::FourWheels { trial, seeds } => {
+        Command::Ablation { trial } => {
+            let all = cases::compact();
+            let mut scores = vec![];
+            for (component, case) in trial.of(ablation::list(&all).into_iter()) {
+                let score = ablation::judged(&trial.program, &trial.out, (component, case))?;
+                eprintln!("{}, {}: {:?}", ablation::COMPONENTS[component].1, score.case, score.outcome);
+                scores.push((component, score));
+            }
+            trial.write(&ablation::page(&format!("blind ablation --program {}", trial.name()), &scores))?;
+        }
+        Command::FourWheels { trial, earlier, seeds } => {
             let mut rows = vec![];
             for (seed, hidden) in trial.of(four_wheels::list(seeds).into_iter()) {
                 let row = four_wheels::judged(&trial.program, seed, hidden.as_ref(), &trial.out)?;
@@ -208,7 +235,7 @@ fn execute(command: Command) -> Result<(), String> {
                 rows.push(row);
             }
             trial.write(&four_wheels::page(&trial.name(), seeds, &rows))?;
-            trial.compare(|page| four_wheels::worse(&rows, page))?;
+            earlier.compare(|page| four_wheels::worse(&rows, page))?;
         }
         Command::Score { folders } => {
             let mut scores = vec![];

@@ -94,7 +94,7 @@ pub fn page(command: &str, scores: &[Score]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Hidden, Plant};
+    use crate::case::Hidden;
 
     #[cfg(unix)]
     #[test]
@@ -119,39 +119,14 @@ mod tests {
         assert!(error.contains("cannot be run"), "{error}");
     }
 
-    fn scored(case: &str, outcome: Outcome) -> Score {
-        Score {
-            case: case.into(),
-            plant: Plant::LinearQuarter,
-            condition: String::new(),
-            truth: "01".into(),
-            first: "02".into(),
-            outcome,
-            beside_clutter: outcome,
-            effects: 1,
-            out_of_catalogue: false,
-            clutter: false,
-            full_size: true,
-            first_right: None,
-            location_right: Some(true),
-            variable_right: None,
-            frequency_right: None,
-            sensor_or_plant: None,
-            covered: (0, 0),
-            base_covered: (0, 0),
-            gained: None,
-            seconds: 1.0,
-        }
-    }
-
     #[test]
     fn what_has_become_wrong_is_told_from_what_was_wrong() {
-        let page = page("blind run", &[scored("a", Outcome::WrongName), scored("b", Outcome::Correct)]);
-        let unnamed = Score { out_of_catalogue: true, ..scored("d", Outcome::Unnamed) };
+        let page = page("blind run", &[Score::of("a", Outcome::WrongName), Score::of("b", Outcome::Correct)]);
+        let unnamed = Score { out_of_catalogue: true, ..Score::of("d", Outcome::Unnamed) };
         let now = [
-            scored("a", Outcome::Missed),
-            scored("b", Outcome::Missed),
-            scored("c", Outcome::OneOfTwo),
+            Score::of("a", Outcome::Missed),
+            Score::of("b", Outcome::Missed),
+            Score::of("c", Outcome::OneOfTwo),
             unnamed.clone(),
             Score { location_right: Some(false), ..unnamed },
         ];

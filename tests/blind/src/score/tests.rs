@@ -332,3 +332,31 @@ fn a_constant_load_is_no_offset_of_a_sensor() {
 fn what_is_no_report_is_refused() {
     assert!(score(&truth(&[]), "{}").unwrap_err().contains("verdict"));
 }
+
+impl Score {
+    /// A single effect of the catalogue that came out in some way.
+    pub fn of(case: &str, outcome: Outcome) -> Self {
+        Self {
+            case: case.into(),
+            plant: Plant::LinearQuarter,
+            condition: String::new(),
+            truth: "01".into(),
+            first: "02".into(),
+            outcome,
+            beside_clutter: outcome,
+            effects: 1,
+            out_of_catalogue: false,
+            clutter: false,
+            full_size: true,
+            first_right: None,
+            location_right: Some(true),
+            variable_right: None,
+            frequency_right: None,
+            sensor_or_plant: None,
+            covered: (0, 0),
+            base_covered: (0, 0),
+            gained: None,
+            seconds: 1.0,
+        }
+    }
+}
