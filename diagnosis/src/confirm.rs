@@ -205,7 +205,7 @@ fn contains(larger: Term, smaller: Term, more: &BTreeSet<Unknown>, fewer: &BTree
 }
 
 /// Whether the catalogue says that a term has another one as a limit.
-fn contains_by_name(larger: Term, smaller: Term) -> bool {
+pub(crate) fn contains_by_name(larger: Term, smaller: Term) -> bool {
     match (larger, smaller) {
         (Term::Effect(larger), Term::Effect(smaller)) => {
             larger.element == smaller.element && larger.contains.contains(&smaller.id)

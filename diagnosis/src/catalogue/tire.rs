@@ -1,6 +1,6 @@
 //! Effects in the tyre.
 
-use super::{Effect, Element, LIFT_OFF, Onset, PLAIN, Prevalence, Replaced, Scale, part};
+use super::{Effect, Element, LIFT_OFF, Onset, PLAIN, Prevalence, Replaced, Scale, TIMES, part};
 use crate::signal::distortion::Fault;
 
 pub(super) const EFFECTS: &[Effect] = &[
@@ -45,7 +45,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         equation: "T z' = z_r - z, F = f(z - z_u)",
         prevalence: Prevalence::Background,
         replaces: Some(Replaced { inputs: "road", distortion: Fault::Lag }),
-        parts: &[part("enveloping.time", Scale::ONE, (5e-4, 0.05), &[3e-3])],
+        parts: &[part("enveloping.time", Scale::ONE, (5e-4, 0.05), TIMES)],
         literature: &["Captain1979", "Pacejka2012"],
         experiment: "drive over a step, and compare with a second sensor of the road",
         ..PLAIN

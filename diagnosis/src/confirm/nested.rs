@@ -38,6 +38,18 @@ impl Baseline<'_> {
         }
     }
 
+    /// Fits laws that contain a fitted one, from its minimum: a rough shape of a richer law may promise less than its limit.
+    pub fn richer(&self, base: &Fitted, null: &Fitted, limit: &Tried, screened: &[Proposal]) -> Vec<Tried> {
+        let Ok(at) = &limit.fitted else { return Vec::new() };
+        let fit = |it: &Proposal| {
+            let start = self.beside(at, it)?;
+            let terms = [null.terms.as_slice(), &[it.term]].concat();
+            let fitted = self.fitted(&terms, &[start], comparing(base, null));
+            Some(self.weighed(base, null, it.term, fitted))
+        };
+        screened.par_iter().filter_map(fit).collect()
+    }
+
     /// Where a limit is, with a little of what a law has more.
     fn beside(&self, limit: &Fitted, screened: &Proposal) -> Option<Estimate> {
         let first = &screened.start;

@@ -70,7 +70,7 @@ pub fn likely(named: &[Score], features: &Score) -> Vec<Score> {
 }
 
 /// The one that explains most first.
-fn by_share(mut scores: Vec<Score>) -> Vec<Score> {
+pub fn by_share(mut scores: Vec<Score>) -> Vec<Score> {
     scores.sort_by(|a, b| b.share.total_cmp(&a.share));
     scores
 }

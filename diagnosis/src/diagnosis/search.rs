@@ -1,7 +1,7 @@
 //! The search: place, law, confirmation, repeated until no error worth reporting remains.
 
-use crate::confirm::{Confirmed, Tried};
-use crate::decision::choice::{Choice, Score, best_of, choose, likely};
+use crate::confirm::{Confirmed, Tried, contains_by_name};
+use crate::decision::choice::{Choice, Score, best_of, by_share, choose, likely};
 use crate::decision::criteria::CRITERIA;
 use crate::estimation::deadline::Stage;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
@@ -192,6 +192,7 @@ impl Baseline<'_> {
                 progress(&format!("fitting {} effects", proposals.len()));
                 let mut tried = self.try_all(&found.base, &found.extended, &proposals);
                 tried.extend(self.together(&found.base, &found.extended, &tried));
+                tried.extend(self.generalised(found, compared, &tried));
                 tried.sort_by(|a, b| b.score.total_cmp(&a.score));
                 if self.deadline.is_over(Stage::Search) {
                     found.tried.extend(tried);
@@ -226,6 +227,25 @@ impl Baseline<'_> {
             names.retain(|it| !refused.iter().any(|term| compared.is_of(it, *term)));
         }
         Ok(Next::Nothing)
+    }
+
+    /// Fits the laws that have the best of those that were tried as a limit, where that leaves the account open.
+    fn generalised(&self, found: &Found, compared: &Compared, tried: &[Tried]) -> Vec<Tried> {
+        let Some(best) = tried.iter().max_by(|a, b| a.score.total_cmp(&b.score)) else { return Vec::new() };
+        if best.evidence.refusal().is_some()
+            || best.fitted.as_ref().is_ok_and(|fitted| !self.is_open(&fitted.test))
+        {
+            return Vec::new();
+        }
+        let known = |term: Term| {
+            tried.iter().map(|it| it.term).chain(found.retracted.iter().copied()).any(|it| it == term)
+        };
+        let richer = |score: &&Score| {
+            compared.term(score).is_some_and(|term| contains_by_name(term, best.term) && !known(term))
+        };
+        let scores: Vec<Score> = compared.named.iter().filter(richer).copied().collect();
+        let proposals = compared.proposals(&by_share(scores), MOST_FITTED);
+        self.richer(&found.base, &found.extended, best, &proposals)
     }
 
     /// Takes features without a name as explained, as a curve in the model if there is one. Whether to look further.

@@ -251,13 +251,24 @@ impl Compared {
 
     /// The best shape of a term.
     pub fn shape(&self, term: Term) -> Option<Score> {
-        let own = |score: &&Score| matches!(self.candidates.list[score.candidate].kind, Kind::Named { term: other, .. } if other == term);
-        self.named.iter().filter(own).max_by(|a, b| a.share.total_cmp(&b.share)).copied()
+        self.named
+            .iter()
+            .filter(|it| self.is_of(it, term))
+            .max_by(|a, b| a.share.total_cmp(&b.share))
+            .copied()
+    }
+
+    /// The term of a score; none of features.
+    pub fn term(&self, score: &Score) -> Option<Term> {
+        match self.candidates.list[score.candidate].kind {
+            Kind::Named { term, .. } => Some(term),
+            Kind::Feature { .. } => None,
+        }
     }
 
     /// Whether a score is that of a term, in any shape.
     pub fn is_of(&self, score: &Score, term: Term) -> bool {
-        matches!(self.candidates.list[score.candidate].kind, Kind::Named { term: own, .. } if own == term)
+        self.term(score) == Some(term)
     }
 
     /// Port and group of features.

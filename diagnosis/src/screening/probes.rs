@@ -1,6 +1,6 @@
 //! How terms are tried out: by which amounts, and in which shapes.
 
-use crate::catalogue::{Effect, Part, Table};
+use crate::catalogue::{Effect, Part, TIMES, Table};
 use crate::dataset::recorded::Source;
 use crate::estimation::coordinates::POINTS;
 use crate::estimation::hypothesis::{Baseline, Term};
@@ -11,9 +11,6 @@ use super::rms;
 
 /// Relative errors of a sampling rate from which they are looked for.
 const RATES: &[f64] = &[1e-4, 1e-3, -1e-3, 3e-3, -3e-3, 6e-3, -6e-3, 1e-2, -1e-2];
-
-/// Delays and time constants in seconds from which they are looked for: a signal with edges shows a late one only nearby.
-const TIMES: &[f64] = &[1e-3, 3e-3, 8e-3];
 
 /// Shares of the largest command at which its limit is looked for.
 const LIMITS: &[f64] = &[0.5, 0.7, 0.85];
