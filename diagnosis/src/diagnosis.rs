@@ -84,7 +84,7 @@ pub fn diagnose<'a>(
     let mut baseline = Baseline::new(rig, records, options);
     progress("fitting the nominal parameters");
     let (before, base, reversed) = nominal::fit(&mut baseline)?;
-    baseline.look_at(&base)?;
+    let base = baseline.look_at(base)?;
     let mut found = Found::nothing(base);
     let intervals = loop {
         // After a retraction, other effects get their turn.

@@ -59,12 +59,16 @@ pub(super) fn fit(baseline: &mut Baseline<'_>) -> Result<(Estimate, Fitted, Vec<
             reversed.push(handle);
         }
     }
-    // Weights from the residuals, twice: then the fit is the likeliest for errors of these magnitudes.
+    Ok((before, weighted(baseline, base)?, reversed))
+}
+
+/// The fit with weights from its residuals, twice: then it is the likeliest for errors of these magnitudes.
+pub(super) fn weighted(baseline: &mut Baseline<'_>, mut base: Fitted) -> Result<Fitted, String> {
     for _ in 0..2 {
         baseline.sigma = left_sigma(baseline, &base.train);
         base = baseline.fitted(&[], &[base.point.clone()], Stop::NOISY)?;
     }
-    Ok((before, base, reversed))
+    Ok(base)
 }
 
 /// The nominal fit from where many short stretches lead, each with states of its own at the start: over a long stretch, a

@@ -17,6 +17,7 @@ use crate::screening::bent_rms;
 
 use super::Found;
 use super::component::Component;
+use super::nominal;
 
 /// Effects at most.
 const MOST: usize = 4;
@@ -47,15 +48,19 @@ struct Looked<'a> {
 }
 
 impl Baseline<'_> {
-    /// Typical magnitudes along the trajectory, and how many independent comparisons all effects amount to.
-    pub(super) fn look_at(&mut self, base: &Fitted) -> Result<(), String> {
-        let frame = self.frame(&[], &self.unbent(base))?;
+    /// Typical magnitudes along the trajectory, and how many independent comparisons all effects amount to. Gives the nominal fit
+    /// within the bounds that are known by then: that of a friction's velocity is a share of what is typical.
+    pub(super) fn look_at(&mut self, mut base: Fitted) -> Result<Fitted, String> {
+        let frame = self.frame(&[], &self.unbent(&base))?;
         let missing = self.missing(&frame)?;
         let signals = outputs(&missing.setting, &missing.windows, self.rig.plant.outputs.len());
         let typical = self.typical_along(&missing, &signals);
         self.typical = typical;
-        self.looks = self.tried_out(base)?.looks(base);
-        Ok(())
+        if self.coordinates(&[]) != base.coordinates {
+            base = nominal::weighted(self, base)?;
+        }
+        self.looks = self.tried_out(&base)?.looks(&base);
+        Ok(base)
     }
 
     /// A fit with the parameters as they were before it: it has bent them to what it lacks.

@@ -102,7 +102,7 @@ impl Baseline<'_> {
 
     /// The bounds of a velocity that nobody states and that is part of an effect's law: where it would be looked for if the rig did
     /// not have the effect already. Of friction that turns over in no time at all, no derivative tells anything.
-    fn sought(&self, index: usize) -> Option<(f64, f64)> {
+    pub(crate) fn sought(&self, index: usize) -> Option<(f64, f64)> {
         if self.rig.stated[index] {
             return None;
         }

@@ -24,6 +24,8 @@ impl Diagnosis<'_> {
         for interval in &self.intervals {
             if let Unknown::Parameter(index) = interval.handle
                 && base.contains(&index)
+                // How sharply friction turns over is the regularisation's, not the rig's.
+                && baseline.sought(index).is_none()
                 && let Some((low, high)) = disagreement(&interval.wishes, interval.value)
             {
                 let declared = &baseline.rig.plant.parameters[index];
