@@ -100,6 +100,7 @@ pub fn diagnose<'a>(
             None => break intervals,
         }
     };
+    baseline.tell_apart(&mut found);
     Ok(Diagnosis { baseline, measured: &records.measured, before, found, intervals, reversed })
 }
 

@@ -37,7 +37,7 @@ impl Baseline<'_> {
     }
 
     /// Whether a fit explains the data as well as the best one.
-    pub(super) fn as_good(&self, base: &Fitted, best: &Fitted, other: &Fitted) -> bool {
+    pub(crate) fn as_good(&self, base: &Fitted, best: &Fitted, other: &Fitted) -> bool {
         self.apart_by_events(best, other) < CRITERIA.paired_t
             || self.left(base, other) < CRITERIA.same * self.left(base, best)
     }

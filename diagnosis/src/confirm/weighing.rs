@@ -47,12 +47,9 @@ impl Baseline<'_> {
     /// of the starting model.
     pub fn evidence(&self, term: Term, base: &Fitted, null: &Fitted, fitted: &Fitted) -> Evidence {
         let more = fitted.coordinates.len().saturating_sub(null.coordinates.len());
-        let counts = self.errors(&null.train).effective_counts();
-        let (before, after) =
-            (self.errors(&null.train).mean_squares(), self.errors(&fitted.train).mean_squares());
-        let gain: f64 =
-            counts.iter().zip(before.iter().zip(&after)).map(|(n, (b, a))| n * (b / a).ln()).sum();
-        let total: f64 = counts.iter().sum();
+        let errors = self.errors(&null.train);
+        let gain = 2.0 * errors.log_ratio(&self.errors(&fitted.train));
+        let total: f64 = errors.effective_counts().iter().sum();
         let shares = |unit: &Fitted, fitted: &Fitted| self.shares_of(term, unit, fitted);
         let (before, after) = (shares(base, null), shares(base, fitted));
         let [estimation, validation] = [before[0] - after[0], before[1] - after[1]];
@@ -130,10 +127,8 @@ impl Baseline<'_> {
     /// relieves of the strain on what was known before.
     pub(super) fn score(&self, null: &Fitted, fitted: &Fitted) -> f64 {
         let part = |null: &Residuals, fitted: &Residuals| -> (f64, f64) {
-            let counts = self.errors(null).effective_counts();
-            let squares =
-                self.errors(null).mean_squares().into_iter().zip(self.errors(fitted).mean_squares());
-            (counts.iter().zip(squares).map(|(n, (b, a))| 0.5 * n * (b / a).ln()).sum(), counts.iter().sum())
+            let errors = self.errors(null);
+            (errors.log_ratio(&self.errors(fitted)), errors.effective_counts().iter().sum())
         };
         let ((train, n), (test, m)) = (part(&null.train, &fitted.train), part(&null.test, &fitted.test));
         let relieved = strain(&null.coordinates, &null.point) - strain(&fitted.coordinates, &fitted.point);

@@ -1,10 +1,15 @@
-//! Effects that are taken back: their amount may be zero, or their simulation runs away.
+//! What becomes of effects once all are found: they are taken back where their amount may be zero or their simulation runs away,
+//! and told apart from rivals that the others rule out.
 
+use rayon::prelude::*;
+
+use crate::confirm::Accepted;
 use crate::dataset::recorded::Dataset;
 use crate::decision::rules::{Amount, is_determined, lowers};
 use crate::estimation::fit::Residuals;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::intervals::Interval;
+use crate::estimation::lsq::Stop;
 use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::signal::distortion::Fault;
 
@@ -73,6 +78,49 @@ impl Baseline<'_> {
         let settled = fit.settled(point);
         let residuals = fit.residuals(&settled);
         Some((settled, residuals))
+    }
+
+    /// Drops rivals that later effects rule out: in their effect's place, they leave more.
+    pub(super) fn tell_apart(&self, found: &mut Found) {
+        for index in 0..found.accepted.len().saturating_sub(1) {
+            let Accepted { term, rivals, .. } = &found.accepted[index];
+            let stays = |rival: &&Term| {
+                let other = self.in_place_of(found, *term, **rival);
+                other.is_ok_and(|it| self.as_good(&found.base, &found.extended, &it))
+            };
+            found.accepted[index].rivals = rivals.par_iter().filter(stays).copied().collect();
+        }
+    }
+
+    /// The extended model with a rival in the place of an effect: without the effect where the rival is there already.
+    ///
+    /// # Errors
+    /// If the rival's model refuses its settings or diverges.
+    pub(crate) fn in_place_of(&self, found: &Found, effect: Term, rival: Term) -> Result<Fitted, String> {
+        let mut terms = found.extended.terms.clone();
+        let there = terms.contains(&rival);
+        match terms.iter().position(|it| *it == effect) {
+            Some(place) if there => drop(terms.remove(place)),
+            Some(place) => terms[place] = rival,
+            None => (),
+        }
+        let tried = found.tried.iter().rev().filter(|it| it.term == rival);
+        let tried = tried.filter_map(|it| it.fitted.as_ref().ok()).next();
+        let start = match tried {
+            Some(tried) if tried.terms == terms => tried.point.clone(),
+            _ => {
+                let mut point = found.extended.point.clone();
+                for own in self.own_coordinates(effect) {
+                    point.set(own.handle, found.base.point.get(own.handle));
+                }
+                let of = tried.filter(|_| !there).map(|it| &it.point);
+                for own in self.own_coordinates(rival).into_iter().filter(|_| !there) {
+                    point.set(own.handle, of.unwrap_or(&found.base.point).get(own.handle));
+                }
+                point
+            }
+        };
+        self.fitted(&terms, &[start], Stop::NOISY)
     }
 
     /// Takes an effect back, and with it what was found beside it later: that is to be found again without it.

@@ -41,6 +41,17 @@ impl Errors<'_> {
             .collect()
     }
 
+    /// Logarithm of the likelihood that another model has on these records, over this one's: samples count as far as they are
+    /// independent.
+    pub fn log_ratio(&self, other: &Self) -> f64 {
+        let squares = self.mean_squares().into_iter().zip(other.mean_squares());
+        self.effective_counts()
+            .into_iter()
+            .zip(squares)
+            .map(|(n, (own, other))| 0.5 * n * (own / other).ln())
+            .sum()
+    }
+
     /// By how much another model's squared errors are smaller over blocks of so many samples, in halves of `unit`, one
     /// for each signal; blocks in which both models say the same are left out.
     pub fn gains(&self, other: &Self, block: usize, unit: &[f64]) -> Vec<f64> {

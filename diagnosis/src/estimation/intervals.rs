@@ -25,9 +25,6 @@ use crate::estimation::unknowns::{Estimate, FreeParameter, Unknown};
 
 /// Excitations that are compared at least: fewer records are cut in pieces.
 const EXCITATIONS: usize = 4;
-/// Share of the rise of the cost that a derivative promises over half an interval, below which the derivative tells nothing: near
-/// a limit of its own, a law's may be infinite.
-const BORNE_OUT: f64 = 0.01;
 /// Standard deviation that the data leave of what was known before, in that, from which they tell a coordinate only together with
 /// others: a scale that six parameters share leaves two fifths.
 const OPEN: f64 = 0.1;
@@ -93,7 +90,7 @@ impl Baseline<'_> {
         let opinions = self.opinions(fitted)?;
         let dynamics = self.dynamics(&fitted.terms)?;
         let fit = self.fit(&*dynamics, self.train, fitted.coordinates.clone());
-        let norms = fitted.linear.column_norms();
+        let left = self.errors(&fitted.train);
         let amounts: Vec<Unknown> = fitted.terms.iter().flat_map(|term| self.sizes(*term)).collect();
         let Assumed { pulls, twins } = self.assumed(fitted)?;
         let interval = |(index, coordinate): (usize, &FreeParameter)| {
@@ -118,15 +115,15 @@ impl Baseline<'_> {
             let is_open = before[(index, index)].sqrt() * slope > OPEN;
             let from_parameter_set = of(&before) > FROM_SET * variance && is_open;
             let mut half = (variance + of(&vouched_for)).sqrt();
-            if amounts.contains(&handle) && half.is_finite() {
-                let promised = 0.5 * (norms[index] * half).powi(2);
+            if amounts.contains(&handle) && half_of_data.is_finite() {
+                // Near a limit of a law, a derivative may be infinite, and tells nothing: the errors at the interval's ends do.
                 // On either side: on one, the integration may take other steps, and the cost may jump with that.
-                let borne_out = [value - half, value + half].into_iter().any(|moved| {
+                let borne_out = [value - half_of_data, value + half_of_data].into_iter().any(|moved| {
                     let mut point = fitted.point.clone();
                     point.set(handle, moved);
                     bounds.0 <= moved
                         && moved <= bounds.1
-                        && fit.cost(&point) - fitted.cost >= BORNE_OUT * promised
+                        && 2.0 * self.errors(&fit.residuals(&point)).log_ratio(&left) >= NORMAL.powi(2)
                 });
                 if !borne_out {
                     (half, half_of_data) = (f64::INFINITY, f64::INFINITY);

@@ -16,7 +16,6 @@ use rayon::prelude::*;
 use crate::confirm::has_no_name;
 use crate::diagnosis::Diagnosis;
 use crate::estimation::hypothesis::{Fitted, Term};
-use crate::estimation::lsq::Stop;
 use crate::report::findings::DecidingExperiment;
 
 pub use bounds::{Bounds, InputBounds, Limits};
@@ -49,7 +48,7 @@ impl<'a> Diagnosis<'a> {
             if models.is_empty() {
                 models.push(self.rival(accepted, accepted, chosen.clone())?);
             }
-            let fitted = self.in_place_of(accepted, rival)?;
+            let fitted = self.baseline.in_place_of(&self.found, accepted, rival)?;
             models.push(self.rival(rival, accepted, fitted)?);
         }
         let bounds = self.baseline.bounds(limits, chosen);
@@ -59,30 +58,6 @@ impl<'a> Diagnosis<'a> {
     fn rival(&self, term: Term, in_place_of: Term, fitted: Fitted) -> Result<Rival, String> {
         let dynamics = self.baseline.dynamics(&fitted.terms)?;
         Ok(Rival { term, in_place_of, fitted, dynamics })
-    }
-
-    /// The extended model with a rival in the place of an effect.
-    fn in_place_of(&self, effect: Term, rival: Term) -> Result<Fitted, String> {
-        let (baseline, found) = (&self.baseline, &self.found);
-        let terms: Vec<Term> =
-            found.extended.terms.iter().map(|term| if *term == effect { rival } else { *term }).collect();
-        let tried = found.tried.iter().rev().filter(|it| it.term == rival);
-        let tried = tried.filter_map(|it| it.fitted.as_ref().ok()).next();
-        let start = match tried {
-            Some(tried) if tried.terms == terms => tried.point.clone(),
-            _ => {
-                let mut point = found.extended.point.clone();
-                for own in baseline.own_coordinates(effect) {
-                    point.set(own.handle, found.base.point.get(own.handle));
-                }
-                let of = tried.map_or(&found.base.point, |it| &it.point);
-                for own in baseline.own_coordinates(rival) {
-                    point.set(own.handle, of.get(own.handle));
-                }
-                point
-            }
-        };
-        baseline.fitted(&terms, &[start], Stop::NOISY)
     }
 
     /// The experiment that separates the chosen effects from their rivals best within the limits; none without rivals.
