@@ -29,7 +29,7 @@ pub use tables::{Table, Unnamed};
 /// The setting that lets a tyre leave the road.
 pub const LIFT_OFF: &str = "tire.lift_off";
 /// Delays and time constants of signals in seconds from which they are looked for: a signal with edges shows a late one only nearby.
-pub const TIMES: &[f64] = &[1e-3, 3e-3, 8e-3, 2e-2];
+pub const TIMES: &[f64] = &[1e-3, 2.5e-3, 6e-3, 15e-3];
 
 /// Bounds of the velocity at which friction is regularised, in an element's usual velocities: below, a rig that really sticks
 /// is met no better, and equations become too stiff.

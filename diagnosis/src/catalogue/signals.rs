@@ -14,6 +14,8 @@ pub struct Distortion {
     pub equation: &'static str,
     /// Distortions of the same signal that it contains as special cases.
     pub contains: &'static [Fault],
+    /// Distortions of the same signal that look nearly the same: a rough shape of one may hide another, so they are fitted together.
+    pub alike: &'static [Fault],
     /// When it acts.
     pub onset: Onset,
     /// Smallest and largest amount.
@@ -147,6 +149,7 @@ const GAIN: Distortion = Distortion {
     name: "gain",
     equation: "(1 + gain) y",
     contains: &[],
+    alike: &[],
     onset: Onset::Always,
     // None is off by more; a sign is another matter.
     bounds: Bounds::Between(-0.5, 0.5),
@@ -162,6 +165,7 @@ const OFFSET: Distortion = Distortion {
     name: "offset",
     equation: "y + offset",
     contains: &[],
+    alike: &[],
     onset: Onset::Always,
     bounds: Bounds::Free,
     literature: &["Doebelin2003", "Isermann2006"],
@@ -188,6 +192,7 @@ const LAG: Distortion = Distortion {
     name: "lag",
     equation: "lag y' + y = y_true",
     contains: &[],
+    alike: &[Fault::Delay],
     onset: Onset::Always,
     bounds: Bounds::Between(0.0, 0.2),
     literature: &["Doebelin2003"],
@@ -202,6 +207,7 @@ const DELAY: Distortion = Distortion {
     name: "delay",
     equation: "y(t - delay)",
     contains: &[],
+    alike: &[Fault::Lag, Fault::Rate],
     onset: Onset::Always,
     bounds: Bounds::Between(-0.05, 0.05),
     literature: &["Bjorklund2003"],
@@ -216,6 +222,7 @@ const QUADRATIC: Distortion = Distortion {
     name: "curvature",
     equation: "y + quadratic y^2",
     contains: &[],
+    alike: &[],
     onset: Onset::Always,
     bounds: Bounds::Free,
     literature: &["Doebelin2003"],
@@ -232,6 +239,7 @@ const RATE: Distortion = Distortion {
     name: "sampling rate",
     equation: "y((1 + rate) t)",
     contains: &[],
+    alike: &[Fault::Delay],
     onset: Onset::Always,
     bounds: Bounds::Between(-0.02, 0.02),
     literature: &["MarkovichGolan2012"],
@@ -246,6 +254,7 @@ const LIMIT: Distortion = Distortion {
     name: "limit",
     equation: "clamp(y, -limit, limit)",
     contains: &[],
+    alike: &[],
     onset: Onset::Threshold,
     // A limit far below the usual commands would be a gain.
     bounds: Bounds::OfLargest(0.2, 1.0),
@@ -262,6 +271,7 @@ pub const RESPONSE: Distortion = Distortion {
     name: "unnamed response",
     equation: "a table of the step response over time",
     contains: &[Fault::Gain, Fault::Lag, Fault::Delay],
+    alike: &[],
     onset: Onset::Always,
     bounds: Bounds::Between(-10.0, 10.0),
     literature: &["Ljung1999", "Pillonetto2014"],

@@ -169,3 +169,12 @@ fn a_plant_s_own_law_stands_for_a_distortion_of_its_input() {
     assert!(!is_replaced(&rig.plant, "actuator.force", Fault::Lag));
     assert!(!is_replaced(&rig.plant, "road.position", Fault::Gain));
 }
+
+#[test]
+fn what_looks_like_another_distortion_is_looked_like_by_it() {
+    for one in DISTORTIONS {
+        for other in one.alike {
+            assert!(distortion(*other).alike.contains(&one.fault), "{:?}, {other:?}", one.fault);
+        }
+    }
+}

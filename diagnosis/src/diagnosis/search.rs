@@ -190,6 +190,7 @@ impl Baseline<'_> {
             if scores.first().is_none_or(|it| promised(it) < CRITERIA.rough * CRITERIA.improvement) {
                 return Ok(curve.map_or(Next::Nothing, Next::Curve));
             }
+            let scores = compared.with_alike(scores);
             let most = if self.uses(Component::Ports) { MOST_FITTED } else { usize::MAX };
             let mut proposals = compared.proposals(&scores, most);
             proposals.retain(|it| !refused.contains(&it.term));
@@ -264,7 +265,10 @@ impl Baseline<'_> {
         let improvement = self.improvement(&found.extended, reduction);
         // Free features take the shape of what every rig has a little of, too.
         let background = if self.is_open(&found.extended.test) { 1.0 } else { CRITERIA.background };
-        if found.unmodelled.len() == PLACES || improvement < background * CRITERIA.improvement {
+        let is_small = improvement < background * CRITERIA.improvement;
+        // An open account gets the best description that there is, however little of it a simulation shows.
+        let alone = found.accepted.is_empty() && found.unmodelled.is_empty();
+        if found.unmodelled.len() == PLACES || is_small && !(alone && self.is_open(&found.extended.test)) {
             return Ok(false);
         }
         let port = compared.feature(score.candidate).map(|(port, _)| &missing.setting.ports[port]);

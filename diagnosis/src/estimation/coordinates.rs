@@ -193,10 +193,7 @@ impl Baseline<'_> {
     }
 
     fn fault_bounds(&self, handle: Unknown) -> (f64, f64) {
-        let fault = match handle {
-            Unknown::Input(_, fault) | Unknown::Output(_, fault) => fault,
-            Unknown::Parameter(_) => return (f64::NEG_INFINITY, f64::INFINITY),
-        };
+        let Some(fault) = handle.fault() else { return (f64::NEG_INFINITY, f64::INFINITY) };
         match (catalogue::distortion(fault).bounds, handle) {
             (Bounds::Between(low, high), _) => (low, high),
             (Bounds::OfLargest(low, high), Unknown::Input(input, _)) => {

@@ -25,6 +25,9 @@ use crate::estimation::unknowns::{Estimate, FreeParameter, Unknown};
 
 /// Excitations that are compared at least: fewer records are cut in pieces.
 const EXCITATIONS: usize = 4;
+/// Share of what the likelihood ratio is at the end of a 95 % interval, below which the interval is ten times too narrow: near a limit
+/// of a law, its derivative may be infinite.
+const BORNE_OUT: f64 = 0.01;
 /// Standard deviation that the data leave of what was known before, in that, from which they tell a coordinate only together with
 /// others: a scale that six parameters share leaves two fifths.
 const OPEN: f64 = 0.1;
@@ -116,14 +119,14 @@ impl Baseline<'_> {
             let from_parameter_set = of(&before) > FROM_SET * variance && is_open;
             let mut half = (variance + of(&vouched_for)).sqrt();
             if amounts.contains(&handle) && half_of_data.is_finite() {
-                // Near a limit of a law, a derivative may be infinite, and tells nothing: the errors at the interval's ends do.
                 // On either side: on one, the integration may take other steps, and the cost may jump with that.
                 let borne_out = [value - half_of_data, value + half_of_data].into_iter().any(|moved| {
                     let mut point = fitted.point.clone();
                     point.set(handle, moved);
                     bounds.0 <= moved
                         && moved <= bounds.1
-                        && 2.0 * self.errors(&fit.residuals(&point)).log_ratio(&left) >= NORMAL.powi(2)
+                        && 2.0 * self.errors(&fit.residuals(&point)).log_ratio(&left)
+                            >= BORNE_OUT * NORMAL.powi(2)
                 });
                 if !borne_out {
                     (half, half_of_data) = (f64::INFINITY, f64::INFINITY);

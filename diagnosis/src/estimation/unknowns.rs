@@ -14,6 +14,26 @@ pub enum Unknown {
     Output(usize, Fault),
 }
 
+impl Unknown {
+    /// The distortion of a signal that it is; none of a parameter.
+    pub fn fault(self) -> Option<Fault> {
+        match self {
+            Self::Parameter(_) => None,
+            Self::Input(_, fault) | Self::Output(_, fault) => Some(fault),
+        }
+    }
+
+    /// Another distortion of the same signal; a parameter stays what it is.
+    #[must_use]
+    pub fn with_fault(self, fault: Fault) -> Self {
+        match self {
+            Self::Parameter(_) => self,
+            Self::Input(input, _) => Self::Input(input, fault),
+            Self::Output(output, _) => Self::Output(output, fault),
+        }
+    }
+}
+
 /// An unknown that a fit changes, within bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeParameter {

@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use crate::catalogue::{Element, Scale, Table};
+use crate::catalogue::{Element, Scale, Table, distortion};
 use crate::confirm::has_no_name;
 use crate::decision::choice::Score;
 use crate::decision::criteria::CRITERIA;
@@ -256,6 +256,18 @@ impl Compared {
             .filter(|it| self.is_of(it, term))
             .max_by(|a, b| a.share.total_cmp(&b.share))
             .copied()
+    }
+
+    /// Scores, and behind them those of distortions that look like the best one's.
+    pub fn with_alike(&self, mut scores: Vec<Score>) -> Vec<Score> {
+        let Some(Term::Fault(best)) = scores.first().and_then(|it| self.term(it)) else { return scores };
+        for fault in best.fault().map_or(&[][..], |it| distortion(it).alike) {
+            let term = Term::Fault(best.with_fault(*fault));
+            if !scores.iter().any(|it| self.is_of(it, term)) {
+                scores.extend(self.shape(term));
+            }
+        }
+        scores
     }
 
     /// The term of a score; none of features.

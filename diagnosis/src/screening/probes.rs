@@ -55,9 +55,12 @@ impl Baseline<'_> {
                         let largest = self.largest(input);
                         LIMITS.iter().map(|share| probe(share * largest)).collect()
                     }
-                    Unknown::Input(_, Fault::Delay | Fault::Lag)
-                    | Unknown::Output(_, Fault::Delay | Fault::Lag) => {
+                    Unknown::Input(_, Fault::Lag) | Unknown::Output(_, Fault::Lag) => {
                         TIMES.iter().map(|time| probe(*time)).collect()
+                    }
+                    // Where one channel is early, all others are late.
+                    Unknown::Input(_, Fault::Delay) | Unknown::Output(_, Fault::Delay) => {
+                        TIMES.iter().flat_map(|time| [*time, -time]).map(probe).collect()
                     }
                     _ => vec![probe(self.typical_fault(handle))],
                 }

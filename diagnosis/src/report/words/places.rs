@@ -67,10 +67,12 @@ pub fn located(name: &str, element: &str) -> String {
     }
 }
 
-/// An effect with its place and its first parameter: `friction in the strut (strut.coulomb.force = 61.2 N)`.
+/// An effect with its place and its first parameter that is not zero for sure, an offset or its drift:
+/// `friction in the strut (strut.coulomb.force = 61.2 N)`.
 pub fn sized(effect: &Effect) -> String {
     let named = located(&effect.name, &effect.element);
-    match effect.parameters.first() {
+    let sure = effect.parameters.iter().find(|it| it.low > 0.0 || it.high < 0.0);
+    match sure.or(effect.parameters.first()) {
         Some(it) => format!("{named} ({} = {})", it.name, value(it.value, &it.unit)),
         None => named,
     }
