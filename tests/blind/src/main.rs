@@ -98,6 +98,11 @@ impl Trial {
         all.skip(first - 1).step_by(step)
     }
 
+    /// The part as it is given on the command line.
+    fn told_part(&self) -> String {
+        self.part.map_or_else(String::new, |(first, step)| format!(" --part {first}/{step}"))
+    }
+
     /// The program as a page calls it.
     fn name(&self) -> String {
         self.program.file_stem().unwrap_or_default().to_string_lossy().into_owned()
@@ -209,7 +214,7 @@ fn execute(command: Command) -> Result<(), String> {
                 }
             }
             let mut parts: Vec<String> = only.iter().map(|part| format!(" --only {part}")).collect();
-            parts.extend(trial.part.map(|(first, step)| format!(" --part {first}/{step}")));
+            parts.push(trial.told_part());
             let command = format!("blind run --program {}{list}{}{others}", trial.name(), parts.concat());
             trial.write(&run::page(&command, &scores))?;
             if !failed.is_empty() {
@@ -218,14 +223,15 @@ fn execute(command: Command) -> Result<(), String> {
             earlier.compare(|page| run::worse(&scores, page).iter().map(|it| it.case.clone()).collect())?;
         }
         Command::Ablation { trial } => {
-            let all = cases::compact();
+            let cases: Vec<Case> = trial.of(cases::compact().into_iter()).collect();
             let mut scores = vec![];
-            for (component, case) in trial.of(ablation::list(&all).into_iter()) {
+            for (component, case) in ablation::list(&cases) {
                 let score = ablation::judged(&trial.program, &trial.out, (component, case))?;
                 eprintln!("{}, {}: {:?}", ablation::COMPONENTS[component].1, score.case, score.outcome);
                 scores.push((component, score));
             }
-            trial.write(&ablation::page(&format!("blind ablation --program {}", trial.name()), &scores))?;
+            let command = format!("blind ablation --program {}{}", trial.name(), trial.told_part());
+            trial.write(&ablation::page(&command, &scores))?;
         }
         Command::FourWheels { trial, earlier, seeds } => {
             let mut rows = vec![];
