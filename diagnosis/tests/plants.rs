@@ -93,6 +93,8 @@ impl Case {
         let test = records.split_off(1);
         let records = Split::new(&records, test);
         let diagnosis = diagnose(&rig, &records, Options::default(), &|_| {}).unwrap();
+        // Effects are compared with a fit within the bounds that their fits have.
+        assert_eq!(diagnosis.found.base.coordinates, diagnosis.baseline.coordinates(&[]));
         let terms = diagnosis.found.accepted.iter().map(|it| name(it.term, &rig.plant).short()).collect();
         let named = |of: Unknown| handle(of, &rig.plant).0;
         let (extended, intervals) = (&diagnosis.found.extended, &diagnosis.intervals);

@@ -190,6 +190,22 @@ mod tests {
         assert!((effective_count(&drifting) / effective_count(&white) - 1.0).abs() < 0.01);
     }
 
+    #[test]
+    fn half_the_error_is_two_to_the_number_of_samples_as_likely() {
+        let of = |share: f64| -> Residuals {
+            vec![vec![(0..1000_i32).map(|k| share * f64::from(k * k % 17 - 8)).collect()]]
+        };
+        let (whole, half, floor) = (of(1.0), of(0.5), [0.0]);
+        let [whole, half] = [&whole, &half].map(|residuals| Errors { residuals, floor: &floor });
+        let count = whole.effective_counts()[0];
+        assert!((whole.log_ratio(&half) - count * 2.0_f64.ln()).abs() < 1e-9 * count);
+        assert_eq!(whole.log_ratio(&half), -half.log_ratio(&whole));
+        // Below its noise, an error is no smaller.
+        let floor = [100.0];
+        let [whole, half] = [whole, half].map(|it| Errors { floor: &floor, ..it });
+        assert_eq!(whole.log_ratio(&half), 0.0);
+    }
+
     /// A large event and nine small ones, all of them met better.
     #[test]
     fn events_of_any_size_count_alike_in_ratios() {
