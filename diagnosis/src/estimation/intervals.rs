@@ -25,8 +25,8 @@ use crate::estimation::unknowns::{Estimate, FreeParameter, Unknown};
 
 /// Excitations that are compared at least: fewer records are cut in pieces.
 const EXCITATIONS: usize = 4;
-/// Share of what the likelihood ratio is at the end of a 95 % interval, below which the interval is ten times too narrow: near a limit
-/// of a law, its derivative may be infinite.
+/// Share of the fall of the log-likelihood at the end of a 95 % interval below which the interval is ten times too narrow: near a
+/// limit of a law, its derivative may be infinite. The weights are the fit's: with others, its minimum is none.
 const BORNE_OUT: f64 = 0.01;
 /// Standard deviation that the data leave of what was known before, in that, from which they tell a coordinate only together with
 /// others: a scale that six parameters share leaves two fifths.
@@ -93,7 +93,7 @@ impl Baseline<'_> {
         let opinions = self.opinions(fitted)?;
         let dynamics = self.dynamics(&fitted.terms)?;
         let fit = self.fit(&*dynamics, self.train, fitted.coordinates.clone());
-        let left = self.errors(&fitted.train);
+        let count: f64 = self.errors(&fitted.train).effective_counts().iter().sum();
         let amounts: Vec<Unknown> = fitted.terms.iter().flat_map(|term| self.sizes(*term)).collect();
         let Assumed { pulls, twins } = self.assumed(fitted)?;
         let interval = |(index, coordinate): (usize, &FreeParameter)| {
@@ -125,8 +125,7 @@ impl Baseline<'_> {
                     point.set(handle, moved);
                     bounds.0 <= moved
                         && moved <= bounds.1
-                        && 2.0 * self.errors(&fit.residuals(&point)).log_ratio(&left)
-                            >= BORNE_OUT * NORMAL.powi(2)
+                        && count * (fit.cost(&point) / fitted.cost).ln() >= BORNE_OUT * NORMAL.powi(2)
                 });
                 if !borne_out {
                     (half, half_of_data) = (f64::INFINITY, f64::INFINITY);
