@@ -180,11 +180,27 @@ impl Baseline<'_> {
     /// The same as a term tells it: a sensor's response of its own signal. How much it makes of that is no matter of how the
     /// small effects around it show in the others.
     fn shares_of(&self, term: Term, unit: &Fitted, fitted: &Fitted) -> [f64; 2] {
-        let Term::Response(output) = term else { return self.shares(unit, fitted) };
+        match term {
+            Term::Response(output) => self.shares_at(output, unit, fitted),
+            _ => self.shares(unit, fitted),
+        }
+    }
+
+    /// The same of one output.
+    fn shares_at(&self, output: usize, unit: &Fitted, fitted: &Fitted) -> [f64; 2] {
         let of = |record: &Dataset| record.measured.iter().position(|it| it.output == output);
         let row = self.train.first().and_then(of);
         [(&unit.train, &fitted.train), (&unit.test, &fitted.test)]
             .map(|(unit, fitted)| row.map_or(1.0, |row| self.each(unit, fitted)[row]))
+    }
+
+    /// Share that a term explains of the errors at its place, as features there do: of a sensor's fault in its own signal.
+    pub(crate) fn explained_there(&self, term: Term, null: &Fitted, fitted: &Fitted) -> f64 {
+        let left = match term {
+            Term::Fault(Unknown::Output(output, _)) => self.shares_at(output, null, fitted),
+            _ => self.shares_of(term, null, fitted),
+        };
+        everywhere(term, left.map(|share| 1.0 - share))
     }
 
     /// Share of each signal's error's power.

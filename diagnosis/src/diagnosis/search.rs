@@ -210,7 +210,7 @@ impl Baseline<'_> {
                 refused.extend(tried.iter().filter(refusal).map(|it| it.term));
                 found.tried.extend(tried);
                 if let Some(Confirmed { accepted, fitted }) = confirmed
-                    && accepted.evidence.residual_reduction >= least
+                    && self.explained_there(accepted.term, &found.extended, &fitted) >= least
                 {
                     found.accepted.push(accepted);
                     found.extended = fitted.clone();
