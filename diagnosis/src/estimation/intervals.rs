@@ -25,8 +25,8 @@ use crate::estimation::unknowns::{Estimate, FreeParameter, Unknown};
 
 /// Excitations that are compared at least: fewer records are cut in pieces.
 const EXCITATIONS: usize = 4;
-/// Share of the fall of the log-likelihood at the end of a 95 % interval below which the interval is ten times too narrow: near a
-/// limit of a law, its derivative may be infinite. The weights are the fit's: with others, its minimum is none.
+/// Share of the rise of the cost at an interval's ends that is asked for: of what the derivative promises, or of what makes 95 %,
+/// whichever is less. Near a limit of a law, its derivative may be infinite, and the interval more than ten times too narrow.
 const BORNE_OUT: f64 = 0.01;
 /// Standard deviation that the data leave of what was known before, in that, from which they tell a coordinate only together with
 /// others: a scale that six parameters share leaves two fifths.
@@ -94,6 +94,7 @@ impl Baseline<'_> {
         let dynamics = self.dynamics(&fitted.terms)?;
         let fit = self.fit(&*dynamics, self.train, fitted.coordinates.clone());
         let count: f64 = self.errors(&fitted.train).effective_counts().iter().sum();
+        let norms = fitted.linear.column_norms();
         let amounts: Vec<Unknown> = fitted.terms.iter().flat_map(|term| self.sizes(*term)).collect();
         let Assumed { pulls, twins } = self.assumed(fitted)?;
         let interval = |(index, coordinate): (usize, &FreeParameter)| {
@@ -119,13 +120,13 @@ impl Baseline<'_> {
             let from_parameter_set = of(&before) > FROM_SET * variance && is_open;
             let mut half = (variance + of(&vouched_for)).sqrt();
             if amounts.contains(&handle) && half_of_data.is_finite() {
+                let promised = 0.5 * (norms[index] * half_of_data).powi(2);
+                let enough = BORNE_OUT * promised.min(fitted.cost * NORMAL.powi(2) / count);
                 // On either side: on one, the integration may take other steps, and the cost may jump with that.
                 let borne_out = [value - half_of_data, value + half_of_data].into_iter().any(|moved| {
                     let mut point = fitted.point.clone();
                     point.set(handle, moved);
-                    bounds.0 <= moved
-                        && moved <= bounds.1
-                        && count * (fit.cost(&point) / fitted.cost).ln() >= BORNE_OUT * NORMAL.powi(2)
+                    bounds.0 <= moved && moved <= bounds.1 && fit.cost(&point) - fitted.cost >= enough
                 });
                 if !borne_out {
                     (half, half_of_data) = (f64::INFINITY, f64::INFINITY);
