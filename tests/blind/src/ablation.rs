@@ -30,9 +30,23 @@ fn run(program: &Path, out: &Path, component: Option<&str>) -> Run {
     }
 }
 
-/// Every case with each component left out in turn, by the component's position.
-pub fn list(cases: &[Case]) -> Vec<(usize, &Case)> {
-    (0..COMPONENTS.len()).flat_map(|component| cases.iter().map(move |case| (component, case))).collect()
+/// Every case with each component left out in turn, by the component's position; of the components, those that are asked for, or
+/// all if none is.
+///
+/// # Errors
+/// If there is no such component: which there are.
+pub fn list<'a>(cases: &'a [Case], asked: &[String]) -> Result<Vec<(usize, &'a Case)>, String> {
+    let known = |name: &String| COMPONENTS.iter().any(|(it, _)| *it == Some(name.as_str()));
+    if let Some(wrong) = asked.iter().find(|it| !known(it)) {
+        let names: Vec<&str> = COMPONENTS.iter().filter_map(|it| it.0).collect();
+        return Err(format!("there is no component {wrong}: take {}", names.join(", ")));
+    }
+    let wanted = |component: &usize| {
+        let name = COMPONENTS[*component].0;
+        asked.is_empty() || name.is_none_or(|name| asked.iter().any(|it| it == name))
+    };
+    let components = (0..COMPONENTS.len()).filter(wanted);
+    Ok(components.flat_map(|component| cases.iter().map(move |case| (component, case))).collect())
 }
 
 /// Runs one entry of the list.
@@ -90,6 +104,19 @@ mod tests {
         let ports = run(Path::new("diagnose"), Path::new("out"), Some("ports"));
         assert_eq!(ports.arguments, ["--without", "ports"]);
         assert!(ports.out.ends_with("ports"));
+    }
+
+    #[test]
+    fn those_components_are_left_out_that_are_asked_for() {
+        let cases = [Case::standard("a", vec![], 1), Case::standard("b", vec![], 2)];
+        let components = |asked: &[&str]| -> Result<Vec<usize>, String> {
+            let asked: Vec<String> = asked.iter().map(|it| (*it).to_owned()).collect();
+            Ok(list(&cases, &asked)?.into_iter().map(|it| it.0).collect())
+        };
+        assert_eq!(components(&[]).unwrap().len(), 2 * COMPONENTS.len());
+        // Beside the whole diagnosis.
+        assert_eq!(components(&["ports"]).unwrap(), [0, 0, 1, 1]);
+        assert!(components(&["port"]).unwrap_err().contains("ports, features"));
     }
 
     #[test]

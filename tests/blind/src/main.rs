@@ -54,6 +54,9 @@ enum Command {
     Ablation {
         #[command(flatten)]
         trial: Trial,
+        /// Only without this component, beside the whole; several if given several times
+        #[arg(long = "component")]
+        components: Vec<String>,
     },
     /// Make cars on four wheels with a cause at one corner, at an axle, at all, and with none; run a diagnosis on each and write
     /// a page; cars that have a report are not run again
@@ -222,15 +225,17 @@ fn execute(command: Command) -> Result<(), String> {
             }
             earlier.compare(|page| run::worse(&scores, page).iter().map(|it| it.case.clone()).collect())?;
         }
-        Command::Ablation { trial } => {
+        Command::Ablation { trial, components } => {
             let cases: Vec<Case> = trial.of(cases::compact().into_iter()).collect();
             let mut scores = vec![];
-            for (component, case) in ablation::list(&cases) {
+            for (component, case) in ablation::list(&cases, &components)? {
                 let score = ablation::judged(&trial.program, &trial.out, (component, case))?;
                 eprintln!("{}, {}: {:?}", ablation::COMPONENTS[component].1, score.case, score.outcome);
                 scores.push((component, score));
             }
-            let command = format!("blind ablation --program {}{}", trial.name(), trial.told_part());
+            let asked: Vec<String> = components.iter().map(|it| format!(" --component {it}")).collect();
+            let (name, part) = (trial.name(), trial.told_part());
+            let command = format!("blind ablation --program {name}{part}{}", asked.concat());
             trial.write(&ablation::page(&command, &scores))?;
         }
         Command::FourWheels { trial, earlier, seeds } => {
