@@ -86,16 +86,17 @@ pub fn diagnose<'a>(
     let (before, base, reversed) = nominal::fit(&mut baseline)?;
     let base = baseline.look_at(base)?;
     let mut found = Found::nothing(base);
+    let judged = baseline.uses(Component::Confirmation);
     let intervals = loop {
         // After a retraction, other effects get their turn.
         baseline.identify(&mut found, progress)?;
-        if let Some(harmful) = baseline.harmful(&found, &records.measured) {
+        if judged && let Some(harmful) = baseline.harmful(&found, &records.measured) {
             baseline.retract(&mut found, harmful);
             continue;
         }
         progress("comparing what each excitation says");
         let intervals = baseline.intervals(&found.extended)?;
-        match baseline.doubtful(&found, &intervals) {
+        match baseline.doubtful(&found, &intervals).filter(|_| judged) {
             Some(doubtful) => baseline.retract(&mut found, doubtful),
             None => break intervals,
         }

@@ -14,7 +14,7 @@ pub struct Distortion {
     pub equation: &'static str,
     /// Distortions of the same signal that it contains as special cases.
     pub contains: &'static [Fault],
-    /// Distortions of the same signal that look nearly the same: a rough shape of one may hide another, so they are fitted together.
+    /// Distortions of the same signal with nearly the same shape. They are fitted together, since a rough shape of one may hide another.
     pub alike: &'static [Fault],
     /// When it acts.
     pub onset: Onset,

@@ -171,7 +171,7 @@ fn a_plant_s_own_law_stands_for_a_distortion_of_its_input() {
 }
 
 #[test]
-fn what_looks_like_another_distortion_is_looked_like_by_it() {
+fn distortions_are_alike_in_both_directions() {
     for one in DISTORTIONS {
         for other in one.alike {
             assert!(distortion(*other).alike.contains(&one.fault), "{:?}, {other:?}", one.fault);

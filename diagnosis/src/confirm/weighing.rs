@@ -48,8 +48,9 @@ impl Baseline<'_> {
     pub fn evidence(&self, term: Term, base: &Fitted, null: &Fitted, fitted: &Fitted) -> Evidence {
         let more = fitted.coordinates.len().saturating_sub(null.coordinates.len());
         let errors = self.errors(&null.train);
-        let gain = 2.0 * errors.log_ratio(&self.errors(&fitted.train));
-        let total: f64 = errors.effective_counts().iter().sum();
+        let counts = errors.effective_counts();
+        let gain = 2.0 * errors.log_ratio(&self.errors(&fitted.train), &counts);
+        let total: f64 = counts.iter().sum();
         let shares = |unit: &Fitted, fitted: &Fitted| self.shares_of(term, unit, fitted);
         let (before, after) = (shares(base, null), shares(base, fitted));
         let [estimation, validation] = [before[0] - after[0], before[1] - after[1]];
@@ -128,7 +129,8 @@ impl Baseline<'_> {
     pub(super) fn score(&self, null: &Fitted, fitted: &Fitted) -> f64 {
         let part = |null: &Residuals, fitted: &Residuals| -> (f64, f64) {
             let errors = self.errors(null);
-            (errors.log_ratio(&self.errors(fitted)), errors.effective_counts().iter().sum())
+            let counts = errors.effective_counts();
+            (errors.log_ratio(&self.errors(fitted), &counts), counts.iter().sum())
         };
         let ((train, n), (test, m)) = (part(&null.train, &fitted.train), part(&null.test, &fitted.test));
         let relieved = strain(&null.coordinates, &null.point) - strain(&fitted.coordinates, &fitted.point);

@@ -2,7 +2,7 @@
 
 use super::criteria::CRITERIA;
 
-/// How well a candidate explains what is missing.
+/// How well a candidate explains the missing signal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Score {
     /// Number of the candidate.
@@ -20,14 +20,14 @@ impl Score {
     }
 }
 
-/// What explains a missing signal best.
+/// The best explanation of a missing signal.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
-    /// Nothing does.
+    /// None.
     Nothing,
     /// Effects with a name, the best first.
     Named(Vec<Score>),
-    /// What a group of features says, for which there is no name.
+    /// A group of features without a name.
     Unmodelled(Score),
 }
 
@@ -76,10 +76,10 @@ pub fn by_share(mut scores: Vec<Score>) -> Vec<Score> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
-    fn score(candidate: usize, share: f64, validated: f64) -> Score {
+    pub fn score(candidate: usize, share: f64, validated: f64) -> Score {
         Score { candidate, share, validated }
     }
 

@@ -9,7 +9,7 @@ pub enum Component {
     Features,
     /// Confirmation: without it, the best fit is accepted whatever the other data say, and nothing is taken back.
     Confirmation,
-    /// The account: without it, what every rig has a little of counts no more where a signal misses by far more than its noise.
+    /// The account: without it, background effects need more evidence even where a signal misses by far more than its noise.
     Account,
     /// The tolerances of the parameter set as priors of the nominal parameters.
     Tolerances,

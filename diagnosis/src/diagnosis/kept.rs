@@ -1,11 +1,12 @@
-//! What becomes of effects once all are found: they are taken back where their amount may be zero or their simulation runs away,
-//! and told apart from rivals that the others rule out.
+//! Effects after the search: taken back if their amount may be zero or their simulation runs away, and told apart from rivals that
+//! the others rule out.
 
 use rayon::prelude::*;
 
 use crate::confirm::Accepted;
 use crate::dataset::recorded::Dataset;
 use crate::decision::rules::{Amount, is_determined, lowers};
+use crate::estimation::deadline::Stage;
 use crate::estimation::fit::Residuals;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::intervals::Interval;
@@ -13,15 +14,11 @@ use crate::estimation::lsq::Stop;
 use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::signal::distortion::Fault;
 
-use super::component::Component;
 use super::{Found, phi};
 
 impl Baseline<'_> {
     /// The last effect whose interval holds zero.
     pub(super) fn doubtful(&self, found: &Found, intervals: &[Interval]) -> Option<usize> {
-        if !self.uses(Component::Confirmation) {
-            return None;
-        }
         let amount = |handle: Unknown| {
             let it = intervals.iter().find(|it| it.handle == handle)?;
             let value = it.value - found.base.point.get(handle);
@@ -36,9 +33,6 @@ impl Baseline<'_> {
 
     /// The first effect that lowers the fit of a signal of the records as measured, in the simulation that an importer makes.
     pub(super) fn harmful(&self, found: &Found, measured: &[Dataset]) -> Option<usize> {
-        if !self.uses(Component::Confirmation) {
-            return None;
-        }
         let rows = measured.first().map_or(0, |record| record.measured.len());
         let fits = |stage: &Fitted| -> Vec<f64> {
             let Some((_, residuals)) = self.as_measured(measured, (&stage.terms, &stage.point), stage) else {
@@ -80,8 +74,12 @@ impl Baseline<'_> {
         Some((settled, residuals))
     }
 
-    /// Drops rivals that later effects rule out: in their effect's place, they leave more.
+    /// Drops rivals that later effects rule out: in their effect's place, they leave more. A fit cut short by the time limit rules
+    /// nothing out.
     pub(super) fn tell_apart(&self, found: &mut Found) {
+        if self.deadline.is_over(Stage::Search) {
+            return;
+        }
         for index in 0..found.accepted.len().saturating_sub(1) {
             let Accepted { term, rivals, .. } = &found.accepted[index];
             let stays = |rival: &&Term| {
@@ -113,10 +111,9 @@ impl Baseline<'_> {
                 for own in self.own_coordinates(effect) {
                     point.set(own.handle, found.base.point.get(own.handle));
                 }
-                let of = tried.filter(|_| !there).map(|it| &it.point);
-                for own in self.own_coordinates(rival).into_iter().filter(|_| !there) {
-                    point.set(own.handle, of.unwrap_or(&found.base.point).get(own.handle));
-                }
+                let of = tried.map_or(&found.base.point, |it| &it.point);
+                let own = if there { Vec::new() } else { self.own_coordinates(rival) };
+                own.iter().for_each(|it| point.set(it.handle, of.get(it.handle)));
                 point
             }
         };

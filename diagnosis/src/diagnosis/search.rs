@@ -49,7 +49,7 @@ struct Looked<'a> {
 
 impl Baseline<'_> {
     /// Typical magnitudes along the trajectory, and how many independent comparisons all effects amount to. Gives the nominal fit
-    /// within the bounds that are known by then: that of a friction's velocity is a share of what is typical.
+    /// within the bounds that are known by then: a friction's velocity is bounded by shares of the typical one.
     pub(super) fn look_at(&mut self, mut base: Fitted) -> Result<Fitted, String> {
         let frame = self.frame(&[], &self.unbent(&base))?;
         let missing = self.missing(&frame)?;
@@ -198,7 +198,7 @@ impl Baseline<'_> {
                 progress(&format!("fitting {} effects", proposals.len()));
                 let mut tried = self.try_all(&found.base, &found.extended, &proposals);
                 tried.extend(self.together(&found.base, &found.extended, &tried));
-                tried.extend(self.generalised(found, compared, &tried));
+                tried.extend(self.generalised(found, compared, &tried, refused));
                 tried.sort_by(|a, b| b.score.total_cmp(&a.score));
                 if self.deadline.is_over(Stage::Search) {
                     found.tried.extend(tried);
@@ -236,16 +236,20 @@ impl Baseline<'_> {
     }
 
     /// Fits the laws that have the best of those that were tried as a limit, where that leaves the account open.
-    fn generalised(&self, found: &Found, compared: &Compared, tried: &[Tried]) -> Vec<Tried> {
+    fn generalised(
+        &self,
+        found: &Found,
+        compared: &Compared,
+        tried: &[Tried],
+        refused: &[Term],
+    ) -> Vec<Tried> {
         let Some(best) = tried.iter().max_by(|a, b| a.score.total_cmp(&b.score)) else { return Vec::new() };
         if best.evidence.refusal().is_some()
             || best.fitted.as_ref().is_ok_and(|fitted| !self.is_open(&fitted.test))
         {
             return Vec::new();
         }
-        let known = |term: Term| {
-            tried.iter().map(|it| it.term).chain(found.retracted.iter().copied()).any(|it| it == term)
-        };
+        let known = |term: Term| refused.contains(&term) || tried.iter().any(|it| it.term == term);
         let richer = |score: &&Score| {
             compared.term(score).is_some_and(|term| contains_by_name(term, best.term) && !known(term))
         };

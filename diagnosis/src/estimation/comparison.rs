@@ -41,15 +41,10 @@ impl Errors<'_> {
             .collect()
     }
 
-    /// Logarithm of the likelihood that another model has on these records, over this one's: samples count as far as they are
-    /// independent.
-    pub fn log_ratio(&self, other: &Self) -> f64 {
+    /// Logarithm of another model's likelihood on these records over this one's, given the number of independent samples of each signal.
+    pub fn log_ratio(&self, other: &Self, counts: &[f64]) -> f64 {
         let squares = self.mean_squares().into_iter().zip(other.mean_squares());
-        self.effective_counts()
-            .into_iter()
-            .zip(squares)
-            .map(|(n, (own, other))| 0.5 * n * (own / other).ln())
-            .sum()
+        counts.iter().zip(squares).map(|(n, (own, other))| 0.5 * n * (own / other).ln()).sum()
     }
 
     /// By how much another model's squared errors are smaller over blocks of so many samples, in halves of `unit`, one
@@ -197,13 +192,13 @@ mod tests {
         };
         let (whole, half, floor) = (of(1.0), of(0.5), [0.0]);
         let [whole, half] = [&whole, &half].map(|residuals| Errors { residuals, floor: &floor });
-        let count = whole.effective_counts()[0];
-        assert!((whole.log_ratio(&half) - count * 2.0_f64.ln()).abs() < 1e-9 * count);
-        assert_eq!(whole.log_ratio(&half), -half.log_ratio(&whole));
+        let counts = whole.effective_counts();
+        assert!((whole.log_ratio(&half, &counts) - counts[0] * 2.0_f64.ln()).abs() < 1e-9 * counts[0]);
+        assert_eq!(whole.log_ratio(&half, &counts), -half.log_ratio(&whole, &counts));
         // Below its noise, an error is no smaller.
         let floor = [100.0];
         let [whole, half] = [whole, half].map(|it| Errors { floor: &floor, ..it });
-        assert_eq!(whole.log_ratio(&half), 0.0);
+        assert_eq!(whole.log_ratio(&half, &counts), 0.0);
     }
 
     /// A large event and nine small ones, all of them met better.

@@ -1,4 +1,4 @@
-//! The unknowns of a fit: parameters and distortions of signals, what was known of them before, and an estimate of all.
+//! The unknowns of a fit: parameters and distortions of signals, their priors, and an estimate of all.
 
 use crate::plant::Plant;
 use crate::signal::distortion::{Correction, Fault};
@@ -41,11 +41,11 @@ pub struct FreeParameter {
     pub handle: Unknown,
     /// Smallest and largest value.
     pub bounds: (f64, f64),
-    /// What was known before.
+    /// Its prior, if it has one.
     pub prior: Option<Prior>,
 }
 
-/// What was known of an unknown before.
+/// The prior of an unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Prior {
     /// Its value, with a standard deviation.
@@ -63,8 +63,7 @@ pub enum Prior {
         /// Standard deviation of the logarithm.
         deviation: f64,
     },
-    /// A value that nobody vouches for, positive: it holds what the data do not tell where it is, with no tolerance that could be
-    /// told.
+    /// A positive value that nobody vouches for: it keeps an unknown that the data leave open in its place, without a tolerance.
     Guess {
         /// The value.
         mean: f64,
@@ -74,7 +73,7 @@ pub enum Prior {
 /// Factor that is one standard deviation of a guess: a joint's inertia is a millionth of a carriage's mass.
 const GUESSED: f64 = 10.0;
 
-/// Smallest share of a value that a factor is asked of: what has a logarithm may be next to nothing.
+/// Smallest share of a value of which a logarithm is taken: a positive parameter may be next to nothing.
 const NEXT_TO_NOTHING: f64 = 1e-3;
 
 impl Prior {
@@ -141,7 +140,7 @@ impl Estimate {
     }
 }
 
-/// Half the squared distance of a point from what was known of the coordinates before, in its standard deviations.
+/// Half the squared distance of a point from the coordinates' priors, in their standard deviations.
 pub fn strain(coordinates: &[FreeParameter], point: &Estimate) -> f64 {
     let each = coordinates.iter().filter_map(|coordinate| {
         let (distance, _) = coordinate.prior?.distance(point.get(coordinate.handle));

@@ -4,6 +4,7 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
 use crate::catalogue::naming::name;
+use crate::decision::choice::Score;
 use crate::estimation::hypothesis::{Baseline, Term};
 use crate::missing::Missing;
 use crate::missing::locate::Location;
@@ -13,7 +14,6 @@ use crate::plant::{Plant, Signals};
 
 use super::features::{Group, RESONANCES, features};
 use super::selection::Compared;
-use crate::decision::choice::Score;
 
 /// Kurtosis beyond which a signal comes in bursts: ten percent of the time hold all of it.
 const BURSTS: f64 = 8.0;

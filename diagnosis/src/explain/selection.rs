@@ -321,10 +321,7 @@ impl Compared {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn score(candidate: usize, share: f64, validated: f64) -> Score {
-        Score { candidate, share, validated }
-    }
+    use crate::decision::choice::tests::score;
 
     #[test]
     fn a_candidate_explains_no_more_than_all_that_is_missing() {
