@@ -10,6 +10,9 @@ use crate::rig::Rig;
 /// Samples per second below which a time without a unit is not believed to be in seconds: a wheel hops at 10 to 15 Hz.
 const SLOWEST: f64 = 10.0;
 
+/// Largest difference of a column from the signal that it repeats, in shares of its standard deviation.
+const REPEATED: f64 = 0.1;
+
 /// A rate that a file has beside its motion, where a map names the motion only: it was not asked for, and its sign is the
 /// motion's. What was turned over.
 pub fn follow(rig: &Rig, map: &Map, record: &mut Record) -> Vec<DataProblem> {
@@ -85,6 +88,38 @@ pub fn read(mapped: &Mapped) -> RecordRead {
     }
 }
 
+/// Takes away columns that repeat a signal of the rig, perhaps in another unit, and tells it. The signal's errors would follow them
+/// whatever their cause.
+pub fn leave_out_copies(record: &Record, unused: &mut Vec<Channel>) -> Vec<DataProblem> {
+    let mut told = Vec::new();
+    unused.retain(|column| {
+        let copied = record.channels.iter().find(|signal| {
+            let common = correlation(&signal.values, &column.values).powi(2);
+            common >= 1.0 - REPEATED.powi(2)
+        });
+        told.extend(copied.map(|signal| DataProblem {
+            record: record.name.clone(),
+            signal: column.title(),
+            text: format!("goes with {}: it is taken for the same measurement and left out", signal.name),
+            fatal: false,
+        }));
+        copied.is_none()
+    });
+    told
+}
+
+/// The correlation of two signals where both are known; zero if one is constant.
+fn correlation(a: &[f64], b: &[f64]) -> f64 {
+    let known = || a.iter().zip(b).filter(|(a, b)| a.is_finite() && b.is_finite());
+    let mean = |of: fn((&f64, &f64)) -> f64| known().map(of).sum::<f64>() / known().count().max(1) as f64;
+    let means = (mean(|(a, _)| *a), mean(|(_, b)| *b));
+    let sums = known().fold([0.0; 3], |[aa, ab, bb], (a, b)| {
+        let (a, b) = (a - means.0, b - means.1);
+        [aa + a * a, ab + a * b, bb + b * b]
+    });
+    if sums[0] > 0.0 && sums[2] > 0.0 { sums[1] / (sums[0] * sums[2]).sqrt() } else { 0.0 }
+}
+
 /// Columns that no signal of the rig is, on the even grid of the record; none that is constant, counts or has gaps.
 pub fn others(time: &[f64], unused: Vec<Channel>) -> Vec<Channel> {
     let on_grid = |channel: Channel| {
@@ -155,6 +190,31 @@ mod tests {
             Map::parse("[signals]\n\"motion.position\" = \"Weg\"\n\"motion.velocity\" = \"v\"").unwrap();
         assert!(follow(&rig, &both, &mut record(&columns)).is_empty());
         assert!(follow(&rig, &Map::default(), &mut record(&columns)).is_empty());
+    }
+
+    #[test]
+    fn a_column_that_repeats_a_signal_in_another_unit_is_left_out() {
+        let wave = |k: i32, frequency: f64| (frequency * f64::from(k)).sin();
+        let force: Vec<f64> = (0..500).map(|k| if k == 3 { f64::NAN } else { 90.0 * wave(k, 0.1) }).collect();
+        let channel = |name: &str, unit: &str, values: Vec<f64>| Channel {
+            name: name.into(),
+            unit: unit.into(),
+            values,
+        };
+        let volts = force.iter().map(|it| 2.5 - 0.01 * it).collect();
+        // A pressure that makes the force but for a tenth of its power, which is another measurement; and a constant.
+        let pressure = force.iter().zip(0..).map(|(it, k)| it + 30.0 * wave(k, 0.37)).collect::<Vec<f64>>();
+        let mut unused = vec![
+            channel("Force", "V", volts),
+            channel("p", "bar", pressure),
+            channel("Supply", "V", vec![5.0; 500]),
+        ];
+        let told = leave_out_copies(&record(&[("force", force)]), &mut unused);
+        assert_eq!(unused.iter().map(|it| it.name.as_str()).collect::<Vec<_>>(), ["p", "Supply"]);
+        assert!(
+            told.len() == 1 && told[0].signal == "Force [V]" && told[0].text.contains("force"),
+            "{told:?}"
+        );
     }
 
     #[test]

@@ -14,7 +14,7 @@ use crate::report::findings::{DataProblem, RecordRead};
 use crate::report::words::quantity;
 use crate::rig::{Opposed, Rig};
 
-use super::columns::{doubt, follow, is_constant, others, read};
+use super::columns::{doubt, follow, is_constant, leave_out_copies, others, read};
 use super::driven::{instead, names, of_part, undriven};
 use super::inverse::{self, Banded};
 use super::zero::zeroed;
@@ -109,13 +109,15 @@ fn import(rig: &Rig, origin: &Origin, map: &Map) -> Result<Imported, String> {
     let map = &of_part(rig, map, &wanted);
     let mut mapped = map.apply(record, &wanted).map_err(|error| error.to_string())?;
     let name = mapped.record.name.clone();
-    let unused: Vec<String> = mapped.unused.iter().map(Channel::title).collect();
-    missing(rig, &mapped.record, &name, &unused)?;
+    let titles = |unused: &[Channel]| unused.iter().map(Channel::title).collect::<Vec<String>>();
+    missing(rig, &mapped.record, &name, &titles(&mapped.unused))?;
     let read = read(&mapped);
     let turned = follow(rig, map, &mut mapped.record);
     let Checked { mut problems, unusable } = check(&mapped.record);
     problems.extend(turned);
     problems.extend(doubt(&mapped.record, &read));
+    problems.extend(leave_out_copies(&mapped.record, &mut mapped.unused));
+    let unused = titles(&mapped.unused);
     if !unused.is_empty() {
         problems.push(DataProblem {
             record: name.clone(),
