@@ -44,6 +44,8 @@ pub(super) struct Pace {
     pub steps: usize,
     /// The largest value of each state so far, what an error is compared with.
     largest: Vec<f64>,
+    /// One over each of them.
+    scales: Vec<f64>,
 }
 
 impl Pace {
@@ -54,14 +56,20 @@ impl Pace {
         let (loose, tight) =
             if states.is_empty() { (1, 1) } else { range(model, parameters, drive, &states) };
         let loose = if M::period(parameters).is_some() { tight } else { loose };
-        Self { loose, tight, steps: tight, largest: vec![0.0; states.len()] }
+        let (largest, scales) = (vec![0.0; states.len()], vec![f64::MAX; states.len()]);
+        Self { loose, tight, steps: tight, largest, scales }
     }
 
     /// Looks at a state at a sample.
     pub fn reach<R: Scalar>(&mut self, state: &impl Bundle<R>) {
         if self.varies() {
-            state
-                .for_each(|index, value| self.largest[index] = self.largest[index].max(value.number().abs()));
+            state.for_each(|index, value| {
+                let value = value.number().abs();
+                // Seldom: a division for each state in each step would be felt.
+                if value > self.largest[index] {
+                    (self.largest[index], self.scales[index]) = (value, value.recip().min(f64::MAX));
+                }
+            });
         }
     }
 
@@ -74,7 +82,7 @@ impl Pace {
         let (mut change, mut answer, mut error, mut index) = (0.0, 0.0, 0.0_f64, 0);
         k1.combine([k2, k3, k4], &mut |k1, [k2, k3, k4]| {
             let [first, second, third, fourth] = [k1, k2, k3, k4].map(Scalar::number);
-            let scale = h / self.largest[index].max(f64::MIN_POSITIVE);
+            let scale = h * self.scales[index];
             change += ((second - first) * scale).powi(2);
             answer += ((third - second) * scale).powi(2);
             error = error.max(((first - second - third + fourth) * scale).abs());
@@ -87,9 +95,10 @@ impl Pace {
         // The second slope's change by half a step is answered by the third's: half of the step times the fastest rate.
         let stiffness =
             if answer.sqrt() > NEGLIGIBLE { 2.0 * (answer / change).sqrt() / STABLE } else { 0.0 };
-        // The larger of the stiffness and the root of the error, which costs much and is seldom the larger one.
+        // The larger of the stiffness and the root of the error. That costs much and seldom asks for more than the fewest steps.
         let error = error / TOLERATED;
-        if error > stiffness.powi(3) { error.cbrt() } else { stiffness }
+        let least = stiffness.max(self.loose as f64 / self.steps as f64);
+        if error > least.powi(3) { error.cbrt() } else { stiffness }
     }
 
     /// Takes note of the largest need of the steps made since a sample; whether they have to be made again, more finely.
