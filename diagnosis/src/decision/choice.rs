@@ -32,8 +32,8 @@ pub enum Choice {
 }
 
 /// Chooses by scores alone; `misses` is the innovations' mean square in units of the sensors' accuracy, `named` and `features`
-/// are in any order. A rival of the best name needs no more than a sign of itself in the validation records: its shape is a rough
-/// one, and its fit is judged there.
+/// are in any order. A rival of the best name needs no more than a sign of itself in the validation records, and not even that
+/// where it explains as much of the estimation records: its shape is a rough one, and its fit is judged there.
 pub fn choose(misses: f64, named: &[Score], features: &[Score]) -> Choice {
     if misses < 1.0 {
         return Choice::Nothing;
@@ -47,7 +47,10 @@ pub fn choose(misses: f64, named: &[Score], features: &[Score]) -> Choice {
     }
     match (name, feature) {
         (Some(name), feature) if name.share >= CRITERIA.rough * feature.map_or(0.0, |it| it.share) => {
-            let near = |it: &&Score| it.share >= CRITERIA.rival * name.share && it.validated > 0.0;
+            let near = |it: &&Score| {
+                it.share >= CRITERIA.rival * name.share && it.validated > 0.0
+                    || it.share >= CRITERIA.fitted * name.share
+            };
             Choice::Named(by_share(named.iter().filter(near).copied().collect()))
         }
         (_, Some(feature)) => Choice::Unmodelled(feature),
@@ -86,11 +89,11 @@ pub(crate) mod tests {
     #[test]
     fn a_name_that_explains_nearly_what_free_features_do_is_fitted_with_its_rivals() {
         let named = [score(0, 0.3, 0.2), score(1, 0.5, 0.4), score(2, 0.05, 0.01)];
-        // Its shape is too rough for the validation records; and one that they deny.
-        let named = [&named[..], &[score(4, 0.55, 0.02), score(5, 0.9, -0.1)]].concat();
+        // Shapes that are too rough for the validation records, or that these deny: one explains as much of the others, one less.
+        let named = [&named[..], &[score(4, 0.55, 0.02), score(5, 0.9, -0.1), score(6, 0.4, -0.1)]].concat();
         let features = [score(3, 0.6, 0.5)];
         let Choice::Named(tried) = choose(2.0, &named, &features) else { panic!("a name") };
-        assert_eq!(tried.iter().map(|it| it.candidate).collect::<Vec<_>>(), [4, 1, 0]);
+        assert_eq!(tried.iter().map(|it| it.candidate).collect::<Vec<_>>(), [5, 4, 1, 0]);
     }
 
     #[test]

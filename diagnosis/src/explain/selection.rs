@@ -258,15 +258,13 @@ impl Compared {
             .copied()
     }
 
-    /// Scores, and behind them those of distortions that look like the best one's.
+    /// Scores, and behind the first those of distortions that look like it.
     pub fn with_alike(&self, mut scores: Vec<Score>) -> Vec<Score> {
         let Some(Term::Fault(best)) = scores.first().and_then(|it| self.term(it)) else { return scores };
-        for fault in best.fault().map_or(&[][..], |it| distortion(it).alike) {
-            let term = Term::Fault(best.with_fault(*fault));
-            if !scores.iter().any(|it| self.is_of(it, term)) {
-                scores.extend(self.shape(term));
-            }
-        }
+        let alike = best.fault().map_or(&[][..], |it| distortion(it).alike).iter();
+        let alike: Vec<Score> =
+            alike.filter_map(|it| self.shape(Term::Fault(best.with_fault(*it)))).collect();
+        scores.splice(1..1, alike);
         scores
     }
 
