@@ -3,7 +3,9 @@
 use strut_diagnosis::catalogue::naming::name;
 use strut_diagnosis::dataset::recorded::{Dataset, Measured, Source, derivative};
 use strut_diagnosis::dataset::split::Split;
+use strut_diagnosis::decision::disagreement::disagreement;
 use strut_diagnosis::diagnosis::{Diagnosis, Options, diagnose};
+use strut_diagnosis::estimation::intervals::Interval;
 use strut_diagnosis::estimation::unknowns::Unknown;
 use strut_diagnosis::plant::{Between, Drive};
 use strut_diagnosis::rig::Rig;
@@ -122,6 +124,31 @@ fn found(changes: &[(&str, f64)]) -> (Vec<String>, Vec<(String, f64)>) {
 
 fn value(values: &[(String, f64)], name: &str) -> f64 {
     values.iter().find(|(other, _)| other == name).unwrap().1
+}
+
+/// Without a force, each record could move all masses, stiffnesses and dampings together.
+#[test]
+fn a_spring_that_is_stiffer_in_one_record_is_what_records_without_a_force_disagree_on() {
+    let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
+    let sensors = ["body.acceleration", "wheel.acceleration", "suspension.deflection"];
+    let stiffness = 1.2 * rig.parameters[rig.plant.parameter("strut.stiffness").unwrap()];
+    let made = |seed: u64, changes: &[(&str, f64)]| seen(&rig, seed, changes, 0.0, &sensors);
+    let test = made(40, &[("strut.stiffness", stiffness)]);
+    let records = Split::new(&[made(1, &[]), made(20, &[])], vec![test]);
+    // What the search would make of it is another question.
+    let options = Options { only: vec!["10".into()], ..Options::default() };
+    let diagnosis = diagnose(&rig, &records, options, &|_| {}).unwrap();
+    let of = |it: &Interval| match it.handle {
+        Unknown::Parameter(index) => rig.plant.parameters[index].name.clone(),
+        Unknown::Input(..) | Unknown::Output(..) => String::new(),
+    };
+    let differing = diagnosis.intervals.iter().filter(|it| disagreement(&it.wishes, it.value).is_some());
+    let differing: Vec<&Interval> = differing.collect();
+    assert_eq!(differing.iter().map(|it| of(it)).collect::<Vec<_>>(), ["strut.stiffness"]);
+    let (low, high) = disagreement(&differing[0].wishes, differing[0].value).unwrap();
+    assert!((high.value / low.value / 1.2 - 1.0).abs() < 0.03 && high.record == 2, "{low:?} {high:?}");
+    let yardstick = diagnosis.intervals.iter().find(|it| Some(it.handle) == differing[0].yardstick).unwrap();
+    assert!(["sprung_mass", "strut.damping"].contains(&of(yardstick).as_str()), "{yardstick:?}");
 }
 
 #[test]

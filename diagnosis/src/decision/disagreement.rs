@@ -13,6 +13,9 @@ pub struct Wish {
     pub deviation: f64,
 }
 
+/// A parameter's value, and what each record would choose.
+pub type Wishes = (f64, Vec<Wish>);
+
 /// The wish of a record from what its pieces say: values with their variances. Pieces that differ by more than these widen it
 /// (R. T. Birge, The calculation of errors by the method of least squares, Physical Review 40 (1932)). None if no piece knows.
 pub fn wish(record: usize, pieces: &[(f64, f64)]) -> Option<Wish> {
@@ -31,11 +34,32 @@ pub fn wish(record: usize, pieces: &[(f64, f64)]) -> Option<Wish> {
 
 /// The lowest and the highest wish of two records that clearly disagree on a parameter of this value; none if none do.
 pub fn disagreement(wishes: &[Wish], value: f64) -> Option<(Wish, Wish)> {
-    let pairs = wishes.iter().flat_map(|one| wishes.iter().map(move |two| (*one, *two)));
-    let apart = |(low, high): &(Wish, Wish)| (high.value - low.value) / low.deviation.hypot(high.deviation);
     let matters = CRITERIA.visible * value.abs();
+    let pairs = wishes.iter().flat_map(|one| wishes.iter().map(move |two| (*one, *two)));
     let clear = pairs.filter(|it| apart(it) > CRITERIA.apart && it.1.value - it.0.value > matters);
     clear.max_by(|a, b| apart(a).total_cmp(&apart(b)))
+}
+
+/// Which of several parameters is the same in all records where these tell only ratios: by the parameter, what each record would
+/// choose for all of them. Two parameters whose ratio differs most clearly cannot both be the same; the one is beside which fewer
+/// others differ. None if no ratio clearly differs.
+pub fn yardstick(beside: &[(usize, Vec<Wishes>)]) -> Option<usize> {
+    let clear = |way: &[Wishes]| -> Vec<(usize, f64)> {
+        let of = |(index, (value, wishes)): (usize, &Wishes)| {
+            disagreement(wishes, *value).map(|it| (index, apart(&it)))
+        };
+        way.iter().enumerate().filter_map(of).collect()
+    };
+    let all: Vec<(usize, Vec<(usize, f64)>)> = beside.iter().map(|(held, way)| (*held, clear(way))).collect();
+    let ratios = all.iter().flat_map(|(held, differing)| differing.iter().map(move |it| (*held, *it)));
+    let (one, (other, _)) = ratios.max_by(|(_, a), (_, b)| a.1.total_cmp(&b.1))?;
+    let of_pair = all.iter().filter(|(held, _)| *held == one || *held == other);
+    of_pair.min_by_key(|(_, differing)| differing.len()).map(|(held, _)| *held)
+}
+
+/// Standard deviations between two wishes.
+fn apart((low, high): &(Wish, Wish)) -> f64 {
+    (high.value - low.value) / low.deviation.hypot(high.deviation)
 }
 
 #[cfg(test)]
@@ -64,6 +88,23 @@ mod tests {
             let other = [at(1, wishes[1].value, wishes[1].deviation), at(0, wishes[0].value, wishes[0].deviation)];
             prop_assert_eq!(disagreement(&other, value), found);
         }
+    }
+
+    #[test]
+    fn what_fewer_differ_beside_is_the_yardstick() {
+        let same = (10.0, vec![at(0, 10.0, 0.1), at(1, 10.0, 0.1)]);
+        let differs = |by: f64| (10.0, vec![at(0, 10.0, 0.1), at(1, 10.0 + by, 0.1)]);
+        let nothing = (10.0, vec![]);
+        let untold = (10.0, vec![at(0, 10.0, 3.0), at(1, 12.0, 3.0)]);
+        // A stiffer spring beside the same mass and damping. How heavy the wheel is then, no record tells.
+        let beside_mass = (0, vec![nothing.clone(), differs(2.0), same.clone(), untold.clone()]);
+        let beside_spring = (1, vec![differs(-2.5), nothing.clone(), differs(-2.0), untold.clone()]);
+        let beside_damping = (2, vec![same, differs(2.0), nothing.clone(), untold.clone()]);
+        let beside_wheel = (3, vec![untold.clone(), untold.clone(), untold, nothing]);
+        let ways = [beside_wheel, beside_spring, beside_mass, beside_damping];
+        assert_eq!(yardstick(&ways), Some(0));
+        assert_eq!(yardstick(&ways[..1]), None);
+        assert_eq!(yardstick(&[]), None);
     }
 
     #[test]

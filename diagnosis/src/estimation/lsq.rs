@@ -63,6 +63,11 @@ impl Linear {
         Self { r, q }
     }
 
+    /// With a coordinate held where it is: the linearisation in the others.
+    pub fn without(&self, coordinate: usize) -> Self {
+        Self::by_qr(self.r.clone().remove_column(coordinate), &self.q)
+    }
+
     /// Norm of each column of the Jacobian.
     pub fn column_norms(&self) -> DVector<f64> {
         DVector::from_fn(self.r.ncols(), |j, _| self.r.column(j).norm())

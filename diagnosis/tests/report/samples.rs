@@ -252,6 +252,7 @@ pub fn sample(verdict: Verdict) -> Findings {
             findings.disagreements = vec![Disagreement {
                 name: "strut.damping".into(),
                 unit: "N.s/m".into(),
+                yardstick: None,
                 records: [value("multisine-1.csv", 423.0, 9.0), value("prbs-2.csv", 522.0, 14.0)],
             }];
             findings.summary = "The time limit of 30 s was reached. The search for effects is not complete. There may be \

@@ -31,7 +31,12 @@ impl Diagnosis<'_> {
                 let declared = &baseline.rig.plant.parameters[index];
                 let (name, unit) = (declared.name.clone(), declared.unit.symbol.into());
                 let apart = (high.value - low.value) / low.deviation.hypot(high.deviation);
-                list.push((apart, Disagreement { name, unit, records: [wanted(low), wanted(high)] }));
+                let yardstick = interval.yardstick.and_then(|it| match it {
+                    Unknown::Parameter(index) => Some(baseline.rig.plant.parameters[index].name.clone()),
+                    Unknown::Input(..) | Unknown::Output(..) => None,
+                });
+                let records = [wanted(low), wanted(high)];
+                list.push((apart, Disagreement { name, unit, yardstick, records }));
             }
         }
         list.sort_by(|(a, _), (b, _)| b.total_cmp(a));

@@ -61,7 +61,8 @@ fn disagreements(findings: &Findings) -> Option<String> {
         0 => String::new(),
         _ => format!(" They also disagree on {}.", list(&others, "and")),
     };
-    Some(format!("The records disagree on {}{of}: {low}, {high}.{more}", first.name))
+    let beside = first.yardstick.as_ref().map_or(String::new(), |it| format!(" for the same {it}"));
+    Some(format!("The records disagree on {}{beside}{of}: {low}, {high}.{more}", first.name))
 }
 
 fn effects(findings: &Findings) -> Option<String> {
@@ -290,8 +291,12 @@ mod tests {
             high: value + 10.0,
         };
         let records = [value("a.csv", 700.0), value("b.csv", 900.0)];
-        let of =
-            |name: &str| Disagreement { name: name.into(), unit: "N.s/m".into(), records: records.clone() };
+        let of = |name: &str| Disagreement {
+            name: name.into(),
+            unit: "N.s/m".into(),
+            yardstick: None,
+            records: records.clone(),
+        };
         let found = Findings {
             unfinished: Some("The time limit of 5 s was reached.".into()),
             disagreements: vec![of("strut.damping"), of("tire.damping")],

@@ -9,6 +9,8 @@ pub struct Disagreement {
     pub name: String,
     /// SI.
     pub unit: String,
+    /// The parameter that is the same in both records, where they tell only ratios.
+    pub yardstick: Option<String>,
     /// What the two records want that disagree most clearly, the lower value first.
     pub records: [RecordValue; 2],
 }

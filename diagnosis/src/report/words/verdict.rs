@@ -15,18 +15,7 @@ pub fn headline(findings: &Findings) -> String {
         Verdict::Identified if effects.is_empty() => "An effect is identified.".into(),
         Verdict::Identified => format!("The model lacks {}.", list(&effects, "and")),
         Verdict::Ambiguous => ambiguous(findings),
-        Verdict::Unmodelled => match findings.unmodelled.first() {
-            Some(it) => {
-                format!("The model lacks {}. No effect of the catalogue explains it.", it.description)
-            }
-            None => match &findings.missing {
-                Some(missing) => format!(
-                    "The model lacks something, most likely at the {}. It follows no recorded signal.",
-                    missing.place
-                ),
-                None => "The model lacks something. It follows no recorded signal.".into(),
-            },
-        },
+        Verdict::Unmodelled => unmodelled(findings),
         Verdict::SensorFault if effects.is_empty() => "A sensor is at fault, not the plant.".into(),
         Verdict::SensorFault => format!("A sensor is at fault, not the plant: {}.", list(&effects, "and")),
         Verdict::ModelInadequate => "The model predicts too little of the data to identify an effect.".into(),
@@ -37,6 +26,23 @@ pub fn headline(findings: &Findings) -> String {
 
 fn full_name(effect: &Effect) -> String {
     located(&effect.name, &effect.element)
+}
+
+fn unmodelled(findings: &Findings) -> String {
+    if let Some(it) = findings.unmodelled.first() {
+        return format!("The model lacks {}. No effect of the catalogue explains it.", it.description);
+    }
+    // A rig that was changed between two records lacks nothing.
+    if let Some(it) = findings.disagreements.first() {
+        return format!(
+            "No model describes all records: they disagree on {}. If the rig was changed between them, diagnose them \
+             separately.",
+            it.name
+        );
+    }
+    let place =
+        findings.missing.as_ref().map_or(String::new(), |it| format!(", most likely at the {}", it.place));
+    format!("The model lacks something{place}. It follows no recorded signal.")
 }
 
 fn mismatch(findings: &Findings) -> String {
@@ -85,5 +91,32 @@ pub fn badge(verdict: Verdict) -> (&'static str, &'static str) {
         Verdict::ModelInadequate => ("model inadequate", "bad"),
         Verdict::OutOfTime => ("out of time", "doubt"),
         Verdict::BadData => ("bad data", "bad"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::findings::{Disagreement, RecordValue};
+
+    #[test]
+    fn records_of_a_rig_that_was_changed_lack_nothing() {
+        let mut found =
+            Findings { verdict: Verdict::Unmodelled, ..Findings::of_bad_data("rig", vec![], vec![], vec![]) };
+        assert_eq!(headline(&found), "The model lacks something. It follows no recorded signal.");
+        let of = |record: &str, value: f64| RecordValue {
+            record: record.into(),
+            value,
+            low: 0.9 * value,
+            high: 1.1 * value,
+        };
+        found.disagreements.push(Disagreement {
+            name: "strut.stiffness".into(),
+            unit: "N/m".into(),
+            yardstick: None,
+            records: [of("monday.csv", 8e3), of("tuesday.csv", 1e4)],
+        });
+        let told = headline(&found);
+        assert!(told.contains("they disagree on strut.stiffness") && !told.contains("lacks"), "{told}");
     }
 }
