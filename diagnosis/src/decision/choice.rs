@@ -32,8 +32,8 @@ pub enum Choice {
 }
 
 /// Chooses by scores alone; `misses` is the innovations' mean square in units of the sensors' accuracy, `named` and `features`
-/// are in any order. A rival of the best name needs no more than a sign of itself in the validation records, and not even that
-/// where it explains as much of the estimation records: its shape is a rough one, and its fit is judged there.
+/// are in any order. A rival of the best name needs no more than a sign of itself in the validation records, and where it explains as
+/// much of the estimation records, in both together: its shape is a rough one, and its fit is judged there.
 pub fn choose(misses: f64, named: &[Score], features: &[Score]) -> Choice {
     if misses < 1.0 {
         return Choice::Nothing;
@@ -49,7 +49,7 @@ pub fn choose(misses: f64, named: &[Score], features: &[Score]) -> Choice {
         (Some(name), feature) if name.share >= CRITERIA.rough * feature.map_or(0.0, |it| it.share) => {
             let near = |it: &&Score| {
                 it.share >= CRITERIA.rival * name.share && it.validated > 0.0
-                    || it.share >= CRITERIA.fitted * name.share
+                    || it.share >= CRITERIA.fitted * name.share && it.share + it.validated > 0.0
             };
             Choice::Named(by_share(named.iter().filter(near).copied().collect()))
         }
@@ -126,8 +126,8 @@ pub(crate) mod tests {
     fn a_law_that_explains_most_is_fitted_though_its_rough_shape_fails_on_other_data() {
         let named = [score(0, 0.7, -3.0), score(1, 0.9, -60.0), score(2, 0.3, -0.1)];
         assert_eq!(choose(2.0, &named, &[score(3, 0.02, 0.02)]), Choice::Named(vec![named[1], named[0]]));
-        // Where something holds on both data, that is chosen.
+        // Where something holds on both data, that is chosen, with what explains both together.
         let holds = score(4, 0.2, 0.2);
-        assert_eq!(choose(2.0, &[&named[..], &[holds]].concat(), &[]), Choice::Named(vec![holds]));
+        assert_eq!(choose(2.0, &[&named[..], &[holds]].concat(), &[]), Choice::Named(vec![named[2], holds]));
     }
 }
