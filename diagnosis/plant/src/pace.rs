@@ -42,9 +42,7 @@ pub(super) struct Pace {
     tight: usize,
     /// Steps to the next sample.
     pub steps: usize,
-    /// The largest value of each state so far, what an error is compared with.
-    largest: Vec<f64>,
-    /// One over each of them.
+    /// One over the largest value of each state so far, in shares of which an error is taken.
     scales: Vec<f64>,
 }
 
@@ -56,8 +54,7 @@ impl Pace {
         let (loose, tight) =
             if states.is_empty() { (1, 1) } else { range(model, parameters, drive, &states) };
         let loose = if M::period(parameters).is_some() { tight } else { loose };
-        let (largest, scales) = (vec![0.0; states.len()], vec![f64::MAX; states.len()]);
-        Self { loose, tight, steps: tight, largest, scales }
+        Self { loose, tight, steps: tight, scales: vec![f64::MAX; states.len()] }
     }
 
     /// Looks at a state at a sample.
@@ -66,8 +63,8 @@ impl Pace {
             state.for_each(|index, value| {
                 let value = value.number().abs();
                 // Seldom: a division for each state in each step would be felt.
-                if value > self.largest[index] {
-                    (self.largest[index], self.scales[index]) = (value, value.recip().min(f64::MAX));
+                if value * self.scales[index] > 1.0 {
+                    self.scales[index] = value.recip();
                 }
             });
         }

@@ -186,8 +186,8 @@ impl<'a> Fit<'a> {
             scores.extend(part.scores);
         }
         for (index, coordinate) in self.coordinates.iter().enumerate() {
-            if let Some(prior) = coordinate.prior {
-                h[(index, index)] += prior.distance(point.get(coordinate.handle)).1.powi(2);
+            if let Some((_, slope)) = coordinate.distance(point) {
+                h[(index, index)] += slope * slope;
             }
         }
         Normal { h, g, scores }
@@ -250,8 +250,7 @@ impl Problem for Fit<'_> {
             trace.sections.push(part.elimination);
         }
         for (index, coordinate) in self.coordinates.iter().enumerate() {
-            if let Some(prior) = coordinate.prior {
-                let (distance, slope) = prior.distance(point.get(coordinate.handle));
+            if let Some((distance, slope)) = coordinate.distance(point) {
                 h[(index, index)] += slope * slope;
                 g[index] += distance * slope;
             }

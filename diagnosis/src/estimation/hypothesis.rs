@@ -100,8 +100,8 @@ impl Fitted {
     /// for.
     pub fn priors(&self, vouched_for: bool) -> Vec<DVector<f64>> {
         let slope = |coordinate: &FreeParameter| {
-            let prior = coordinate.prior.filter(|it| !vouched_for || it.is_vouched_for())?;
-            Some(prior.distance(self.point.get(coordinate.handle)).1)
+            coordinate.prior.filter(|it| !vouched_for || it.is_vouched_for())?;
+            Some(coordinate.distance(&self.point)?.1)
         };
         let count = self.coordinates.len();
         let slopes = self.coordinates.iter().map(slope).enumerate();

@@ -98,9 +98,9 @@ impl Baseline<'_> {
             let twins = twins[index].clone();
             let mut half_of_data = variance.sqrt();
             let of = |known: &DMatrix<f64>| NORMAL.powi(2) * known[(index, index)].max(0.0);
-            let slope = slope(coordinate, &fitted.point);
+            let data = variance / NORMAL.powi(2);
             let from_parameter_set =
-                is_of_parameter_set(before[(index, index)], variance / NORMAL.powi(2), slope);
+                is_of_parameter_set(coordinate, &fitted.point, [before[(index, index)], data]);
             let mut half = (variance + of(&vouched_for)).sqrt();
             if amounts.contains(&handle) && half_of_data.is_finite() {
                 let promised = 0.5 * (norms[index] * half_of_data).powi(2);
@@ -134,14 +134,9 @@ impl Baseline<'_> {
     }
 }
 
-/// Whether what was known before makes most of a coordinate's uncertainty, by both variances; `slope` is one over the standard
-/// deviation of what was known.
-fn is_of_parameter_set(before: f64, data: f64, slope: f64) -> bool {
+/// Whether what was known before makes most of a coordinate's uncertainty, by the variances that it and the data leave.
+fn is_of_parameter_set(coordinate: &FreeParameter, at: &Estimate, [before, data]: [f64; 2]) -> bool {
     // Of what was known before, the data have to leave some uncertainty, too.
-    before > FROM_SET * data && before.sqrt() * slope > OPEN
-}
-
-/// One over the standard deviation of what was known of a coordinate before; infinite of nothing.
-fn slope(coordinate: &FreeParameter, at: &Estimate) -> f64 {
-    coordinate.prior.map_or(f64::INFINITY, |it| it.distance(at.get(coordinate.handle)).1)
+    let is_open = coordinate.distance(at).is_none_or(|(_, slope)| before.sqrt() * slope > OPEN);
+    before > FROM_SET * data && is_open
 }

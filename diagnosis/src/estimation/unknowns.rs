@@ -97,6 +97,13 @@ impl Prior {
     }
 }
 
+impl FreeParameter {
+    /// Distance of its value from what was known before, in standard deviations, and its derivative; none if nothing was known.
+    pub fn distance(&self, at: &Estimate) -> Option<(f64, f64)> {
+        Some(self.prior?.distance(at.get(self.handle)))
+    }
+}
+
 /// An estimate of all unknowns: parameters, distortions, and the states at the start of every segment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
@@ -143,7 +150,7 @@ impl Estimate {
 /// Half the squared distance of a point from the coordinates' priors, in their standard deviations.
 pub fn strain(coordinates: &[FreeParameter], point: &Estimate) -> f64 {
     let each = coordinates.iter().filter_map(|coordinate| {
-        let (distance, _) = coordinate.prior?.distance(point.get(coordinate.handle));
+        let (distance, _) = coordinate.distance(point)?;
         Some(0.5 * distance.powi(2))
     });
     each.sum()

@@ -104,7 +104,7 @@ pub(super) fn wishes(value: f64, all: &[Opinion]) -> Vec<Wish> {
     records.filter_map(|record| wish(record, &of(record))).collect()
 }
 
-/// A record's sections in so many pieces.
+/// A record's sections, cut into this number of pieces.
 fn cut(record: &Dataset, pieces: usize) -> Vec<Vec<Range<usize>>> {
     if pieces < 2 {
         return vec![record.sections.clone()];
@@ -122,7 +122,7 @@ fn cut(record: &Dataset, pieces: usize) -> Vec<Vec<Range<usize>>> {
 /// The variance that differences between excitations bring to estimates from some of them, and the quantile of
 /// Student's distribution that belongs to it.
 pub(super) fn between(opinions: &[Opinion]) -> (f64, f64) {
-    // A piece of one block has no variance that could be told, and a coordinate that does nothing in it an infinite one.
+    // A piece of one block has no variance, and a coordinate that does nothing in it an infinite one.
     let told = |it: &&Opinion| it.shift.is_finite() && it.variance.is_finite() && it.variance > 0.0;
     let known: Vec<&Opinion> = opinions.iter().filter(told).collect();
     let freedom = known.len() as f64 - 1.0;

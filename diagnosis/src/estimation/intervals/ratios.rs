@@ -10,7 +10,7 @@ use crate::estimation::hypothesis::Fitted;
 use crate::estimation::unknowns::Unknown;
 
 use super::excitations::{Excitation, Opinion, opinions, wishes};
-use super::{Interval, is_of_parameter_set, slope};
+use super::{Interval, is_of_parameter_set};
 
 /// Lets records be compared at a common scale.
 pub(super) fn compare(intervals: &mut [Interval], fitted: &Fitted, excitations: &[Excitation]) {
@@ -46,9 +46,8 @@ fn untold(fitted: &Fitted, coordinates: &[usize], held: usize) -> usize {
     let before = linear.sandwich(&rest(&fitted.priors(false)));
     let is_untold = |index: &&usize| {
         let at = *index - usize::from(**index > held);
-        let coordinate = &fitted.coordinates[**index];
-        **index != held
-            && is_of_parameter_set(before[(at, at)], own[(at, at)], slope(coordinate, &fitted.point))
+        let variances = || [&before, &own].map(|it| it[(at, at)]);
+        **index != held && is_of_parameter_set(&fitted.coordinates[**index], &fitted.point, variances())
     };
     coordinates.iter().filter(is_untold).count()
 }
