@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use strut_diagnosis::data::Origin;
 use strut_diagnosis::data::map::Map;
-use strut_diagnosis::dataset::import::load;
+use strut_diagnosis::dataset::load::load;
 use strut_diagnosis::estimation::fit::Fit;
 use strut_diagnosis::estimation::lsq::Problem;
 use strut_diagnosis::estimation::unknowns::{Estimate, FreeParameter, Unknown};

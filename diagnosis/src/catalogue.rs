@@ -97,6 +97,8 @@ pub enum Onset {
 pub enum Prevalence {
     /// Some rigs have it.
     Occasional,
+    /// Every rig has it, and often enough of it to matter: dry friction of what slides.
+    Expected,
     /// A background effect: every rig has a little of it. Such are memory and compliance of rubber, springs that are not
     /// quite straight, cogging, and the filters and timing of sensors.
     Background,

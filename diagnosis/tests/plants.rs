@@ -6,7 +6,7 @@ use strut_diagnosis::app::virtual_rig::{self, Experiment};
 use strut_diagnosis::catalogue::naming::{handle, name};
 use strut_diagnosis::data::Origin;
 use strut_diagnosis::data::map::Map;
-use strut_diagnosis::dataset::import::{Loaded, load};
+use strut_diagnosis::dataset::load::{Loaded, load};
 use strut_diagnosis::dataset::split::Split;
 use strut_diagnosis::diagnosis::{Options, diagnose};
 use strut_diagnosis::estimation::unknowns::Unknown;

@@ -8,7 +8,7 @@ use strut_blind::{cases, files, generate};
 use strut_diagnosis::app::virtual_rig::{self, Experiment};
 use strut_diagnosis::data::Origin;
 use strut_diagnosis::data::map::Map;
-use strut_diagnosis::dataset::import::load;
+use strut_diagnosis::dataset::load::load;
 use strut_diagnosis::dataset::split::Split;
 use strut_diagnosis::dataset::witness;
 use strut_diagnosis::diagnosis::Options;

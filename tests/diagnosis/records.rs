@@ -142,3 +142,39 @@ fn a_spring_to_the_ground_is_found_at_sixty_hertz() {
     assert!((stiffness / 142_122.0 - 1.0).abs() < 0.02, "{stiffness}");
     assert!((nominal(&report, "guide.damping")[0] / 22.6 - 1.0).abs() < 0.1);
 }
+
+/// The interval of the first parameter of an effect with a name.
+fn sized(report: &Value, id: &str) -> [f64; 2] {
+    let effects = report["effects"].as_array().expect("a list");
+    let effect = effects.iter().find(|it| it["id"] == id).expect(id);
+    ["low", "high"].map(|field| effect["parameters"][0][field].as_f64().expect("a number"))
+}
+
+/// By hand: friction of 450 to 540 N, 48 kN s/m, and no mass that could be told. The records have eight strokes at few speeds.
+#[test]
+fn a_cylinder_has_friction_beside_its_damping() {
+    let Some(records) = real("real/hydraulic-actuator") else { return };
+    let report = diagnose_drive("cylinder", &records, ["f1_4.csv", "f1_3.csv"], &[]);
+    assert_eq!(named(&report), ["16"]);
+    let [low, high] = sized(&report, "16");
+    assert!(0.0 < low && low < 480.0 && 480.0 < high && high < 1000.0, "{low} … {high}");
+    let [_, low, high] = nominal(&report, "guide.damping");
+    assert!(low < 48e3 && 48e3 < high, "{low} … {high}");
+    let all = report["nominal_parameters"].as_array().expect("a list");
+    let mass = all.iter().find(|it| it["name"] == "moving_mass").expect("a mass");
+    assert_eq!(mass["mismatch"], false, "{mass}");
+}
+
+/// By hand: friction of 0.12 to 0.14 N m with an inertia of 4e-4 kg m². The joint sticks and slips, and its velocity was
+/// measured more finely than its position.
+#[test]
+fn a_joint_that_sticks_and_slips_has_friction() {
+    let Some(records) = real("real/robot-joint") else { return };
+    let report = diagnose_drive("joint", &records, ["j5a.csv", "j5b.csv"], &[]);
+    assert_eq!(named(&report), ["16"]);
+    let [low, high] = sized(&report, "16");
+    assert!(0.0 < low && low < 0.13 && 0.13 < high && high < 0.3, "{low} … {high}");
+    let [_, low, high] = nominal(&report, "moving_mass");
+    assert!(low < 4e-4 && 4e-4 < high, "{low} … {high}");
+    assert!(notes(&report).contains("drives the model together with motion.position"), "{}", notes(&report));
+}

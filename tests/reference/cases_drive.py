@@ -17,6 +17,11 @@ GUIDE = {
     "guide.cogging.period": 0.03,
     "guide.cogging.phase": 0.4,
 }
+SPRING = {
+    "ground_spring.stiffness": 400.0,
+    "ground_spring.progression.quadratic": -300.0,
+    "ground_spring.progression.cubic": 4000.0,
+}
 OMEGA = 2.0 * math.pi * 0.7
 HALF_PI = 0.5 * math.pi
 SINES = [[90.0, 0.9, 0.3], [40.0, 2.7, 1.2]]
@@ -32,7 +37,7 @@ def drive(name, inputs, changed, description, settings=None):
 CASES = [
     drive("linear-drive-force",
           {"force": {"sines": SINES, "steps": [[30.0, 1.4005]]}, "load.force": {"sines": [], "steps": [[-12.0, 2.0005]]}},
-          GUIDE | {"ground_spring.stiffness": 400.0, "constant_load": 4.0},
+          GUIDE | SPRING | {"constant_load": 4.0},
           "Friction with breakaway, cogging, spring and loads."),
     drive("linear-drive-command", {"command": {"sines": [[2.5, 0.8, 0.1], [1.0, 3.1, 0.7]], "steps": []}},
           GUIDE | {"amplifier.gain": 35.0, "guide.curve.scale": 1.2, "guide.curve.velocity_range": 0.4,
@@ -45,6 +50,6 @@ CASES = [
            "motion.velocity": {"sines": [[0.05 * OMEGA, 0.7, 0.2 + HALF_PI]], "steps": []},
            "motion.acceleration": {"sines": [[-0.05 * OMEGA**2, 0.7, 0.2]], "steps": []},
            "load.force": {"sines": [], "steps": [[-12.0, 2.0005]]}},
-          GUIDE | {"ground_spring.stiffness": 400.0, "constant_load": 4.0},
+          GUIDE | SPRING | {"constant_load": 4.0},
           "The motion is imposed and the force sought.", settings={"drive": "Motion"}),
 ]

@@ -1,6 +1,7 @@
 """A linear positioning drive.
 
-    m x'' = F - k x - g - F_0 + load,   F = force, or gain times command; or x, x', x'' are given and F is sought
+    m x'' = F - s - g - F_0 + load,   F = force, or gain times command; or x, x', x'' are given and F is sought
+    s = k x + k_2 x^2 + k_3 x^3
     g = d x' + [F_c + F_b exp(-(x'/v_s)^2)] tanh(x'/v_0) + A sin(2 pi x/p + phi) + s curve(x')
 
 The curve's points are guards, so that the equations are smooth within a mode.
@@ -40,9 +41,11 @@ class LinearDrive(Switched):
 
     def held(self, state, u, mode):
         """The force against the carriage beside its inertia."""
+        get = lambda name: self.p.get(name, 0.0)
         motion = self.motion(state, u)
-        spring = self.p.get("ground_spring.stiffness", 0.0) * motion[0] + self.p.get("constant_load", 0.0)
-        return spring + self.resistance(motion, mode) - u[2]
+        rates = [get("ground_spring.stiffness"), get("ground_spring.progression.quadratic"), get("ground_spring.progression.cubic")]
+        spring = sum(rate * motion[0] ** (power + 1) for power, rate in enumerate(rates))
+        return spring + get("constant_load") + self.resistance(motion, mode) - u[2]
 
     def driven(self, state, u, mode):
         """Acceleration and the motor's force."""

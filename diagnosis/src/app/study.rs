@@ -10,7 +10,7 @@ use crate::catalogue::naming;
 use crate::data::Origin;
 use crate::data::map::Map;
 use crate::data::table::did_you_mean;
-use crate::dataset::import::{Loaded, load};
+use crate::dataset::load::{Loaded, load};
 use crate::dataset::recorded::Dataset;
 use crate::dataset::split::Split;
 use crate::dataset::witness;

@@ -1,6 +1,6 @@
 //! Effects in the guides of drives and in pivots.
 
-use super::{Effect, Element, FRICTION_VELOCITY, Onset, PLAIN, Prevalence, Scale, part, within};
+use super::{Effect, Element, FRICTION_VELOCITY, Onset, PLAIN, Prevalence, Scale, addend, part, within};
 
 /// Pole pitches and spindle pitches in m: so close that over a stroke of some periods no phase is lost between two of them.
 const PERIODS: &[f64] = &[
@@ -48,6 +48,20 @@ pub(super) const EFFECTS: &[Effect] = &[
         ..PLAIN
     },
     Effect {
+        id: "08n",
+        element: Element::GUIDE,
+        name: "nonlinear spring to the ground",
+        equation: "F = k_2 x^2 + k_3 x^3",
+        prevalence: Prevalence::Background,
+        parts: &[
+            part("ground_spring.progression.cubic", Scale::CUBIC, (-5.0, 5.0), &[0.05]),
+            addend("ground_spring.progression.quadratic", Scale::QUADRATIC, (-5.0, 5.0), &[0.05]),
+        ],
+        literature: &["Worden2001"],
+        experiment: "move through the whole stroke quasi-statically",
+        ..PLAIN
+    },
+    Effect {
         id: "27",
         element: Element::GUIDE,
         name: "cogging",
@@ -68,6 +82,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         element: Element::PIVOT,
         name: "pivot friction",
         equation: "T = T_p tanh(w/w_0)",
+        prevalence: Prevalence::Expected,
         parts: &[
             part("pivot.coulomb.torque", Scale::FORCE, (0.0, 10.0), &[0.1]),
             part("pivot.coulomb.speed", Scale::VELOCITY, (1e-3, 1.0), &[0.02, 0.2]),

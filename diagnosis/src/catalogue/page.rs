@@ -25,6 +25,7 @@ What the diagnosis looks for, effect by effect. `diagnose effects` prints this p
   model. Most are multiples of the element's typical magnitudes.
 - **Typical magnitudes.** Root mean squares of the element's force, deflection and velocity in the estimation records.
 - **Special cases.** Effects that the law contains. They are preferred where they explain nearly as much.
+- **Expected effect.** Every rig has it. It is not one of many that are tried: only the records speak for or against it.
 - **Background effect.** Every rig has a little of it. It has to improve the fit by more than others before it is identified.
 - **Acts.** Nothing is noted of an effect that acts at all times. Otherwise the improvement comes event by event.
 - **Models.** Those that contain the law.
@@ -217,9 +218,12 @@ impl Page<'_> {
             Onset::Standstill => "near standstill only",
         };
         self.item("Acts", onset);
-        if prevalence == Prevalence::Background {
-            let _ = writeln!(self.text, "- Background effect");
-        }
+        let prevalence = match prevalence {
+            Prevalence::Occasional => return,
+            Prevalence::Expected => "Expected effect",
+            Prevalence::Background => "Background effect",
+        };
+        let _ = writeln!(self.text, "- {prevalence}");
     }
 
     fn foot(&mut self, experiment: &str, models: &str, literature: &'static [&'static str]) {

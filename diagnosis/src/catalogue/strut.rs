@@ -15,6 +15,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         element: Element::STRUT,
         name: "Coulomb friction",
         equation: "F = F_c tanh(v/v_0)",
+        prevalence: Prevalence::Expected,
         parts: &[
             part("strut.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
             part("strut.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02, 0.2]),
@@ -267,6 +268,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         element: Element::GUIDE,
         name: "guide friction",
         equation: "F = F_g tanh(v_s/v_0)",
+        prevalence: Prevalence::Expected,
         parts: &[
             part("guide.coulomb.force", Scale::FORCE, (0.0, 5.0), &[0.1]),
             part("guide.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02, 0.2]),
@@ -290,6 +292,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         element: Element::WHEEL_GUIDE,
         name: "wheel-guide friction",
         equation: "F = F_g tanh(v_u/v_0)",
+        prevalence: Prevalence::Expected,
         parts: &[
             part("wheel_guide.coulomb.force", Scale::FORCE, (0.0, 5.0), &[0.1]),
             part("wheel_guide.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02, 0.2]),

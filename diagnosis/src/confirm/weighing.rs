@@ -48,7 +48,8 @@ impl Baseline<'_> {
     pub fn evidence(&self, term: Term, base: &Fitted, null: &Fitted, fitted: &Fitted) -> Evidence {
         let more = fitted.coordinates.len().saturating_sub(null.coordinates.len());
         let errors = self.errors(&null.train);
-        let counts = errors.effective_counts();
+        // Without an effect, errors hang together as the effect does.
+        let counts = self.errors(&fitted.train).effective_counts();
         let gain = 2.0 * errors.log_ratio(&self.errors(&fitted.train), &counts);
         let total: f64 = counts.iter().sum();
         let shares = |unit: &Fitted, fitted: &Fitted| self.shares_of(term, unit, fitted);
@@ -56,16 +57,20 @@ impl Baseline<'_> {
         let [estimation, validation] = [before[0] - after[0], before[1] - after[1]];
         let steadiness = self.steadiness(term, &null.train, &fitted.train);
         let validated = self.steadiness(term, &null.test, &fitted.test);
+        let expected =
+            self.uses(Component::Background) && prevalence(term, &self.rig.plant) == Prevalence::Expected;
+        let looks = if expected { 1.0 } else { self.looks };
         Evidence {
             delta_bic: gain - more as f64 * total.max(1.0).ln(),
             estimation_t: steadiness.t,
-            p_value: (self.looks * steadiness.chance_of_gain()).min(1.0),
+            p_value: (looks * steadiness.chance_of_gain()).min(1.0),
             validation_t: validated.t,
-            validation_p_value: (self.looks * validated.chance()).min(1.0),
+            validation_p_value: (looks * validated.chance()).min(1.0),
             variance_explained: if is_resonance(term) { estimation.max(validation) } else { validation },
             fit_improvement: everywhere(term, self.phi_gains(null, fitted)),
             residual_reduction: everywhere(term, shares(null, fitted).map(|share| 1.0 - share)),
             background: self.is_usual(term, fitted) && !self.is_open(&null.test),
+            expected,
             always_relevant: false,
         }
     }

@@ -1,9 +1,19 @@
 //! Measurement noise and the steps of the converter.
 
+use crate::signal::spectral::{filled, power_spectrum};
+
 /// Differences of this order leave next to nothing of a signal that is sampled ten times in its period.
 const ORDER: usize = 5;
 /// Rms of these differences over that of white noise: the root of the binomial coefficient 10 over 5.
 const GAIN: f64 = 15.874_507_866_387_544;
+/// Band in which a spectrum tells the noise, in cycles a sample: above most signals, and below the cut of most antialiasing filters.
+const BAND: (f64, f64) = (0.15, 0.4);
+/// Its parts, of which the quietest counts.
+const PARTS: usize = 5;
+/// Samples below which there is no spectrum to tell of.
+const FEWEST: usize = 512;
+/// Ratio of the quietest part's noise to that of the differences below which the latter see the signal: chance makes less.
+const QUIETER: f64 = 0.5;
 /// Median of the magnitude of a normal variable with unit variance.
 const MEDIAN: f64 = 0.674_489_750_196_081_7;
 /// A signal with fewer values than this is a switched command rather than a coarse measurement.
@@ -85,8 +95,9 @@ fn line(x: &[f64], y: &[f64]) -> (f64, f64) {
 }
 
 /// Standard deviation of the white noise on a signal, from its fifth differences: their median is moved neither by
-/// the slow signal nor by rare impacts. Never less than the rounding error. Signals with missing samples are judged
-/// where six in a row are there; 0 if there is no such place.
+/// the slow signal nor by rare impacts. Where a part of the spectrum is much quieter, it tells the noise instead: of a signal with
+/// fewer than ten samples a period, differences are no noise. Never less than the rounding error. Signals with missing samples are
+/// judged where six in a row are there; 0 if there is no such place.
 #[must_use]
 pub fn noise_floor(values: &[f64]) -> f64 {
     const BINOMIAL: [f64; ORDER + 1] = [-1.0, 5.0, -10.0, 10.0, -5.0, 1.0];
@@ -94,7 +105,23 @@ pub fn noise_floor(values: &[f64]) -> f64 {
     let mut differences: Vec<f64> =
         values.windows(ORDER + 1).map(difference).filter(|difference| difference.is_finite()).collect();
     let white = median(&mut differences).map_or(0.0, |median| median / (MEDIAN * GAIN));
-    white.max(rounding(values))
+    let quietest = quietest(values).filter(|it| *it < QUIETER * white);
+    quietest.unwrap_or(white).max(rounding(values))
+}
+
+/// Standard deviation of white noise that is as strong at all frequencies as the signal is in the quietest part of the band; none
+/// of few samples.
+fn quietest(values: &[f64]) -> Option<f64> {
+    let known = filled(values).filter(|it| it.len() >= FEWEST)?;
+    let (frequency, density) = power_spectrum(&known, 1.0);
+    let width = (BAND.1 - BAND.0) / PARTS as f64;
+    let levels = (0..PARTS).filter_map(|part| {
+        let from = BAND.0 + width * part as f64;
+        let within = frequency.iter().zip(&density).filter(|(at, _)| (from..from + width).contains(*at));
+        median(&mut within.map(|(_, density)| *density).collect::<Vec<_>>())
+    });
+    // One-sided: all of the power is below half a cycle a sample.
+    levels.reduce(f64::min).map(|level| (0.5 * level).sqrt())
 }
 
 /// Rms of the rounding error of values as they were recorded; zero if they are fine, or those of a switched command.
@@ -136,6 +163,19 @@ mod tests {
         assert!((noise_floor(&values) / 0.01 - 1.0).abs() < 0.15);
         assert_eq!(noise_floor(&[f64::NAN; 20]), 0.0);
         assert_eq!(noise_floor(&[1.0, 2.0]), 0.0);
+    }
+
+    /// Differences take 1.5 cycles in ten samples for noise; the band beyond them has none but that.
+    #[test]
+    fn a_signal_of_few_samples_a_period_is_no_noise() {
+        for sigma in [1e-3, 0.01, 0.1] {
+            let white = noise(5, 8000);
+            let wave = |k: usize, number: f64| (k as f64 * (0.1 + 0.02 * number) + number).sin();
+            let fast = |k: usize| (0..40).map(|number| wave(k, f64::from(number))).sum::<f64>();
+            let values: Vec<f64> = (0..8000).map(|k| fast(k) + sigma * white[k]).collect();
+            let found = noise_floor(&values);
+            assert!((found / sigma - 1.0).abs() < 0.15, "{sigma}: {found}");
+        }
     }
 
     #[test]

@@ -15,94 +15,29 @@ use crate::report::words::quantity;
 use crate::rig::{Opposed, Rig};
 
 use super::columns::{doubt, follow, is_constant, leave_out_copies, others, read};
-use super::driven::{instead, names, of_part, undriven};
-use super::inverse::{self, Banded};
-use super::zero::zeroed;
+use super::driven::{instead, of_part};
 
 /// Samples that a record needs.
-const FEWEST: usize = 100;
+pub(super) const FEWEST: usize = 100;
 
 /// Share of a signal's samples up to which those that its sensor got wrong are left out, rather than the signal.
 const MOST_LEFT_OUT: f64 = 0.2;
 
 /// A record on a rig, with what is to be said about the data.
-struct Imported {
+pub(super) struct Imported {
     /// The record; none if it cannot be used.
-    recorded: Option<Dataset>,
-    /// What is wrong with the data.
-    problems: Vec<DataProblem>,
-    /// How the file was read.
-    read: RecordRead,
-}
-
-/// Records on a rig that can be compared with each other.
-#[derive(Clone, Debug)]
-pub struct Loaded {
-    /// The records, in the order of their files; none where a problem is fatal.
-    pub records: Vec<Dataset>,
+    pub recorded: Option<Dataset>,
     /// What is wrong with the data.
     pub problems: Vec<DataProblem>,
-    /// How each file was read.
-    pub read: Vec<RecordRead>,
-}
-
-/// Reads all records of a diagnosis. How the rig is driven follows from what they have: inversely only if all of them can be
-/// compared so. Where no column has what drove it, the rig becomes the one that stands for it then.
-///
-/// # Errors
-/// If a file cannot be read, or has not the signals that the rig needs: what to do.
-pub fn load(rig: &mut Rig, origins: &[&Origin], map: &Map) -> Result<Loaded, String> {
-    let has = names(rig, origins, map)?;
-    let note = undriven(rig, &has)?;
-    let mut loaded = as_driven(rig, origins, map, has)?;
-    loaded.problems.splice(0..0, note);
-    loaded.problems.extend(zeroed(rig, &mut loaded.records));
-    Ok(loaded)
-}
-
-/// Reads all records in the first of the rig's ways in which they can be compared.
-fn as_driven(
-    rig: &mut Rig,
-    origins: &[&Origin],
-    map: &Map,
-    has: impl Fn(&str) -> bool,
-) -> Result<Loaded, String> {
-    for by in rig.ways(&has) {
-        rig.drive_by(&by, &has)?;
-        let Some(inverse) = &by.inverse else { break };
-        if let Ok(loaded) = forward(rig, origins, map)
-            && let Some(Banded { records, note }) = inverse::banded(rig, &loaded.records, inverse)
-        {
-            let problems = loaded.problems.into_iter().chain([note]).collect();
-            return Ok(Loaded { records, problems, ..loaded });
-        }
-    }
-    forward(rig, origins, map)
-}
-
-/// Reads all records as the rig is driven.
-fn forward(rig: &Rig, origins: &[&Origin], map: &Map) -> Result<Loaded, String> {
-    let (mut records, mut problems, mut read) = (Vec::new(), Vec::new(), Vec::new());
-    for origin in origins {
-        let imported = import(rig, origin, map)?;
-        problems.extend(imported.problems);
-        records.extend(imported.recorded);
-        read.push(imported.read);
-    }
-    if problems.iter().any(|it| it.fatal) {
-        records.clear();
-    }
-    if !records.is_empty() {
-        align(&mut records)?;
-    }
-    Ok(Loaded { records, problems, read })
+    /// How the file was read.
+    pub read: RecordRead,
 }
 
 /// Reads a file and finds the rig's signals in it.
 ///
 /// # Errors
 /// If the file cannot be read, or has not the signals that the rig needs: what to do.
-fn import(rig: &Rig, origin: &Origin, map: &Map) -> Result<Imported, String> {
+pub(super) fn import(rig: &Rig, origin: &Origin, map: &Map, rate: Option<&str>) -> Result<Imported, String> {
     let mut record = origin.read(&map.reading).map_err(|error| error.to_string())?;
     oppose(rig, &mut record, map);
     let wanted = wanted(rig);
@@ -139,10 +74,13 @@ fn import(rig: &Rig, origin: &Origin, map: &Map) -> Result<Imported, String> {
         let channel = uniform.channels.iter().find(|channel| channel.name == name);
         channel.map(|channel| channel.values.clone())
     };
+    let moved = rig.driven().and_then(|by| rig.plant.input(&by.input));
+    let measured_rate =
+        |name: &str| rate.filter(|_| moved.is_some() && rig.rate_of(name) == moved).and_then(values);
     let mut inputs: Vec<Source> = Vec::new();
     let without_mean = rig.without_mean();
     for declared in &rig.plant.inputs {
-        inputs.push(match values(&declared.name) {
+        inputs.push(match values(&declared.name).or_else(|| measured_rate(&declared.name)) {
             Some(mut values) if without_mean == Some(declared.name.as_str()) => {
                 let mean = centre(&mut values);
                 problems.push(DataProblem {
@@ -332,32 +270,6 @@ fn sections(segments: &[Range<usize>], step: f64, seconds: f64) -> Vec<Range<usi
         }
     }
     sections
-}
-
-/// Keeps the outputs that all records have, so that they can be compared.
-///
-/// # Errors
-/// If there are none.
-fn align(records: &mut [Dataset]) -> Result<(), String> {
-    let Some(first) = records.first() else { return Err("there is no record".into()) };
-    let mut common: Vec<usize> = first.measured.iter().map(|measured| measured.output).collect();
-    for record in records.iter() {
-        common.retain(|output| record.measured.iter().any(|measured| measured.output == *output));
-    }
-    if common.is_empty() {
-        return Err("the records have no output in common: give records of the same signals".into());
-    }
-    let mut names: Vec<String> = first.others.iter().map(|it| it.name.clone()).collect();
-    names.retain(|name| records.iter().all(|record| record.others.iter().any(|it| it.name == *name)));
-    for record in records.iter_mut() {
-        record.others.retain(|it| names.contains(&it.name));
-        record.others.sort_by_key(|it| names.iter().position(|name| *name == it.name));
-        record.measured.retain(|measured| common.contains(&measured.output));
-        if record.sections.is_empty() {
-            return Err(format!("{}: no stretch of {FEWEST} samples without a gap", record.name));
-        }
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ use crate::signal::distortion::Correction;
 use crate::signal::spectral::{about_line, filled};
 
 /// Lowest end of a band in Hz: at its sampling rate, a block of errors has ten samples.
-const LOWEST: f64 = 8.0;
+pub(super) const LOWEST: f64 = 8.0;
 /// Share of the force's power above which nothing is compared: it is 3 % of the force, and would decide about all that is slow.
 const NEGLIGIBLE: f64 = 1e-3;
 /// Share of the force's power that has to lie in the band.
@@ -41,19 +41,15 @@ const REST: f64 = 0.1;
 pub struct Banded {
     /// The records: every signal behind the same filter without phase, and thinned.
     pub records: Vec<Dataset>,
+    /// The band's end in Hz.
+    pub top: f64,
     /// What the user has to know of it.
     pub note: DataProblem,
 }
 
 /// The records in the widest band in which the position's noise makes up little of the force, if most of the force is in it.
 pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Banded> {
-    let position = rig.plant.input(&inverse.position)?;
-    let is_rate = |declared: &Declaration| rig.rate_of(&declared.name) == Some(position);
-    let signals = Signals {
-        force: rig.plant.output(&inverse.force)?,
-        derivative: rig.plant.input(&inverse.derivative)?,
-        velocity: rig.plant.inputs.iter().position(is_rate)?,
-    };
+    let signals = Signals::of(rig, inverse)?;
     // One band for all: in a wider one, what is fast would decide.
     let ends = records.iter().map(|record| Some(relevant(record, signals.force(record)?)));
     let mut top = ends.collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::min)?.max(LOWEST);
@@ -81,11 +77,11 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
         100.0 * NEGLIGIBLE
     );
     let note = DataProblem { record: "all".into(), signal: inverse.force.clone(), text, fatal: false };
-    Some(Banded { records: banded.into_iter().map(|it| signals.moving(it)).collect(), note })
+    Some(Banded { records: banded.into_iter().map(|it| signals.moving(it)).collect(), top, note })
 }
 
 /// A record below a frequency in Hz, with the exact rates of its motion.
-fn below(record: &Dataset, top: f64) -> Dataset {
+pub(super) fn below(record: &Dataset, top: f64) -> Dataset {
     let mut banded = record.below(top);
     for source in &mut banded.inputs {
         if let Some(motion) = source.motion() {
@@ -97,16 +93,34 @@ fn below(record: &Dataset, top: f64) -> Dataset {
 
 /// The signals of a balance of forces.
 #[derive(Clone, Copy)]
-struct Signals {
+pub(super) struct Signals {
     /// The output that is compared.
     force: usize,
     /// The input that makes most of the motion's noise: what the mass resists, or the damper.
     derivative: usize,
     /// The input that tells whether anything moves.
-    velocity: usize,
+    pub velocity: usize,
 }
 
 impl Signals {
+    pub fn of(rig: &Rig, inverse: &Inverse) -> Option<Self> {
+        let position = rig.plant.input(&inverse.position)?;
+        let is_rate = |declared: &Declaration| rig.rate_of(&declared.name) == Some(position);
+        Some(Self {
+            force: rig.plant.output(&inverse.force)?,
+            derivative: rig.plant.input(&inverse.derivative)?,
+            velocity: rig.plant.inputs.iter().position(is_rate)?,
+        })
+    }
+
+    /// Mean square of what a balance of forces with the banded record's motion leaves of the force.
+    pub fn left(self, banded: &Dataset) -> Option<f64> {
+        let (motion, force) = (motion(banded), self.force(banded)?);
+        let found = terms(&motion, self.velocity) * balance(&motion, self.velocity, force)?;
+        let errors = force.iter().zip(&found).map(|(force, found)| force - found);
+        Some(power(&errors.filter(|it| it.is_finite()).collect::<Vec<_>>()))
+    }
+
     fn force(self, record: &Dataset) -> Option<&[f64]> {
         record.measured.iter().find(|it| it.output == self.force).map(|it| &it.values[..])
     }
@@ -114,11 +128,12 @@ impl Signals {
     /// Share of the force's power that the noise of the position makes up by way of mass or damper.
     fn noise(self, banded: &Dataset) -> Option<f64> {
         let (motion, force) = (motion(banded), self.force(banded)?);
+        let size = rms(&motion[self.derivative]);
         let noisier = banded.disturbed().map_or_else(|| motion.clone(), |it| self::motion(&it));
         let pairs = motion[self.derivative].iter().zip(&noisier[self.derivative]);
         let noise: Vec<f64> = pairs.map(|(one, two)| one - two).collect();
-        let factor = coefficient(&motion, force, self.derivative)?;
-        Some((factor * rms(&noise)).powi(2) / power(force))
+        let factor = balance(&motion, self.velocity, force)?[self.derivative];
+        (size > 0.0).then(|| (factor * rms(&noise)).powi(2) / power(force))
     }
 
     /// The record without the force at rest.
@@ -175,7 +190,7 @@ fn relevant(record: &Dataset, values: &[f64]) -> f64 {
 }
 
 /// Every input at the samples of a record.
-fn motion(record: &Dataset) -> Vec<Vec<f64>> {
+pub(super) fn motion(record: &Dataset) -> Vec<Vec<f64>> {
     let neutral = vec![Correction::default(); record.inputs.len()];
     let mut inputs = vec![Vec::with_capacity(record.len()); record.inputs.len()];
     for section in &record.sections {
@@ -187,24 +202,30 @@ fn motion(record: &Dataset) -> Vec<Vec<f64>> {
     inputs
 }
 
-/// How much of one input is in a signal, beside all others, their signs and a constant, by least squares; none if they
-/// cannot be told apart.
-fn coefficient(inputs: &[Vec<f64>], signal: &[f64], wanted: usize) -> Option<f64> {
-    let moving: Vec<usize> = (0..inputs.len()).filter(|input| rms(&inputs[*input]) > 0.0).collect();
-    let column = moving.iter().position(|input| *input == wanted)?;
-    let scales: Vec<f64> = moving.iter().map(|input| rms(&inputs[*input])).collect();
-    let known: Vec<usize> =
-        (0..signal.len().min(inputs[wanted].len())).filter(|k| signal[*k].is_finite()).collect();
-    let width = 2 * moving.len() + 1;
-    let rows = DMatrix::from_fn(known.len(), width, |row, at| match moving.get(at % moving.len().max(1)) {
-        _ if at + 1 == width => 1.0,
-        Some(input) if at < moving.len() => inputs[*input][known[row]] / scales[at],
-        Some(input) => inputs[*input][known[row]].signum(),
-        None => 0.0,
+/// What a balance of forces adds up, sample by sample: every input, the direction of the motion, and a constant.
+fn terms(inputs: &[Vec<f64>], velocity: usize) -> DMatrix<f64> {
+    let samples = inputs.iter().map(Vec::len).min().unwrap_or(0);
+    let direction = inputs.len();
+    DMatrix::from_fn(samples, direction + 2, |sample, term| match inputs.get(term) {
+        Some(input) => input[sample],
+        None if term == direction => inputs[velocity][sample].signum(),
+        None => 1.0,
+    })
+}
+
+/// How much of each term is in a signal, by least squares over its known values.
+fn balance(inputs: &[Vec<f64>], velocity: usize, signal: &[f64]) -> Option<DVector<f64>> {
+    let terms = terms(inputs, velocity);
+    let known: Vec<usize> = (0..signal.len().min(terms.nrows())).filter(|k| signal[*k].is_finite()).collect();
+    let scales = DVector::from_fn(terms.ncols(), |term, _| {
+        let size = terms.column(term).norm();
+        if size > 0.0 { size } else { 1.0 }
     });
+    let rows =
+        DMatrix::from_fn(known.len(), terms.ncols(), |row, term| terms[(known[row], term)] / scales[term]);
     let right = DVector::from_fn(known.len(), |row, _| signal[known[row]]);
     let solution = rows.svd(true, true).solve(&right, 1e-9).ok()?;
-    Some(solution[column] / scales[column])
+    Some(solution.component_div(&scales))
 }
 
 #[cfg(test)]
@@ -273,9 +294,10 @@ mod tests {
         let rig = Rig::published("linear-drive").unwrap();
         let record = record(&rig, 20.0, 0.0).below(100.0);
         let motion = motion(&record);
-        let at = rig.plant.input("motion.acceleration").unwrap();
-        let mass = coefficient(&motion, &record.measured[0].values, at).unwrap();
-        // The sign stands for a friction that takes a while to turn over.
+        let [velocity, acceleration] =
+            ["motion.velocity", "motion.acceleration"].map(|name| rig.plant.input(name).unwrap());
+        let mass = balance(&motion, velocity, &record.measured[0].values).unwrap()[acceleration];
+        // The direction stands for a friction that takes a while to turn over.
         assert!((mass / 20.0 - 1.0).abs() < 0.05, "{mass}");
     }
 }

@@ -3,8 +3,10 @@
 mod columns;
 pub mod conditioning;
 mod driven;
-pub mod import;
+mod import;
 pub mod inverse;
+pub mod load;
+mod rate;
 pub mod recorded;
 pub mod split;
 pub mod witness;

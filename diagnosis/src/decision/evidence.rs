@@ -27,6 +27,8 @@ pub struct Evidence {
     pub residual_reduction: f64,
     /// Whether every rig has a little of it, so that more of it is asked for.
     pub background: bool,
+    /// Whether every rig has it: it is not one of many that are tried, so that nothing but the data speaks against it.
+    pub expected: bool,
     /// Whether it matters however little of it the errors show, as with a signal that is very late.
     pub always_relevant: bool,
 }
@@ -46,19 +48,19 @@ impl Evidence {
         fit_improvement: CRITERIA.improvement,
         residual_reduction: CRITERIA.majority,
         background: false,
+        expected: false,
         always_relevant: false,
     };
 
-    /// The same of what every rig has a little of.
-    pub const REQUIRED_OF_BACKGROUND: Self = Self {
-        fit_improvement: CRITERIA.background * CRITERIA.improvement,
-        background: true,
-        ..Self::REQUIRED
-    };
-
-    /// What has to be exceeded here.
+    /// What has to be exceeded here: a larger size of what every rig has a little of, and any fall of the criterion of what
+    /// every rig has.
     pub fn required(&self) -> Self {
-        if self.background { Self::REQUIRED_OF_BACKGROUND } else { Self::REQUIRED }
+        let more = if self.background { CRITERIA.background } else { 1.0 };
+        Self {
+            fit_improvement: more * CRITERIA.improvement,
+            delta_bic: if self.expected { 0.0 } else { CRITERIA.bic },
+            ..Self::REQUIRED
+        }
     }
 
     /// Whether it takes most of the error away, however small that is.
@@ -166,6 +168,7 @@ mod tests {
         fit_improvement: 0.1,
         residual_reduction: 0.4,
         background: false,
+        expected: false,
         always_relevant: false,
     };
 
@@ -194,6 +197,15 @@ mod tests {
         ] {
             assert!(one.refusal().is_some(), "{one:?}");
         }
+    }
+
+    #[test]
+    fn what_every_rig_has_needs_no_more_than_that_the_criterion_falls() {
+        let few = Evidence { delta_bic: 0.5, ..CLEAR };
+        assert!(few.refusal().is_some());
+        assert_eq!(Evidence { expected: true, ..few }.refusal(), None);
+        assert!(Evidence { expected: true, delta_bic: -0.1, ..few }.refusal().is_some());
+        assert!(Evidence { expected: true, fit_improvement: 0.014, ..few }.refusal().is_some());
     }
 
     #[test]

@@ -13,6 +13,6 @@ pub enum Component {
     Account,
     /// The tolerances of the parameter set as priors of the nominal parameters.
     Tolerances,
-    /// The prior of background effects: without it, they need no more evidence than others.
+    /// The priors of background and expected effects: without them, both need as much evidence as others.
     Background,
 }

@@ -121,6 +121,7 @@ impl Names<'_> {
         by.follows_inputs.iter().for_each(|name| self.output("drives, follows_inputs", name));
         if let Some(inverse) = &by.inverse {
             self.output("drives, inverse", &inverse.force);
+            inverse.rate.iter().for_each(|name| self.output("drives, inverse", name));
             inverse.instead.iter().for_each(|name| self.signal("drives, inverse", name));
             let inputs = [&inverse.position, &inverse.derivative];
             inputs.into_iter().for_each(|name| self.input("drives, inverse", name));

@@ -132,6 +132,8 @@ pub struct Inverse {
     pub force: String,
     /// The input that is measured.
     pub position: String,
+    /// The output whose column has the position's rate, where a sensor of its own measures that.
+    pub rate: Option<String>,
     /// The input that is its highest derivative.
     pub derivative: String,
     /// Signals of which each says more where it is measured.

@@ -140,6 +140,7 @@ pub fn sample(verdict: Verdict) -> Findings {
                 fit_improvement: 0.12,
                 residual_reduction: 0.35,
                 background: true,
+                expected: false,
                 always_relevant: false,
             };
             findings.effects = vec![friction(), cogging];

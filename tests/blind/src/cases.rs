@@ -59,7 +59,7 @@ const REGULATED: [&str; 6] = ["01", "07", "12", "16", "23", "25"];
 const OF_DRIVE: [&str; 4] = ["02g", "16", "27", "33g"];
 
 /// Effects of a mass on a spring, in a catalogue and in none.
-const OF_MASS: [&str; 3] = ["16m", "U16", "U9m"];
+const OF_MASS: [&str; 3] = ["16m", "08n", "U9m"];
 
 /// Effects of a pump actuator.
 const OF_PUMP: [&str; 6] = ["30p", "32a", "32b", "32c", "23", "25"];
@@ -148,7 +148,7 @@ pub fn compact() -> Vec<Case> {
     all.push(standard("unnamed-U13", vec![Hidden::at("U13", "body.acceleration")], 50));
     all.push(guided(standard("mass-none", vec![], 51)));
     all.push(guided(standard("mass-16m", vec![Hidden::new("16m")], 52)));
-    all.push(guided(standard("mass-U16", vec![Hidden::new("U16")], 53)));
+    all.push(guided(standard("mass-08n", vec![Hidden::new("08n")], 53)));
     // On a road that nobody measured.
     for (seed, id) in [(54, "01"), (55, "05"), (56, "08"), (57, "12"), (58, "U1")] {
         all.push(roadless(standard(format!("roadless-{id}"), vec![Hidden::new(id)], seed)));
@@ -373,7 +373,7 @@ mod tests {
             single-26s/39 servo-28h/40 sensor-41h/41 none/24 none-cluttered/25 mismatch/26 drive-02g/33 \
             drive-16/34 drive-27/35 drive-16-33g/36 common-07/1007 behind-18/1012 behind-36/1012 \
             behind-35/1014 resized-02g/1014 noisy-01/1014 driven-U1/1017 answering-U6/1018 servo-26v/44 pump-30p/45 single-03b/42 regulated-16/43 \
-            unnamed-U7/46 unnamed-U9/47 unnamed-U10/48 unnamed-U11/49 unnamed-U13/50 mass-none/51 mass-16m/52 mass-U16/53 \
+            unnamed-U7/46 unnamed-U9/47 unnamed-U10/48 unnamed-U11/49 unnamed-U13/50 mass-none/51 mass-16m/52 mass-08n/53 \
             roadless-01/54 roadless-05/55 roadless-08/56 roadless-12/57 roadless-U1/58 roadless-none/59";
         assert_eq!(names.collect::<Vec<_>>().join(" "), expected);
     }

@@ -44,6 +44,7 @@ mod tests {
             fit_improvement: 0.004,
             residual_reduction: 0.52,
             background: false,
+            expected: false,
             always_relevant: false,
         };
         let candidate = |evidence| Candidate {

@@ -49,6 +49,7 @@ pub fn friction() -> Effect {
             fit_improvement: 0.21,
             residual_reduction: 0.35,
             background: false,
+            expected: false,
             always_relevant: false,
         },
         ambiguous_with: vec![],
@@ -112,6 +113,7 @@ pub fn candidates() -> Vec<Candidate> {
             fit_improvement: 0.002,
             residual_reduction: 0.35,
             background: false,
+            expected: false,
             always_relevant: false,
         };
         Candidate {

@@ -7,7 +7,7 @@ use strut_model::{
     About, Choice, Equation, Experiment, Instant, Kind, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
-use crate::effects::{Cogging, Coulomb, Stribeck, VelocityCurve};
+use crate::effects::{Cogging, Coulomb, Progression, Stribeck, VelocityCurve};
 
 /// A carriage on a guide whose motor gives the force that is asked for. What commands it stays outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,6 +84,16 @@ pub struct GroundSpring<R> {
     /// Rate
     #[var(unit = N_PER_M, start = 0.0, min = 0.0)]
     pub stiffness: R,
+    /// Curvature of its characteristic
+    pub progression: Progression<R>,
+}
+
+impl<R: Real> GroundSpring<R> {
+    /// The force that pulls the carriage back.
+    #[inline]
+    fn force(&self, position: R) -> R {
+        self.stiffness * position + self.progression.force(position)
+    }
 }
 
 /// An amplifier that controls the motor's current.
@@ -184,15 +194,16 @@ impl Model for LinearDrive {
         kind: Kind::Rig,
         equations: &[
             Equation {
-                text: "m x'' = F - k x - g(x, x') - F_0 + load.force, F = force or gain command",
+                text: "m x'' = F - s(x) - g(x, x') - F_0 + load.force, F = force or gain command",
                 source: "momentum",
             },
             Equation {
-                text: "setting Motion: F = m x'' + k x + g(x, x') + F_0 - load.force, x, x', x'' = motion",
+                text: "setting Motion: F = m x'' + s(x) + g(x, x') + F_0 - load.force, x, x', x'' = motion",
                 source: "inverse dynamics; Siciliano et al., Robotics (2009), section 7.5",
             },
+            Equation { text: "s = k x + k_2 x^2 + k_3 x^3", source: "docs/effects.md: 08, 08n" },
             Equation {
-                text: "g = d x' + [F_c + F_b exp(-(x'/v_s)^2)] tanh(x'/v_0) + A sin(2 pi x/p + phi) + s f(x')",
+                text: "g = d x' + [F_c + F_b exp(-(x'/v_s)^2)] tanh(x'/v_0) + A sin(2 pi x/p + phi) + c f(x')",
                 source: "TUM eq. 12; docs/effects.md: 02, 15, 16, 27, G",
             },
         ],
@@ -232,7 +243,7 @@ impl Model for LinearDrive {
             }
         };
         let resistance = p.guide.resistance(position, velocity);
-        let held = p.ground_spring.stiffness * position + resistance + p.constant_load - input.load.force;
+        let held = p.ground_spring.force(position) + resistance + p.constant_load - input.load.force;
         let driven = |force: R| ((force - held) / p.moving_mass, force);
         let (acceleration, force) = match self.drive {
             Drive::Force => driven(input.force),
@@ -270,6 +281,18 @@ mod tests {
         let mut drive = Bare::new().start("constant_load", 10.0).initialized();
         // 10 N on 20 kg.
         assert_eq!(drive.get("acceleration"), -0.5);
+    }
+
+    #[test]
+    fn a_hardening_spring_holds_it_back_more_than_a_straight_one() {
+        let mut drive = Bare::new()
+            .start("ground_spring.stiffness", 1000.0)
+            .start("ground_spring.progression.quadratic", 2000.0)
+            .start("ground_spring.progression.cubic", 50_000.0)
+            .start("carriage.position", 0.1)
+            .initialized();
+        // 100 N, 20 N and 50 N on 20 kg.
+        assert!((drive.get("acceleration") + 8.5).abs() < 1e-12);
     }
 
     #[test]

@@ -35,4 +35,10 @@ pub(super) static ENTRIES: &[Entry] = &[
         Place::Guide,
         &[drawn("guide.coulomb.force", "N", (3.0, 10.0), ZERO, (0.0, 40.0))],
     ),
+    entry(
+        "08n",
+        "cubic spring from a mass to the ground",
+        Place::Guide,
+        &[drawn("ground_spring.progression.cubic", "N/m3", (2e6, 8e6), ZERO, (0.0, 1e8))],
+    ),
 ];

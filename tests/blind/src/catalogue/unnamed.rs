@@ -197,16 +197,6 @@ pub(super) static ENTRIES: &[Entry] = &[
         )
     },
     Entry {
-        variable: "deflection",
-        depends_on: &["deflection"],
-        ..entry(
-            "U16",
-            "cubic spring from a mass to the ground",
-            Place::Guide,
-            &[drawn("spring.cubic", "N/m3", (2e6, 8e6), ZERO, (0.0, 1e8))],
-        )
-    },
-    Entry {
         variable: "memory",
         depends_on: &["memory", "acceleration"],
         ..entry(

@@ -128,7 +128,7 @@ fn plant_of(id: &str) -> Plant {
     match id {
         "26v" | "28" | "28h" | "29" | "30" => Plant::ServoQuarter,
         "02g" | "27" | "33g" => Plant::LinearDrive,
-        "16m" | "U16" | "U9m" => Plant::GuidedMass,
+        "16m" | "08n" | "U9m" => Plant::GuidedMass,
         "30p" | "32a" | "32b" | "32c" => Plant::PumpDyno,
         "01p" | "19p" => Plant::SasRig,
         _ => Plant::LinearQuarter,

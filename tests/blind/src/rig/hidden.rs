@@ -12,7 +12,7 @@ use crate::strut::{Bypass, Hump, memory};
 /// Effects that only one plant can have.
 const OF_SERVO: [&str; 5] = ["26v", "28", "28h", "29", "30"];
 const OF_DRIVE: [&str; 3] = ["02g", "27", "33g"];
-const OF_MASS: [&str; 3] = ["16m", "U16", "U9m"];
+const OF_MASS: [&str; 3] = ["16m", "08n", "U9m"];
 const OF_PUMP: [&str; 4] = ["30p", "32a", "32b", "32c"];
 const OF_SAS: [&str; 2] = ["01p", "19p"];
 
@@ -140,7 +140,7 @@ impl Rig {
             "U10" => self.timed.dropout_rate = first,
             "U11" => self.timed.uneven_tire = (first, values[1]),
             "U12" => strut.bypass = Some(Bypass { zone: hump(values), velocity: values[3] }),
-            "U16" => drive.spring[1] = first,
+            "08n" => drive.spring[1] = first,
             "U14" => self.timed.imbalance = (first, values[1]),
             "U15" => self.car.crosstalk = Some(Crosstalk { gain: first, delay: values[1] }),
             _ => return self.put_in_sensor(entry, values, signal),

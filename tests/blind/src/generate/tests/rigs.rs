@@ -44,7 +44,7 @@ fn the_drives_record_holds_the_resistance() {
 /// The balance of the forces on the mass is in every record: motor, spring, guide, and what is hidden.
 #[test]
 fn a_mass_on_a_spring_obeys_newton() {
-    let made = clean(Plant::GuidedMass, vec![Hidden::new("U16")]);
+    let made = clean(Plant::GuidedMass, vec![Hidden::new("08n")]);
     let of = |name: &str| made.truth.base.iter().find(|value| value.name == name).unwrap().value;
     assert_eq!(of("ground_spring.stiffness"), 6000.0, "it was measured before");
     let cubic = made.truth.effects[0].parameters[0].value;
