@@ -97,7 +97,7 @@ pub(super) struct Signals {
     /// The output that is compared.
     force: usize,
     /// The input that makes most of the motion's noise: what the mass resists, or the damper.
-    derivative: usize,
+    pub derivative: usize,
     /// The input that tells whether anything moves.
     pub velocity: usize,
 }

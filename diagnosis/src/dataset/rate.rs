@@ -6,16 +6,15 @@ use super::recorded::Dataset;
 use crate::report::findings::DataProblem;
 use crate::report::words::{digits, percent};
 use crate::rig::{Inverse, Rig};
-use crate::screening::rms;
 
-/// Largest delay that is looked for, in seconds.
-const LATEST: f64 = 0.05;
 /// Correlation below which a rate is not that of the motion at all.
 const UNRELATED: f64 = 0.7;
 /// Ratio to the motion's rate, less one, beyond which it is another quantity or in another unit.
 const RATIO: f64 = 0.1;
-/// Share of the power that correlation at no delay misses of that at the best one, from which the rate is late.
-const LATE: f64 = 0.02;
+/// Share of what the two have not in common that a delay has to take away before the rate is late.
+const LATE: f64 = 0.5;
+/// Share of the force's error that the motion's rate leaves, above which the measured rate is no better.
+const CLOSER: f64 = 0.8;
 
 /// A measured rate beside that of the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +23,7 @@ pub(super) struct Compared {
     ratio: f64,
     /// By how many seconds it comes later; zero if the motion shows no delay.
     delay: f64,
-    /// Their correlation without the delay.
+    /// Their correlation, without the delay.
     correlation: f64,
     /// Whether the force follows from it more closely than from the motion's rate.
     pub is_better: bool,
@@ -41,43 +40,39 @@ pub(super) fn compared(
     let signals = Signals::of(rig, inverse)?;
     let left =
         |records: &[Dataset]| records.iter().map(|it| signals.left(&below(it, top))).sum::<Option<f64>>();
-    let is_closer = left(by_rate)? < left(by_position)?;
+    let is_closer = left(by_rate)? < CLOSER * left(by_position)?;
     // Where a position's rate has no noise yet.
-    let slow = |records: &[Dataset]| records.iter().map(|it| below(it, LOWEST)).collect::<Vec<_>>();
-    let (by_position, by_rate) = (slow(by_position), slow(by_rate));
-    let rates = |records: &[Dataset]| -> Vec<Vec<f64>> {
-        records.iter().map(|it| motion(it).swap_remove(signals.velocity)).collect()
+    let slow = |records: &[Dataset]| records.iter().map(|it| motion(&below(it, LOWEST))).collect::<Vec<_>>();
+    let of = |motions: &[Vec<Vec<f64>>], input: usize| {
+        motions.iter().flat_map(|it| it[input].iter().copied()).collect::<Vec<f64>>()
     };
-    let agreement = agreement(&rates(&by_position), &rates(&by_rate), by_rate.first()?.step)?;
+    let (slow_position, slow_rate) = (slow(by_position), slow(by_rate));
+    let [rate, change] = [signals.velocity, signals.derivative].map(|input| of(&slow_position, input));
+    let agreement = agreement([&rate, &change], &of(&slow_rate, signals.velocity), by_rate.first()?.step)?;
     Some(Compared { is_better: is_closer && agreement.agrees(), ..agreement })
 }
 
-/// How measured rates go with those of the motion, record by record.
-fn agreement(rates: &[Vec<f64>], measured: &[Vec<f64>], step: f64) -> Option<Compared> {
-    let reach = ((LATEST / step) as usize).max(1);
-    // Where the measured rate is late, it has earlier values of the motion's.
-    let correlation = |late: isize| {
-        let (mut products, mut ones, mut others) = (0.0, 0.0, 0.0);
-        for (rate, measured) in rates.iter().zip(measured) {
-            let last = rate.len().min(measured.len()).saturating_sub(reach);
-            for at in reach..last {
-                let (one, other) = (rate[at], measured[at.wrapping_add_signed(late)]);
-                products += one * other;
-                ones += one * one;
-                others += other * other;
-            }
-        }
-        products / (ones * others).sqrt()
-    };
-    let reach = reach as isize;
-    let best = (-reach..=reach).max_by(|a, b| correlation(*a).total_cmp(&correlation(*b)))?;
-    let [now, then] = [0, best].map(correlation);
-    let size = |signals: &[Vec<f64>]| rms(&signals.concat());
-    let is_late = now.powi(2) < (1.0 - LATE) * then.powi(2);
-    then.is_finite().then(|| Compared {
-        ratio: size(measured) / size(rates),
-        delay: if is_late { best as f64 * step } else { 0.0 },
-        correlation: then,
+/// How a measured rate goes with that of the motion, whose own rate is `change`; both were sampled every `step` seconds.
+fn agreement([rate, change]: [&[f64]; 2], measured: &[f64], step: f64) -> Option<Compared> {
+    let product =
+        |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(one, other)| one * other).sum::<f64>();
+    let (rates, changes, both) = (product(rate, rate), product(change, change), product(rate, change));
+    let (with_rate, with_change) = (product(measured, rate), product(measured, change));
+    let power = product(measured, measured);
+    // By least squares, the measured rate is so much of the motion's and of its change: what is late has less of it.
+    let determinant = rates * changes - both * both;
+    let amount = (with_rate * changes - with_change * both) / determinant;
+    let changing = (with_change * rates - with_rate * both) / determinant;
+    let in_time = with_rate.powi(2) / (rates * power);
+    let late = (amount * with_rate + changing * with_change) / power;
+    let delay = -changing / amount;
+    let is_late = 1.0 - late < (1.0 - LATE) * (1.0 - in_time) && delay.abs() > step;
+    let delay = if is_late { delay } else { 0.0 };
+    let correlation = (if is_late { late } else { in_time }).sqrt() * amount.signum();
+    correlation.is_finite().then(|| Compared {
+        ratio: (power / rates).sqrt(),
+        delay,
+        correlation,
         is_better: false,
     })
 }
@@ -123,13 +118,19 @@ impl Compared {
 mod tests {
     use super::*;
 
-    fn rate(late: f64, size: f64) -> Vec<f64> {
-        let wave = |t: f64| (5.0 * t).sin() + 0.4 * (31.0 * t + 1.0).cos();
-        (0..2000).map(|k| size * wave(0.005 * f64::from(k) - late)).collect()
+    const STEP: f64 = 0.005;
+
+    fn wave(of: fn(f64) -> f64) -> Vec<f64> {
+        (0..2000).map(|k| of(STEP * f64::from(k))).collect()
     }
 
-    fn seen(measured: Vec<f64>) -> Compared {
-        agreement(&[rate(0.0, 1.0)], &[measured], 0.005).unwrap()
+    fn rate(t: f64) -> f64 {
+        (5.0 * t).sin() + 0.4 * (31.0 * t + 1.0).cos()
+    }
+
+    fn seen(measured: &[f64]) -> Compared {
+        let change = wave(|t| 5.0 * (5.0 * t).cos() - 12.4 * (31.0 * t + 1.0).sin());
+        agreement([&wave(rate), &change], measured, STEP).unwrap()
     }
 
     fn told(compared: Compared) -> Option<String> {
@@ -140,20 +141,22 @@ mod tests {
 
     #[test]
     fn the_same_rate_agrees_and_needs_no_word_unless_it_is_better() {
-        let same = seen(rate(0.0, 1.02));
+        let same = seen(&wave(|t| 1.02 * rate(t)));
         assert!(same.agrees() && same.delay == 0.0 && told(same).is_none(), "{same:?}");
         assert!(told(Compared { is_better: true, ..same }).unwrap().starts_with("drives the model"));
     }
 
     #[test]
     fn a_late_rate_half_of_one_and_another_quantity_are_told() {
-        let late = seen(rate(0.02, 1.0));
-        assert!((late.delay - 0.02).abs() < 1e-9 && !late.agrees());
-        assert!(told(late).unwrap().contains("20 ms late"), "{:?}", told(late));
-        assert!(told(seen(rate(-0.02, 1.0))).unwrap().contains("20 ms early"));
-        let half = seen(rate(0.0, 0.5));
+        let late = seen(&wave(|t| rate(t - 0.01)));
+        assert!((late.delay - 0.01).abs() < 5e-4 && !late.agrees(), "{late:?}");
+        assert!(told(late).unwrap().contains(" ms late"), "{:?}", told(late));
+        assert!(told(seen(&wave(|t| rate(t + 0.01)))).unwrap().contains(" ms early"));
+        // What a difference to the sample before makes of it is no delay.
+        assert!(seen(&wave(|t| rate(t - 0.0025))).agrees());
+        let half = seen(&wave(|t| 0.5 * rate(t)));
         assert!(told(half).unwrap().contains("50 % of the rate"), "{:?}", told(half));
         let noise = crate::data::check::tests::noise(3, 2000);
-        assert!(told(seen(noise)).unwrap().starts_with("does not go with"));
+        assert!(told(seen(&noise)).unwrap().starts_with("does not go with"));
     }
 }

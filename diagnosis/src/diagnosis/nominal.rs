@@ -48,7 +48,7 @@ pub(super) fn fit(baseline: &mut Baseline<'_>) -> Result<(Estimate, Fitted, Vec<
     {
         base = other;
     }
-    for handle in signals(baseline.train) {
+    for handle in signals(baseline.rig, baseline.train) {
         if baseline.deadline.is_over(Stage::Nominal) {
             break;
         }
@@ -129,10 +129,25 @@ fn left_sigma(baseline: &Baseline<'_>, residuals: &Residuals) -> Vec<f64> {
     sigma
 }
 
-/// Every signal that may have been recorded with the wrong sign.
-fn signals(train: &[Dataset]) -> Vec<Unknown> {
+/// Whether a measured rate has the direction in which the motion goes.
+fn go_together(rate: &Source, motion: &Source) -> bool {
+    let (Source::Measured(rate), Source::Measured(motion)) = (rate, motion) else { return false };
+    let steps = motion.windows(2).map(|pair| pair[1] - pair[0]);
+    rate.iter().zip(steps).map(|(rate, step)| rate * step).filter(|it| it.is_finite()).sum::<f64>() > 0.0
+}
+
+/// Every signal that may have been recorded with the wrong sign: of a motion and its rate that go together, neither was.
+fn signals(rig: &Rig, train: &[Dataset]) -> Vec<Unknown> {
     let Some(record) = train.first() else { return Vec::new() };
-    let inputs = record.inputs.iter().enumerate().filter(|(_, source)| matches!(source, Source::Measured(_)));
+    let vouched_for: Vec<usize> = (0..record.inputs.len())
+        .filter_map(|rate| Some((rate, rig.rate_of(&rig.plant.inputs[rate].name)?)))
+        .filter(|(rate, motion)| go_together(&record.inputs[*rate], &record.inputs[*motion]))
+        .flat_map(|(rate, motion)| [rate, motion])
+        .collect();
+    let is_doubted = |(index, source): &(usize, &Source)| {
+        matches!(source, Source::Measured(_)) && !vouched_for.contains(index)
+    };
+    let inputs = record.inputs.iter().enumerate().filter(is_doubted);
     let inputs = inputs.map(|(index, _)| Unknown::Input(index, Fault::Gain));
     let outputs = record.measured.iter().map(|measured| Unknown::Output(measured.output, Fault::Gain));
     inputs.chain(outputs).collect()

@@ -82,17 +82,15 @@ fn is_gain(term: Term) -> bool {
 struct Pull {
     /// By how much the sum of squares falls with it.
     gain: f64,
-    /// Sum of squares of all that it does.
-    size: f64,
     /// How far each coordinate moves with it.
     moved: DVector<f64>,
 }
 
-/// How far coordinates move with effects that are together no larger than the remaining errors' sum of squares.
+/// How far coordinates move with effects that together explain no more than the remaining errors' sum of squares.
 fn together(pulls: Vec<Pull>, left: f64) -> Vec<DVector<f64>> {
-    let total: f64 = pulls.iter().map(|it| it.size.min(left)).sum();
+    let total: f64 = pulls.iter().map(|it| it.gain).sum();
     let share = (left / total).min(1.0);
-    pulls.into_iter().map(|it| it.moved * (share * (left / it.size).min(1.0)).sqrt()).collect()
+    pulls.into_iter().map(|it| it.moved * share.sqrt()).collect()
 }
 
 /// Normal equations `H d = −g` of a fit's coordinates, at their minimum, and of further columns behind them.
@@ -159,13 +157,9 @@ impl Beside<'_> {
         let right =
             DVector::from_fn(order.len(), |i, _| if i < own { 0.0 } else { -self.g[order[i]] / norm[i] });
         let step = factor.solve(&right);
-        let unscaled = |i: usize| step[i] / norm[i];
-        let beside = || own..order.len();
-        let done = |i: usize, j: usize| unscaled(i) * self.h[(order[i], order[j])] * unscaled(j);
-        let size: f64 = beside().map(|i| beside().map(|j| done(i, j)).sum::<f64>()).sum();
         let mut moved = DVector::zeros(own);
-        (0..own).for_each(|i| moved[order[i]] = unscaled(i));
-        let pull = Pull { gain: step.dot(&right), size, moved };
+        (0..own).for_each(|i| moved[order[i]] = step[i] / norm[i]);
+        let pull = Pull { gain: step.dot(&right), moved };
         Some(pull).filter(|it| it.gain.is_finite() && it.moved.iter().all(|it| it.is_finite()))
     }
 }
@@ -201,12 +195,12 @@ mod tests {
         assert!(beside(&[false, true]).pull(&(0..1)).is_none());
     }
 
-    /// Two effects, each twice as large as what remains, are half of it each.
+    /// Two effects, each of which explains all that remains, explain half of it each.
     #[test]
-    fn assumed_effects_are_together_no_larger_than_the_remaining_errors() {
-        let pull = Pull { gain: 1.0, size: 4.0, moved: DVector::from_element(1, 1.0) };
+    fn assumed_effects_together_explain_no_more_than_the_remaining_errors() {
+        let pull = Pull { gain: 2.0, moved: DVector::from_element(1, 3.0) };
         let all = together(vec![pull.clone(), pull.clone()], 2.0);
-        assert!(all.iter().all(|it| (it[0].powi(2) * pull.size - 1.0).abs() < 1e-12), "{all:?}");
+        assert!(all.iter().all(|it| (it[0].powi(2) - 4.5).abs() < 1e-12), "{all:?}");
         assert_eq!(together(vec![pull.clone()], 8.0)[0], pull.moved);
     }
 

@@ -7,8 +7,8 @@
 //! clinical trials, Controlled Clinical Trials 7, 1986), widens the interval. And what pulls alike in all excitations: small
 //! effects that are not in the model. Each effect of the catalogue that is not is assumed to be there by as much as the
 //! errors contain of it. The move of the coordinate with it is added, in squares, and as much again, since it hardly
-//! has the shape in which it is tried. Assumed effects together are no larger than all remaining errors: more would have to
-//! be compensated by the parameters. Another shape of an identified effect takes its place and is not
+//! has the shape in which it is tried. Assumed effects together explain no more than all remaining errors, however much of
+//! them the parameters have compensated: that is what pulls them. Another shape of an identified effect takes its place and is not
 //! beside it: confirmation compares the two.
 
 mod excitations;
@@ -88,7 +88,7 @@ impl Baseline<'_> {
         let Assumed { pulls, twins } = self.assumed(fitted)?;
         let interval = |(index, coordinate): (usize, &FreeParameter)| {
             let all: Vec<Opinion> = opinions.iter().map(|excitation| excitation[index]).collect();
-            let (between, quantile) = between(&all);
+            let (between, quantile) = between(&all, own[(index, index)]);
             let pulled: f64 = pulls.iter().map(|pull| pull[index].powi(2)).sum();
             let variance =
                 NORMAL.powi(2) * own[(index, index)].max(0.0) + quantile.powi(2) * between + 2.0 * pulled;

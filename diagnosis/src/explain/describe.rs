@@ -11,6 +11,7 @@ use crate::missing::locate::Location;
 use crate::missing::motion::{Motion, column, motions};
 use crate::missing::trajectory::Window;
 use crate::plant::{Plant, Signals};
+use crate::report::words::digits;
 
 use super::features::{Group, RESONANCES, features};
 use super::selection::Compared;
@@ -131,7 +132,10 @@ impl Unmodelled {
         let words: Vec<&str> = self.depends_on.iter().map(String::as_str).collect();
         let what = match (words.as_slice(), self.amount) {
             (["acceleration"], Some(amount)) => {
-                format!("a force that follows the acceleration, like an additional mass of {amount:.3} kg")
+                format!(
+                    "a force that follows the acceleration, like an additional mass of {} kg",
+                    digits(amount, 2)
+                )
             }
             (["memory"], _) if self.frequency.is_some() => {
                 let frequency = self.frequency.unwrap_or_default();

@@ -24,6 +24,8 @@ const HELD: usize = 4;
 const BY_CHANCE: f64 = 1e-3;
 /// Held stretches that make a fault.
 const FEWEST_HELD: usize = 3;
+/// Share of a record beyond which a signal holds its values by nature: it is a command, or its source is slower.
+const BY_NATURE: f64 = 0.2;
 /// Longest run of zeros that is a dropout.
 const DROPOUT: usize = 10;
 /// Size of a dropout over the median change and over the largest change nearby.
@@ -205,6 +207,10 @@ fn held<'a>(
         // Flat tops are another matter.
         .filter(|run| !extremes.contains(&Some(values[run.start])) && !rests(run, others.clone()))
         .collect();
+    let total: usize = stretches.iter().map(Range::len).sum();
+    if total as f64 > BY_NATURE * values.len() as f64 {
+        return None;
+    }
     let longest = stretches.iter().map(Range::len).max().filter(|_| stretches.len() >= FEWEST_HELD)?;
     // What friction holds moves off smoothly; a signal of which samples were lost has gone on meanwhile.
     let change = |pair: &[f64]| (pair[1] - pair[0]).abs();

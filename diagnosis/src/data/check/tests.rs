@@ -225,6 +225,19 @@ fn held_values() {
     assert_eq!(found, [vec![], vec![], stretches.to_vec()]);
 }
 
+/// A command that is renewed every eighth sample keeps each value, and nothing was lost.
+#[test]
+fn a_signal_that_is_renewed_less_often_is_not_held_by_a_fault() {
+    let mut record = clean(1, 0.01);
+    let values = &mut record.channels[2].values;
+    for first in (0..values.len()).step_by(8) {
+        let (value, last) = (values[first], (first + 8).min(values.len()));
+        values[first..last].fill(value);
+    }
+    let problems = check(&record).problems;
+    assert!(problems.iter().all(|it| !it.text.contains("samples were lost")), "{problems:?}");
+}
+
 /// A bench that stops now and then: its amplifiers show zero, and nothing was lost. Where a bus loses samples, all signals are
 /// held as well, but the motion has gone on.
 #[test]

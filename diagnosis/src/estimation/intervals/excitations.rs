@@ -120,8 +120,10 @@ fn cut(record: &Dataset, pieces: usize) -> Vec<Vec<Range<usize>>> {
 }
 
 /// The variance that differences between excitations bring to estimates from some of them, and the quantile of
-/// Student's distribution that belongs to it.
-pub(super) fn between(opinions: &[Opinion]) -> (f64, f64) {
+/// Student's distribution that belongs to it. `own` is the variance of all of these together. Where it is much smaller than that of
+/// what each says alone, only their contrast tells the coordinate, as strokes in both directions tell friction from a load: then it
+/// follows what they say alone by as much less.
+pub(super) fn between(opinions: &[Opinion], own: f64) -> (f64, f64) {
     // A piece of one block has no variance, and a coordinate that does nothing in it an infinite one.
     let told = |it: &&Opinion| it.shift.is_finite() && it.variance.is_finite() && it.variance > 0.0;
     let known: Vec<&Opinion> = opinions.iter().filter(told).collect();
@@ -129,17 +131,18 @@ pub(super) fn between(opinions: &[Opinion]) -> (f64, f64) {
     let sum = |of: &dyn Fn(&Opinion) -> f64| known.iter().map(|it| of(it)).sum::<f64>();
     let weight = |it: &Opinion| 1.0 / it.variance;
     let (first, second) = (sum(&weight), sum(&|it| weight(it).powi(2)));
-    if freedom < 1.0 {
+    let weights = |power: i32| sum(&|it| if it.estimation { weight(it).powi(power) } else { 0.0 });
+    if freedom < 1.0 || weights(1) == 0.0 {
         return (0.0, 0.0);
     }
     let spread = first - second / first;
     let mean = sum(&|it| weight(it) * it.shift) / first;
     let excess = sum(&|it| weight(it) * (it.shift - mean).powi(2)) - freedom;
     let each = (excess / spread).max(0.0);
-    let weights = |power: i32| sum(&|it| if it.estimation { weight(it).powi(power) } else { 0.0 });
-    let share = weights(2) / weights(1).powi(2).max(f64::MIN_POSITIVE);
+    let share = weights(2) / weights(1).powi(2);
+    let alone = (own * weights(1)).clamp(0.0, 1.0);
     let quantile = StudentsT::new(0.0, 1.0, freedom).map_or(NORMAL, |it| it.inverse_cdf(0.975));
-    (each * share, quantile)
+    (each * share * alone.powi(2), quantile)
 }
 
 #[cfg(test)]
@@ -162,15 +165,23 @@ mod tests {
     /// records of the estimation data.
     #[test]
     fn equal_opinions_leave_the_sample_variance_less_that_within() {
-        let (between, quantile) = between(&shifted(&[1.0, -1.0, 3.0, -3.0], 0.5));
+        let (between, quantile) = between(&shifted(&[1.0, -1.0, 3.0, -3.0], 0.5), 0.25);
         assert!((between - 0.5 * (20.0 / 3.0 - 0.5)).abs() < 1e-12, "{between}");
         // Student's distribution with three degrees of freedom.
         assert!((quantile - 3.182).abs() < 1e-3, "{quantile}");
     }
 
+    /// A tenth of the standard deviation of what the two records of the estimation data say alone.
+    #[test]
+    fn what_only_a_contrast_of_records_tells_hardly_follows_what_each_says() {
+        let all = shifted(&[1.0, -1.0, 3.0, -3.0], 0.5);
+        let (alone, contrast) = (between(&all, 0.25).0, between(&all, 2.5e-3).0);
+        assert!((contrast / alone - 1e-4).abs() < 1e-12, "{contrast} {alone}");
+    }
+
     #[test]
     fn opinions_that_differ_by_less_than_their_variance_widen_nothing() {
-        assert_eq!(between(&shifted(&[0.1, -0.1, 0.2, -0.2], 1.0)).0, 0.0);
+        assert_eq!(between(&shifted(&[0.1, -0.1, 0.2, -0.2], 1.0), 0.5).0, 0.0);
     }
 
     #[test]
@@ -182,8 +193,8 @@ mod tests {
             estimation: true,
             record: 0,
         });
-        assert_eq!(between(&[all.clone(), unknown.to_vec()].concat()), between(&all));
-        assert_eq!(between(&[all[..1].to_vec(), unknown.to_vec()].concat()), (0.0, 0.0));
+        assert_eq!(between(&[all.clone(), unknown.to_vec()].concat(), 0.25), between(&all, 0.25));
+        assert_eq!(between(&[all[..1].to_vec(), unknown.to_vec()].concat(), 0.5), (0.0, 0.0));
     }
 
     #[test]
