@@ -27,7 +27,7 @@ pub(super) const LOWEST: f64 = 8.0;
 const NEGLIGIBLE: f64 = 1e-3;
 /// Share of the force's power that has to lie in the band.
 const COVERED: f64 = 0.9;
-/// Share of the force's power that the position's noise may make up by way of mass or damper.
+/// Share of the force's power that the position's noise may make up.
 const NOISY: f64 = 0.01;
 /// Ratio of a band's end to that of the next narrower one that is tried.
 const NARROWER: f64 = 0.8;
@@ -125,15 +125,18 @@ impl Signals {
         record.measured.iter().find(|it| it.output == self.force).map(|it| &it.values[..])
     }
 
-    /// Share of the force's power that the noise of the position makes up by way of mass or damper.
+    /// Share of the force's power that the noise of the position makes up by way of mass, damper, spring or friction, where the rig
+    /// moves.
     fn noise(self, banded: &Dataset) -> Option<f64> {
         let (motion, force) = (motion(banded), self.force(banded)?);
         let size = rms(&motion[self.derivative]);
+        let balance = balance(&motion, self.velocity, force)?;
         let noisier = banded.disturbed().map_or_else(|| motion.clone(), |it| self::motion(&it));
-        let pairs = motion[self.derivative].iter().zip(&noisier[self.derivative]);
-        let noise: Vec<f64> = pairs.map(|(one, two)| one - two).collect();
-        let factor = balance(&motion, self.velocity, force)?[self.derivative];
-        (size > 0.0).then(|| (factor * rms(&noise)).powi(2) / power(force))
+        let differences = (terms(&noisier, self.velocity) - terms(&motion, self.velocity)) * balance;
+        let rests = resting(&motion[self.velocity], banded.step);
+        let moving = differences.iter().zip(rests).filter(|(_, rests)| !rests).map(|(it, _)| *it);
+        let noise = rms(&moving.collect::<Vec<_>>());
+        (size > 0.0).then(|| noise.powi(2) / power(force))
     }
 
     /// The record without the force at rest.

@@ -98,16 +98,16 @@ impl Compared {
                 "does not go with the rate of {position} (correlation {}): it is not used",
                 digits(self.correlation, 2)
             )
-        } else if self.delay != 0.0 {
-            format!(
-                "is {} ms {late}, compared with the rate of {position}: it is not used. Check what filters or computes it",
-                digits(1e3 * self.delay.abs(), 2)
-            )
-        } else {
+        } else if (self.ratio - 1.0).abs() > RATIO {
             format!(
                 "is {} of the rate of {position}: one of the two is wrong, and this one is not used. Check unit and gear ratio of \
                  both",
                 percent(self.ratio)
+            )
+        } else {
+            format!(
+                "is {} ms {late}, compared with the rate of {position}: it is not used. Check what filters or computes it",
+                digits(1e3 * self.delay.abs(), 2)
             )
         };
         Some(DataProblem { record: "all".into(), signal, text, fatal: false })
