@@ -42,7 +42,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         name: "spring to the ground",
         equation: "F = k x",
         prevalence: Prevalence::Background,
-        parts: &[part("ground_spring.stiffness", Scale::STIFFNESS, (-100.0, 100.0), &[0.1])],
+        parts: &[part("ground_spring.stiffness", Scale::STIFFNESS, (0.0, 100.0), &[0.1])],
         literature: &["DenHartog1956"],
         experiment: "hold several positions, and compare the forces",
         ..PLAIN

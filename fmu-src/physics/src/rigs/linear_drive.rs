@@ -81,8 +81,8 @@ impl<R: Real> DriveGuide<R> {
 /// A spring between carriage and ground.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct GroundSpring<R> {
-    /// Rate; negative where a weight above the pivot pulls away
-    #[var(unit = N_PER_M, start = 0.0)]
+    /// Rate
+    #[var(unit = N_PER_M, start = 0.0, min = 0.0)]
     pub stiffness: R,
     /// Curvature of its characteristic
     pub progression: Progression<R>,
