@@ -13,8 +13,6 @@ const UNRELATED: f64 = 0.7;
 const RATIO: f64 = 0.1;
 /// Share of what the two have not in common that a delay has to take away before the rate is late.
 const LATE: f64 = 0.5;
-/// Share of the force's error that the motion's rate leaves, above which the measured rate is no better.
-const CLOSER: f64 = 0.8;
 
 /// A measured rate beside that of the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +38,7 @@ pub(super) fn compared(
     let signals = Signals::of(rig, inverse)?;
     let left =
         |records: &[Dataset]| records.iter().map(|it| signals.left(&below(it, top))).sum::<Option<f64>>();
-    let is_closer = left(by_rate)? < CLOSER * left(by_position)?;
+    let is_closer = left(by_rate)? < left(by_position)?;
     // Where a position's rate has no noise yet.
     let slow = |records: &[Dataset]| records.iter().map(|it| motion(&below(it, LOWEST))).collect::<Vec<_>>();
     let of = |motions: &[Vec<Vec<f64>>], input: usize| {
