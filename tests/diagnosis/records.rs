@@ -150,7 +150,7 @@ fn sized(report: &Value, id: &str) -> [f64; 2] {
     ["low", "high"].map(|field| effect["parameters"][0][field].as_f64().expect("a number"))
 }
 
-/// By hand: friction of 450 to 540 N, 48 kN s/m, and no mass that could be told. The records have eight strokes at few speeds.
+/// By hand: friction of 450 to 540 N, 48 kN s/m, and a mass that cannot be determined. The records have eight strokes at few speeds.
 #[test]
 fn a_cylinder_has_friction_beside_its_damping() {
     let Some(records) = real("real/hydraulic-actuator") else { return };

@@ -6,11 +6,11 @@ use crate::signal::spectral::{filled, power_spectrum};
 const ORDER: usize = 5;
 /// Rms of these differences over that of white noise: the root of the binomial coefficient 10 over 5.
 const GAIN: f64 = 15.874_507_866_387_544;
-/// Band in which a spectrum tells the noise, in cycles a sample: above most signals, and below the cut of most antialiasing filters.
+/// Band of a spectrum from which the noise is taken, in cycles a sample: above most signals, and below the cut of most antialiasing filters.
 const BAND: (f64, f64) = (0.15, 0.4);
 /// Its parts, of which the quietest counts.
 const PARTS: usize = 5;
-/// Samples below which there is no spectrum to tell of.
+/// Samples below which no spectrum is taken.
 const FEWEST: usize = 512;
 /// Ratio of the quietest part's noise to that of the differences below which the latter see the signal: chance makes less.
 const QUIETER: f64 = 0.5;
@@ -95,7 +95,7 @@ fn line(x: &[f64], y: &[f64]) -> (f64, f64) {
 }
 
 /// Standard deviation of the white noise on a signal, from its fifth differences: their median is moved neither by
-/// the slow signal nor by rare impacts. Where a part of the spectrum is much quieter, it tells the noise instead: of a signal with
+/// the slow signal nor by rare impacts. Where a part of the spectrum is much quieter, its level is taken instead: of a signal with
 /// fewer than ten samples a period, differences are no noise. Never less than the rounding error. Signals with missing samples are
 /// judged where six in a row are there; 0 if there is no such place.
 #[must_use]

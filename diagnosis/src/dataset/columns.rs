@@ -7,6 +7,8 @@ use crate::report::findings::{ColumnRead, DataProblem, RecordRead};
 use crate::report::words::digits;
 use crate::rig::Rig;
 
+use super::rate::along;
+
 /// Samples per second below which a time without a unit is not believed to be in seconds: a wheel hops at 10 to 15 Hz.
 const SLOWEST: f64 = 10.0;
 
@@ -31,10 +33,7 @@ pub fn follow(rig: &Rig, map: &Map, record: &mut Record) -> Vec<DataProblem> {
         if is_mapped(&declared.name) || !is_mapped(motion) {
             continue;
         }
-        let moved = record.channels[position].values.windows(2).zip(record.time.windows(2));
-        let product = |(rate, (moved, _)): (&f64, (&[f64], &[f64]))| rate * (moved[1] - moved[0]);
-        let products = record.channels[rate].values.iter().zip(moved).map(product);
-        if products.filter(|it| it.is_finite()).sum::<f64>() < 0.0 {
+        if along(&record.channels[rate].values, &record.channels[position].values) < 0.0 {
             record.channels[rate].values.iter_mut().for_each(|it| *it = -*it);
             turned.push(DataProblem {
                 record: record.name.clone(),

@@ -115,8 +115,8 @@ impl Signals {
 
     /// Mean square of what a balance of forces with the banded record's motion leaves of the force.
     pub fn left(self, banded: &Dataset) -> Option<f64> {
-        let (motion, force) = (motion(banded), self.force(banded)?);
-        let found = terms(&motion, self.velocity) * balance(&motion, self.velocity, force)?;
+        let (terms, force) = (terms(&motion(banded), self.velocity), self.force(banded)?);
+        let found = &terms * balance(&terms, force)?;
         let errors = force.iter().zip(&found).map(|(force, found)| force - found);
         Some(power(&errors.filter(|it| it.is_finite()).collect::<Vec<_>>()))
     }
@@ -130,9 +130,10 @@ impl Signals {
     fn noise(self, banded: &Dataset) -> Option<f64> {
         let (motion, force) = (motion(banded), self.force(banded)?);
         let size = rms(&motion[self.derivative]);
-        let balance = balance(&motion, self.velocity, force)?;
-        let noisier = banded.disturbed().map_or_else(|| motion.clone(), |it| self::motion(&it));
-        let differences = (terms(&noisier, self.velocity) - terms(&motion, self.velocity)) * balance;
+        let known = terms(&motion, self.velocity);
+        let balance = balance(&known, force)?;
+        let noisier = banded.disturbed().map(|it| terms(&self::motion(&it), self.velocity));
+        let differences = noisier.map_or_else(|| DVector::zeros(known.nrows()), |it| (it - &known) * balance);
         let rests = resting(&motion[self.velocity], banded.step);
         let moving = differences.iter().zip(rests).filter(|(_, rests)| !rests).map(|(it, _)| *it);
         let noise = rms(&moving.collect::<Vec<_>>());
@@ -217,8 +218,7 @@ fn terms(inputs: &[Vec<f64>], velocity: usize) -> DMatrix<f64> {
 }
 
 /// How much of each term is in a signal, by least squares over its known values.
-fn balance(inputs: &[Vec<f64>], velocity: usize, signal: &[f64]) -> Option<DVector<f64>> {
-    let terms = terms(inputs, velocity);
+fn balance(terms: &DMatrix<f64>, signal: &[f64]) -> Option<DVector<f64>> {
     let known: Vec<usize> = (0..signal.len().min(terms.nrows())).filter(|k| signal[*k].is_finite()).collect();
     let scales = DVector::from_fn(terms.ncols(), |term, _| {
         let size = terms.column(term).norm();
@@ -299,7 +299,7 @@ mod tests {
         let motion = motion(&record);
         let [velocity, acceleration] =
             ["motion.velocity", "motion.acceleration"].map(|name| rig.plant.input(name).unwrap());
-        let mass = balance(&motion, velocity, &record.measured[0].values).unwrap()[acceleration];
+        let mass = balance(&terms(&motion, velocity), &record.measured[0].values).unwrap()[acceleration];
         // The direction stands for a friction that takes a while to turn over.
         assert!((mass / 20.0 - 1.0).abs() < 0.05, "{mass}");
     }

@@ -68,8 +68,9 @@ fn within(rig: &Rig, inverse: &Inverse, by_position: Loaded, by_rate: Option<Loa
     let seen = by_rate.as_ref().and_then(|it| compared(rig, inverse, &by_position.records, &it.records, top));
     let is_used = two.is_some() && seen.as_ref().is_some_and(|it| it.is_better);
     let (loaded, banded) = if is_used { (by_rate?, two?) } else { (by_position, one?) };
+    // What drives the model comes first: it matters more than single samples.
     let notes = seen.and_then(|it| it.note(inverse));
-    let problems = loaded.problems.into_iter().chain([banded.note]).chain(notes).collect();
+    let problems = notes.into_iter().chain([banded.note]).chain(loaded.problems).collect();
     Some(Loaded { records: banded.records, problems, ..loaded })
 }
 

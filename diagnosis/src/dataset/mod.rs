@@ -6,7 +6,7 @@ mod driven;
 mod import;
 pub mod inverse;
 pub mod load;
-mod rate;
+pub(crate) mod rate;
 pub mod recorded;
 pub mod split;
 pub mod witness;

@@ -14,6 +14,12 @@ const RATIO: f64 = 0.1;
 /// Share of what the two have not in common that a delay has to take away before the rate is late.
 const LATE: f64 = 0.5;
 
+/// Sum of a rate times the steps of a motion: negative if it goes against it.
+pub(crate) fn along(rate: &[f64], motion: &[f64]) -> f64 {
+    let steps = motion.windows(2).map(|pair| pair[1] - pair[0]);
+    rate.iter().zip(steps).map(|(rate, step)| rate * step).filter(|it| it.is_finite()).sum()
+}
+
 /// A measured rate beside that of the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Compared {

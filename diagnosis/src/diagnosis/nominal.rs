@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::dataset::rate::along;
 use crate::dataset::recorded::{Dataset, Source};
 use crate::decision::criteria::CRITERIA;
 use crate::estimation::deadline::Stage;
@@ -129,20 +130,16 @@ fn left_sigma(baseline: &Baseline<'_>, residuals: &Residuals) -> Vec<f64> {
     sigma
 }
 
-/// Whether a measured rate has the direction in which the motion goes.
-fn go_together(rate: &Source, motion: &Source) -> bool {
-    let (Source::Measured(rate), Source::Measured(motion)) = (rate, motion) else { return false };
-    let steps = motion.windows(2).map(|pair| pair[1] - pair[0]);
-    rate.iter().zip(steps).map(|(rate, step)| rate * step).filter(|it| it.is_finite()).sum::<f64>() > 0.0
-}
-
 /// Every signal that may have been recorded with the wrong sign: of a motion and its rate that go together, neither was.
 fn signals(rig: &Rig, train: &[Dataset]) -> Vec<Unknown> {
     let Some(record) = train.first() else { return Vec::new() };
     let vouched_for: Vec<usize> = (0..record.inputs.len())
         .filter_map(|rate| Some((rate, rig.rate_of(&rig.plant.inputs[rate].name)?)))
-        .filter(|(rate, motion)| go_together(&record.inputs[*rate], &record.inputs[*motion]))
-        .flat_map(|(rate, motion)| [rate, motion])
+        .filter(|(rate, motion)| match (&record.inputs[*rate], &record.inputs[*motion]) {
+            (Source::Measured(rate), Source::Measured(motion)) => along(rate, motion) > 0.0,
+            _ => false,
+        })
+        .flat_map(<[usize; 2]>::from)
         .collect();
     let is_doubted = |(index, source): &(usize, &Source)| {
         matches!(source, Source::Measured(_)) && !vouched_for.contains(index)

@@ -121,7 +121,7 @@ fn cut(record: &Dataset, pieces: usize) -> Vec<Vec<Range<usize>>> {
 
 /// The variance that differences between excitations bring to estimates from some of them, and the quantile of
 /// Student's distribution that belongs to it. `own` is the variance of all of these together. Where it is much smaller than that of
-/// what each says alone, only their contrast tells the coordinate, as strokes in both directions tell friction from a load: then it
+/// what each says alone, only their contrast determines the coordinate, as strokes in both directions distinguish friction from a load: then it
 /// follows what they say alone by as much less.
 pub(super) fn between(opinions: &[Opinion], own: f64) -> (f64, f64) {
     // A piece of one block has no variance, and a coordinate that does nothing in it an infinite one.
