@@ -3,6 +3,7 @@
 import cases
 import cases_ajala
 import cases_drive
+import cases_dyno
 import cases_effects
 import cases_full_car
 import cases_kogut
@@ -14,6 +15,7 @@ import cases_tum
 from controllers import LqrController, ModalSkyhook, Skyhook
 from eccentric import EccentricDrive, ExcitationSpeedController
 from effects import QuarterCarWithEffects
+from element_dyno import ElementDyno
 from excitation import ExcitationMotor
 from force_controllers import ForcePid, ForceTwoDof, ForceTwoDofLpv
 from full_car import FullCar
@@ -31,6 +33,7 @@ from sprung_mass import SprungMass
 MODELS = {model.__name__: model for model in (
     AngleSensorChain,
     EccentricDrive,
+    ElementDyno,
     ExcitationMotor,
     ExcitationSpeedController,
     ForcePid,
@@ -61,8 +64,8 @@ MODELS = {model.__name__: model for model in (
     VoltageSource,
 )}
 
-CASES = [case for module in (cases, cases_ajala, cases_drive, cases_effects, cases_full_car, cases_kogut, cases_konieczny,
-                             cases_of_time, cases_sensors, cases_sprung_mass, cases_tum) for case in module.CASES]
+CASES = [case for module in (cases, cases_ajala, cases_drive, cases_dyno, cases_effects, cases_full_car, cases_kogut,
+                             cases_konieczny, cases_of_time, cases_sensors, cases_sprung_mass, cases_tum) for case in module.CASES]
 
 
 def model_of(case):

@@ -59,5 +59,5 @@ pub use slew::{Slew, SlewState};
 pub use stop::Stop;
 pub use stribeck::Stribeck;
 pub use switched_on::switched_on;
-pub use transport::{DelayState, LagState, delayed, lagged};
+pub use transport::{DelayState, LagState, behind_lag, delayed, lagged};
 pub use yield_force::YieldForce;

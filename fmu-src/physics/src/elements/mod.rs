@@ -2,6 +2,7 @@
 
 mod actuation;
 mod anti_roll_bar;
+mod control;
 mod corner;
 mod guide;
 mod hydraulics;
@@ -14,6 +15,7 @@ mod valve;
 
 pub use actuation::{Actuation, ActuationState};
 pub use anti_roll_bar::AntiRollBar;
+pub use control::{Control, ControlState};
 pub use corner::{Corner, Moving};
 pub use guide::{Guide, WheelGuide};
 pub use hydraulics::{Gas, Piston, PistonWithPreload, Pump, PumpWithLosses};

@@ -6,13 +6,14 @@ use strut_model::{
     About, Choice, Equation, Experiment, Instant, Kind, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
-use crate::elements::{Hysteresis, HysteresisState, Load, Strut, Tire};
+use crate::elements::{Control, ControlState, Hysteresis, HysteresisState, Load, Strut, Tire};
 use crate::signals::RoadMotion;
 
 /// The setup with which TUM 4.3.1 and 4.3.2 measure one element: the upper end is clamped, the lower one is moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElementDyno {
     element: Element,
+    controlled_by: ControlledBy,
     lift_off: bool,
 }
 
@@ -25,12 +26,26 @@ pub enum Element {
     Tire,
 }
 
+/// What sets a damper.
+#[derive(Choice, Clone, Copy, Debug, PartialEq)]
+pub enum ControlledBy {
+    /// Nothing
+    Nothing,
+    /// Current of its coil
+    Current,
+    /// Voltage at its coil
+    Voltage,
+}
+
 /// What can be chosen.
 #[derive(Settings, Clone, Debug, PartialEq)]
 pub struct Options {
     /// What is clamped in
     #[set(start = Element::Strut)]
     element: Element,
+    /// Strut: what sets its damper
+    #[set(start = ControlledBy::Nothing)]
+    controlled_by: ControlledBy,
     /// Tyre: it can leave the plate instead of pulling at it
     #[set(name = "tire.lift_off", start = true)]
     lift_off: bool,
@@ -50,6 +65,8 @@ pub struct Parameters<R> {
     pub carried_mass: R,
     /// Memory of the strut
     pub hysteresis: Hysteresis<R>,
+    /// What sets its damper
+    pub control: Control<R>,
 }
 
 /// What the strut remembers.
@@ -57,6 +74,8 @@ pub struct Parameters<R> {
 pub struct State<R> {
     /// Memory of the strut
     pub hysteresis: HysteresisState<R>,
+    /// What sets its damper
+    pub control: ControlState<R>,
 }
 
 /// What follows from the parameters.
@@ -74,6 +93,19 @@ pub struct Derived<R> {
 pub struct Input<R> {
     /// Lower end
     pub motion: RoadMotion<R>,
+    /// What sets the damper
+    pub control: Coil<R>,
+}
+
+/// What drives a damper's coil.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct Coil<R> {
+    /// Current (controlled_by Current)
+    #[var(unit = A)]
+    pub current: R,
+    /// Voltage (controlled_by Voltage)
+    #[var(unit = V)]
+    pub voltage: R,
 }
 
 /// What is measured.
@@ -104,6 +136,10 @@ impl Model for ElementDyno {
             Equation {
                 text: "further effects of the strut and its memory: as in QuarterCar",
                 source: "docs/effects.md: 02-14, 32, G",
+            },
+            Equation {
+                text: "controlled: d + d_s m for d and F_y + F_s m for F_y, m = s/(1 + kappa s), T s' + s = |i|/i_r or |u|/u_r",
+                source: "Spencer et al., J. Eng. Mech. 123 (1997), eq. 20-23; docs/effects.md: 32m to 32ns",
             },
             Equation {
                 text: "tyre: F = k_t c + q c^2 + d_t c' + F_t tanh(c'/v_0) + s f(c) + F_0t, c = -x, F >= -F_0",
@@ -141,7 +177,11 @@ impl Model for ElementDyno {
     bundles! { settings: Options, parameters: Parameters, derived: Derived, input: Input, state: State, output: Output }
 
     fn prepare(options: &Options, _: Option<&Path>) -> Result<Self, String> {
-        Ok(Self { element: options.element, lift_off: options.lift_off })
+        Ok(Self {
+            element: options.element,
+            controlled_by: options.controlled_by,
+            lift_off: options.lift_off,
+        })
     }
 
     fn derive<R: Real>(&self, p: &Parameters<R>) -> Derived<R> {
@@ -149,7 +189,8 @@ impl Model for ElementDyno {
             tire: p.tire.load(p.carried_mass),
             active_effects: p.strut.active_effects()
                 + p.tire.active_effects()
-                + p.hysteresis.active_effects(),
+                + p.hysteresis.active_effects()
+                + p.control.active_effects(),
         }
     }
 
@@ -164,21 +205,37 @@ impl Model for ElementDyno {
     fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
         let (RoadMotion { position, velocity }, p) = (now.input.motion, now.parameters);
         let (deflection, further) = (-position, now.derived.active_effects);
-        let (force, hysteresis) = match self.element {
+        let (force, state) = match self.element {
             Element::Strut => {
                 let motion = [now.time, deflection, -velocity];
-                let (force, rates) =
-                    p.strut.force_with_states(&p.hysteresis, &now.state.hysteresis, motion, further);
-                (-force, rates)
+                let (strut, control) = match self.share(now.input.control, p) {
+                    Some(share) => p.control.acting_on(&p.strut, now.state.control, share),
+                    None => (p.strut, Control::rest()),
+                };
+                let (force, hysteresis) =
+                    strut.force_with_states(&p.hysteresis, &now.state.hysteresis, motion, further);
+                (-force, State { hysteresis, control })
             }
             Element::Tire => {
                 let force = p.tire.force(position, velocity, further);
                 let held =
                     if self.lift_off { now.derived.tire.lift_off().applied(force, position) } else { force };
-                (held, HysteresisState::rest())
+                (held, State { hysteresis: HysteresisState::rest(), control: Control::rest() })
             }
         };
-        (State { hysteresis }, Output { force, deflection })
+        (state, Output { force, deflection })
+    }
+}
+
+impl ElementDyno {
+    /// Share of the rated current; none if nothing sets the damper.
+    #[inline]
+    fn share<R: Real>(&self, coil: Coil<R>, p: &Parameters<R>) -> Option<R> {
+        match self.controlled_by {
+            ControlledBy::Nothing => None,
+            ControlledBy::Current => Some(coil.current / p.control.rated_current),
+            ControlledBy::Voltage => Some(coil.voltage / p.control.rated_voltage),
+        }
     }
 }
 
@@ -233,6 +290,34 @@ mod tests {
             .start("strut.damping", 0.0)
             .initialized();
         assert!((triangle(&mut dyno).0 / 94.0 - 0.99).abs() < 5e-4);
+    }
+
+    #[test]
+    fn a_coil_sets_damping_and_yield_force_by_its_current_or_its_voltage() {
+        let dyno = |by: ControlledBy| {
+            Dyno::new()
+                .choose("controlled_by", Value::Integer(by as i32 + 1))
+                .start("strut.damping", 1000.0)
+                .start("strut.yield.velocity", 1e-3)
+                .start("control.rated_current", 2.0)
+                .start("control.rated_voltage", 5.0)
+                .start("control.damping", 500.0)
+                .start("control.yield_force", 300.0)
+                .start("control.arrived", 0.4)
+                .initialized()
+        };
+        // Moved up by 0.1 m/s; 1 A of 2 A, and -2 V of 5 V.
+        for (by, expected) in [
+            (ControlledBy::Nothing, 100.0),
+            (ControlledBy::Current, 100.0 + 0.5 * (50.0 + 300.0)),
+            (ControlledBy::Voltage, 100.0 + 0.4 * (50.0 + 300.0)),
+        ] {
+            let mut dyno = dyno(by);
+            dyno.set("control.current", 1.0);
+            dyno.set("control.voltage", -2.0);
+            let found = force(&mut dyno, 0.0, 0.1);
+            assert!((found - expected).abs() < 1e-9, "{by:?}: {found}");
+        }
     }
 
     #[test]
