@@ -57,6 +57,8 @@ pub struct Effect {
     pub replaces: Option<Replaced>,
     /// A setting that has to be on.
     pub setting: Option<&'static str>,
+    /// What the names of the inputs begin with that drive it: nothing shows of it unless one of them moves.
+    pub driven: Option<&'static str>,
     /// Its parameters; the first one is how much of it there is.
     pub parts: &'static [Part],
     /// Articles and books that state the law, by their keys of the literature.
@@ -76,6 +78,7 @@ const PLAIN: Effect = Effect {
     prevalence: Prevalence::Occasional,
     replaces: None,
     setting: None,
+    driven: None,
     parts: &[],
     literature: &[],
     experiment: "",

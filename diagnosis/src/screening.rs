@@ -49,7 +49,7 @@ impl Baseline<'_> {
                 (None, Some(setting)) => self.rig.choices[setting] == strut_model::Value::Boolean(true),
                 (None, None) => true,
             };
-            if !there {
+            if !there && effect.driven.is_none_or(|inputs| self.moves(inputs)) {
                 terms.push(Term::Effect(effect));
             }
         }
@@ -83,6 +83,22 @@ impl Baseline<'_> {
         let sections =
             || self.train.iter().flat_map(|it| it.sections.iter().map(|section| (it.step, section.len())));
         sections().map(|(step, length)| step * length as f64).sum::<f64>() / sections().count().max(1) as f64
+    }
+
+    /// Whether an input whose name begins so was measured, and moves within or between the estimation records.
+    fn moves(&self, start: &str) -> bool {
+        let inputs = self.rig.plant.inputs.iter().enumerate().filter(|(_, it)| it.name.starts_with(start));
+        let values = |input: usize| {
+            let measured = self.train.iter().filter_map(move |record| match &record.inputs[input] {
+                Source::Measured(values) => Some(values),
+                _ => None,
+            });
+            measured.flatten()
+        };
+        inputs.into_iter().any(|(input, _)| {
+            let mut values = values(input);
+            values.next().is_some_and(|first| values.any(|value| value != first))
+        })
     }
 
     /// Whether an input is measured as a position and as a velocity: one of them wrong would contradict the other.

@@ -167,7 +167,7 @@ fn places(text: &mut Text, rig: &Rig) {
     if no_command {
         text.paragraph(
             "  ",
-            "No input counts as a command: those have names that begin with actuator, brake, command, motor or voltage.",
+            "No input counts as a command: those have names that begin with actuator, brake, command, control, motor or voltage.",
         );
     }
 }

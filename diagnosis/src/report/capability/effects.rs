@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::catalogue::{self, Effect, Element, RESPONSE, Signal};
+use crate::plant::is_of_strut;
 use crate::report::words::list;
 use crate::rig::Rig;
 
@@ -62,7 +63,10 @@ pub fn obstacle(effect: &'static Effect, rig: &Rig) -> Option<Obstacle> {
     }
     if rig.kind.is_foreign() {
         let attached = rig.kind.elements.iter().find(|it| !it.acts_on.is_empty());
+        // A coil drives no strut beside another maker's model.
+        let beside = effect.parts.iter().all(|it| is_of_strut(it.parameter));
         return Some(match (effect.element, attached) {
+            (Element::STRUT, _) if !beside => Obstacle::Elsewhere,
             (Element::STRUT, None) => Obstacle::NoStrut,
             (Element::STRUT, Some(it)) if it.replaces.is_none() => Obstacle::NotReplaced,
             _ => Obstacle::Elsewhere,
@@ -158,11 +162,15 @@ mod tests {
             format!("model = \"my.fmu\"\n[[elements]]\nelement = \"strut\"\ndeflection = \"z\"\n{element}");
         rig.kind = Kind::parse(&text).unwrap().into();
         rig.plant.settings.clear();
-        let of_strut = |name: &str| name.starts_with("strut.") || name.starts_with("hysteresis.");
         rig.plant
             .parameters
-            .retain(|it| of_strut(&it.name) && !remove.iter().any(|start| it.name.starts_with(start)));
+            .retain(|it| is_of_strut(&it.name) && !remove.iter().any(|start| it.name.starts_with(start)));
         rig
+    }
+
+    /// Whether an effect is one of a strut beside another maker's model.
+    fn is_beside(effect: &Effect) -> bool {
+        effect.element == Element::STRUT && effect.parts.iter().all(|it| is_of_strut(it.parameter))
     }
 
     fn numbers(effects: Option<&Vec<&Effect>>) -> Vec<&'static str> {
@@ -173,7 +181,7 @@ mod tests {
     fn without_a_strut_beside_it_an_fmu_has_no_effect_of_one() {
         let rig = foreign("force = { output = \"f\" }", &["strut.", "hysteresis."]);
         let impossible = impossible(&rig);
-        let strut = catalogue::all().filter(|it| it.element == Element::STRUT).count();
+        let strut = catalogue::all().filter(|it| is_beside(it)).count();
         assert_eq!(impossible[&Obstacle::NoStrut].len(), strut);
         assert_eq!(
             impossible[&Obstacle::NoStrut].len() + impossible[&Obstacle::Elsewhere].len(),
@@ -201,7 +209,7 @@ mod tests {
                        replaces = { stiffness = \"k\", damping = \"d\" }";
         let all = impossible(&foreign(element, &[]));
         assert_eq!(all.keys().collect::<Vec<_>>(), [&Obstacle::Elsewhere]);
-        assert!(all[&Obstacle::Elsewhere].iter().all(|it| it.element != Element::STRUT));
+        assert!(all[&Obstacle::Elsewhere].iter().all(|it| !is_beside(it)));
     }
 
     #[test]

@@ -82,6 +82,7 @@ struct Dyno {
     dynamics: Box<dyn Dynamics>,
     parameters: Vec<f64>,
     start: Vec<f64>,
+    inputs: usize,
     output: usize,
 }
 
@@ -97,12 +98,17 @@ impl Dyno {
             // What a rig cannot have is neutral.
             parameters: plant.parameters.iter().map(|it| named(&it.name).unwrap_or(it.start)).collect(),
             start: plant.states.iter().map(|it| it.start).collect(),
+            inputs: plant.inputs.len(),
             output: plant.output("force")?,
         })
     }
 
     fn force(&self, motion: &Drive) -> Vec<f64> {
-        let mut outputs = self.dynamics.outputs(&self.parameters, &self.start, motion);
+        // Motion comes first among its inputs; no coil is driven.
+        let mut motion = motion.clone();
+        let samples = motion.inputs.first().map_or(0, Vec::len);
+        motion.inputs.resize(self.inputs, vec![0.0; samples]);
+        let mut outputs = self.dynamics.outputs(&self.parameters, &self.start, &motion);
         outputs.swap_remove(self.output)
     }
 }
