@@ -22,10 +22,11 @@ const NOISE: f64 = 60.0;
 /// A record of a strut on a bench: its lower end moves, its force is measured with noise.
 fn record(rig: &Rig, parameters: &[f64], motion: Vec<f64>, seed: u64) -> Dataset {
     let (count, velocity) = (motion.len(), derivative(&motion, STEP));
+    let no_coil = vec![0.0; count];
     let drive = Drive {
         start: 0.0,
         step: STEP,
-        inputs: vec![motion.clone(), velocity],
+        inputs: vec![motion.clone(), velocity, no_coil.clone(), no_coil],
         finer: 1,
         between: Between::Lines,
     };
@@ -35,7 +36,12 @@ fn record(rig: &Rig, parameters: &[f64], motion: Vec<f64>, seed: u64) -> Dataset
     Dataset {
         name: format!("{seed}"),
         step: STEP,
-        inputs: vec![Source::Measured(motion), Source::DerivativeOf(0)],
+        inputs: vec![
+            Source::Measured(motion),
+            Source::DerivativeOf(0),
+            Source::Constant(0.0),
+            Source::Constant(0.0),
+        ],
         between: Between::Lines,
         measured: vec![Measured { output, values, noise_floor: NOISE }],
         others: vec![],
