@@ -152,6 +152,8 @@ pub struct Part {
     pub addend: bool,
     /// What the element does where this threshold is passed.
     pub beyond: Option<Beyond>,
+    /// Whether the law is another one from the largest value on: friction that turns over beyond all velocities is damping.
+    pub bends: bool,
 }
 
 /// How a threshold is passed, and what that is called.
@@ -238,7 +240,7 @@ pub struct Typical {
 
 /// A parameter of an effect.
 const fn part(parameter: &'static str, scale: Scale, bounds: (f64, f64), probes: &'static [f64]) -> Part {
-    Part { parameter, scale, bounds, probes, within: None, addend: false, beyond: None }
+    Part { parameter, scale, bounds, probes, within: None, addend: false, beyond: None, bends: false }
 }
 
 /// A parameter that adds something of its own to what the first one does.
@@ -249,6 +251,11 @@ const fn addend(parameter: &'static str, scale: Scale, bounds: (f64, f64), probe
 /// A parameter of a law that repeats itself, or begins to act, within so many typical magnitudes.
 const fn within(part: Part, scale: Scale, most: f64) -> Part {
     Part { within: Some((scale, most)), ..part }
+}
+
+/// A parameter within whose largest value the law has to bend, since it is another one from there on.
+const fn bends(part: Part) -> Part {
+    Part { bends: true, ..part }
 }
 
 /// A parameter that is a threshold.

@@ -86,6 +86,7 @@ impl Baseline<'_> {
     fn weighed(&self, base: &Fitted, null: &Fitted, term: Term, fitted: Result<Fitted, String>) -> Tried {
         let fitted = fitted.and_then(|it| match self.driven_off(null, &it).filter(|_| !has_no_name(term)) {
             Some(parameter) => Err(format!("drives {parameter} to its bound")),
+            None if self.is_straight(term, &it) => Err("ends where its law is another one".into()),
             None if is_in_time(term, &it) => Err("no later than the timing of any measurement".into()),
             None => Ok(it),
         });

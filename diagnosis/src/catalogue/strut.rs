@@ -2,19 +2,20 @@
 
 use super::{
     Beyond, Effect, Element, FRICTION_VELOCITY, Onset, PLAIN, Part, Prevalence, Replaced, Scale, addend,
-    beyond, part,
+    bends, beyond, part,
 };
 use crate::signal::distortion::Fault;
 
 /// Clearances of a stop: the strut reaches its ends now and then, at most.
 const CLEARANCES: &[f64] = &[1.2, 1.8, 2.4, 3.2];
 
+const YIELD_VELOCITY: Part = bends(part("strut.yield.velocity", Scale::VELOCITY, (1e-2, 3.0), &[0.1, 0.4]));
 const CONTROLLABLE_DAMPING: Part = part("control.damping", Scale::DAMPING, (-1.0, 10.0), &[0.1]);
 const CONTROL_LAG: Part = part("control.lag", Scale::ONE, (1e-4, 0.5), &[0.003, 0.02]);
 const CONTROLLABLE_YIELD: [Part; 4] = [
     part("control.yield_force", Scale::FORCE, (-10.0, 10.0), &[0.3]),
     addend("strut.yield.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
-    part("strut.yield.velocity", Scale::VELOCITY, (1e-2, 3.0), &[0.1, 0.4]),
+    YIELD_VELOCITY,
     part("strut.yield.slope", Scale::PER_DEFLECTION, (-20.0, 20.0), &[-1.0, 1.0]),
 ];
 /// What drives a controllable damper.
@@ -248,7 +249,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         contains: &["01", "02"],
         parts: &[
             part("strut.yield.force", Scale::FORCE, (0.0, 10.0), &[0.3]),
-            part("strut.yield.velocity", Scale::VELOCITY, (1e-2, 3.0), &[0.1, 0.4]),
+            YIELD_VELOCITY,
             part("strut.yield.slope", Scale::PER_DEFLECTION, (-20.0, 20.0), &[-1.0, 1.0]),
         ],
         literature: &["Kwok2006", "Spencer1997"],

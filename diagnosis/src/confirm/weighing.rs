@@ -93,6 +93,17 @@ impl Baseline<'_> {
         gone.map(|index| declared[index].name.as_str())
     }
 
+    /// Whether a fit has driven an effect to where its law is another one, which has a name of its own.
+    pub(super) fn is_straight(&self, term: Term, fitted: &Fitted) -> bool {
+        let Term::Effect(effect) = term else { return false };
+        let bent = effect.parts.iter().filter(|part| part.bends);
+        let own = bent.filter_map(|part| self.rig.plant.parameter(part.parameter)).map(Unknown::Parameter);
+        own.into_iter().any(|handle| {
+            let coordinate = fitted.coordinates.iter().find(|it| it.handle == handle);
+            coordinate.is_some_and(|it| fitted.point.get(handle) >= it.bounds.1)
+        })
+    }
+
     /// Whether every rig has a little of it. Wrong timing of an input counts, too: any of a measured input, and of a command
     /// what signals usually have.
     fn is_usual(&self, term: Term, fitted: &Fitted) -> bool {
