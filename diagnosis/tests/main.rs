@@ -2,6 +2,7 @@
 
 mod blind;
 mod certified;
+mod coil;
 mod common;
 mod data_files;
 mod drive;
