@@ -240,6 +240,13 @@ impl<'m> Draft<'m> {
             given(it.name, it.value, it.unit);
         }
         self.component(STRUT, set);
+        // No coil sets its damper.
+        for (input, unit) in [("current", "A"), ("voltage", "V")] {
+            let _ = writeln!(
+                self.parameters,
+                "\"{STRUT}.control.{input}\" = {{ value = 0.0, unit = \"{unit}\" }}"
+            );
+        }
         self.outputs.push(format!("{STRUT}.force"));
         Ok(())
     }
