@@ -287,7 +287,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         equation: "F = (F_y + F_s s) tanh(v/v_y + beta x), s = |i|/i_r",
         contains: &["01", "02", "32f", "32m"],
         driven: COIL,
-        parts: &[CONTROLLABLE_YIELD[0], CONTROLLABLE_YIELD[1], CONTROLLABLE_YIELD[2], CONTROLLABLE_YIELD[3]],
+        parts: &CONTROLLABLE_YIELD,
         literature: &["Spencer1997", "Kwok2006"],
         experiment: "hold several currents, and move slowly to and fro with each",
         ..PLAIN

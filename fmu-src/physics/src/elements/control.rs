@@ -12,7 +12,7 @@ const LEAST: f64 = 1e-3;
 /// What a current makes of a damper whose fluid is magnetorheological or whose valve is a magnet's, over the share
 /// `s = |i|/i_r` of a rated current or voltage: `d + d_s m(s)` and `F_y + F_s m(s)` with `m(s) = s/(1 + κ s)`, `s` behind a lag.
 ///
-/// Yield force and damping rate that rise with what drives the coil, and the lag, are eq. 20 to 23 of Spencer et al. (1997); κ is
+/// Yield force and damping rate that rise with what drives the coil, and the lag, are those of Spencer et al. (1997); κ is
 /// the magnet's saturation by Fröhlich and Kennelly (1891), `B = H/(a + b H)`. Either direction of the current does the same.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Control<R> {

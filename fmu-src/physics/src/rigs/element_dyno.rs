@@ -139,7 +139,7 @@ impl Model for ElementDyno {
             },
             Equation {
                 text: "controlled: d + d_s m for d and F_y + F_s m for F_y, m = s/(1 + kappa s), T s' + s = |i|/i_r or |u|/u_r",
-                source: "Spencer et al., J. Eng. Mech. 123 (1997), eq. 20-23; docs/effects.md: 32m to 32ns",
+                source: "Spencer et al., J. Eng. Mech. 123 (1997); docs/effects.md: 32m to 32ns",
             },
             Equation {
                 text: "tyre: F = k_t c + q c^2 + d_t c' + F_t tanh(c'/v_0) + s f(c) + F_0t, c = -x, F >= -F_0",
