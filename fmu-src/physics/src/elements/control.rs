@@ -1,5 +1,7 @@
 //! A damper that an electric current sets.
 
+use std::borrow::Cow;
+
 use strut_model::{Real, Variables};
 
 use crate::effects::{behind_lag, switched_on};
@@ -45,23 +47,24 @@ pub struct ControlState<R> {
 }
 
 impl<R: Real> Control<R> {
-    /// The strut as this share of the rated current makes it, and how fast the share that has arrived rises.
+    /// The strut as this share of the rated current makes it, and how fast the share that has arrived rises. Only a strut that
+    /// is set is copied.
     #[inline]
-    pub fn acting_on(
+    pub fn acting_on<'a>(
         &self,
-        strut: &Strut<R>,
+        strut: &'a Strut<R>,
         state: ControlState<R>,
         share: R,
-    ) -> (Strut<R>, ControlState<R>) {
+    ) -> (Cow<'a, Strut<R>>, ControlState<R>) {
         if self.is_off() {
-            return (*strut, Self::rest());
+            return (Cow::Borrowed(strut), Self::rest());
         }
         let (arrived, rate) = behind_lag(self.lag, state.arrived, share.abs());
         let field = arrived / (arrived * self.saturation + 1.0);
         let mut set = *strut;
         set.r#yield.force = (strut.r#yield.force + self.yield_force * field).max(R::from(0.0));
         set.damping = (strut.damping + self.damping * field).max(strut.damping * LEAST);
-        (set, ControlState { arrived: rate })
+        (Cow::Owned(set), ControlState { arrived: rate })
     }
 
     /// How many effects are on.
@@ -111,7 +114,8 @@ mod tests {
 
     /// The force at a velocity with a share of the rated current that has been there for long.
     fn force(control: Control<f64>, share: f64, velocity: f64) -> f64 {
-        let (damper, _) = control.acting_on(&damper(), ControlState { arrived: share.abs() }, share);
+        let damper = damper();
+        let (damper, _) = control.acting_on(&damper, ControlState { arrived: share.abs() }, share);
         damper.force(0.0, 0.0, velocity, 1.0)
     }
 
@@ -131,7 +135,8 @@ mod tests {
     #[test]
     fn what_sets_it_arrives_late() {
         let late = Control { lag: 0.02, ..CONTROL };
-        let (damper, rate) = late.acting_on(&damper(), ControlState { arrived: 0.5 }, -1.0);
+        let damper = damper();
+        let (damper, rate) = late.acting_on(&damper, ControlState { arrived: 0.5 }, -1.0);
         assert!((damper.damping - 1499.0).abs() < 1e-9 && (rate.arrived - 25.0).abs() < 1e-9);
     }
 
@@ -139,7 +144,8 @@ mod tests {
     fn what_is_on_counts_and_what_is_off_changes_nothing() {
         assert_eq!((CONTROL.active_effects(), neutral::<Control<f64>>().active_effects()), (2.0, 0.0));
         let off = Control { lag: 0.02, saturation: 1.0, ..neutral() };
-        assert_eq!(off.acting_on(&damper(), Control::rest(), 3.0), (damper(), Control::rest()));
+        let damper = damper();
+        assert_eq!(off.acting_on(&damper, Control::rest(), 3.0), (Cow::Borrowed(&damper), Control::rest()));
     }
 
     proptest! {
