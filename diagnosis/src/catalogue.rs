@@ -1,6 +1,7 @@
 //! The catalogue of effects: the one home of all that is known of each. An entry states number, place, name, law, parameters
 //! with their bounds, special cases, how common the effect is, when it acts, literature, and the experiment that separates it.
 
+mod coil;
 mod element;
 mod guided;
 pub mod naming;
@@ -265,7 +266,7 @@ const fn beyond(part: Part, beyond: Beyond) -> Part {
 
 /// Every named effect that acts through parameters.
 pub fn all() -> impl Iterator<Item = &'static Effect> {
-    [strut::EFFECTS, tire::EFFECTS, guided::EFFECTS, periphery::EFFECTS].into_iter().flatten()
+    [strut::EFFECTS, coil::EFFECTS, tire::EFFECTS, guided::EFFECTS, periphery::EFFECTS].into_iter().flatten()
 }
 
 /// Every named effect that acts through a plant's parameters; of elements of which it has several, at each, and at several

@@ -9,7 +9,7 @@ use crate::estimation::unknowns::Unknown;
 use crate::plant::Plant;
 use crate::signal::distortion::Fault;
 
-pub use super::signals::is_command;
+pub use super::signals::{ACTUATORS, is_command};
 
 /// A term in words.
 #[derive(Clone, Debug, PartialEq)]

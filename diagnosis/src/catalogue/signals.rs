@@ -75,7 +75,7 @@ impl Signal {
 }
 
 /// What the names of inputs begin with that act through an actuator, and not through a sensor alone.
-const ACTUATORS: &[&str] = &["actuator", "brake", "command", "control", "motor", "voltage"];
+pub const ACTUATORS: [&str; 6] = ["actuator", "brake", "command", "control", "motor", "voltage"];
 
 /// Whether an input, by its name, is an actuator's command.
 pub fn is_command(input: &str) -> bool {

@@ -9,19 +9,11 @@ use crate::signal::distortion::Fault;
 /// Clearances of a stop: the strut reaches its ends now and then, at most.
 const CLEARANCES: &[f64] = &[1.2, 1.8, 2.4, 3.2];
 
-const YIELD_VELOCITY: Part = bends(part("strut.yield.velocity", Scale::VELOCITY, (1e-2, 3.0), &[0.1, 0.4]));
-const CONTROLLABLE_DAMPING: Part = part("control.damping", Scale::DAMPING, (-1.0, 10.0), &[0.1]);
-const CONTROL_LAG: Part = part("control.lag", Scale::ONE, (1e-4, 0.5), &[0.003, 0.02]);
-const CONTROLLABLE_YIELD: [Part; 4] = [
-    part("control.yield_force", Scale::FORCE, (-10.0, 10.0), &[0.3]),
-    addend("strut.yield.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
-    YIELD_VELOCITY,
-    part("strut.yield.slope", Scale::PER_DEFLECTION, (-20.0, 20.0), &[-1.0, 1.0]),
-];
-/// What drives a controllable damper.
-const COIL: Option<&str> = Some("control.");
-/// A lag of the damper is none of the sensor that measures what sets it.
-const LATE: Option<Replaced> = Some(Replaced { inputs: "control.", distortion: Fault::Lag });
+/// Yield force: how it turns over.
+pub(super) const YIELD_VELOCITY: Part =
+    bends(part("strut.yield.velocity", Scale::VELOCITY, (1e-2, 3.0), &[0.1, 0.4]));
+pub(super) const YIELD_SLOPE: Part =
+    part("strut.yield.slope", Scale::PER_DEFLECTION, (-20.0, 20.0), &[-1.0, 1.0]);
 
 pub(super) const EFFECTS: &[Effect] = &[
     Effect {
@@ -247,86 +239,9 @@ pub(super) const EFFECTS: &[Effect] = &[
         name: "dry yield force with hysteresis",
         equation: "F = F_y tanh(v/v_y + beta x)",
         contains: &["01", "02"],
-        parts: &[
-            part("strut.yield.force", Scale::FORCE, (0.0, 10.0), &[0.3]),
-            YIELD_VELOCITY,
-            part("strut.yield.slope", Scale::PER_DEFLECTION, (-20.0, 20.0), &[-1.0, 1.0]),
-        ],
+        parts: &[part("strut.yield.force", Scale::FORCE, (0.0, 10.0), &[0.3]), YIELD_VELOCITY, YIELD_SLOPE],
         literature: &["Kwok2006", "Spencer1997"],
         experiment: "hold the coil's voltage and compare slow and fast strokes",
-        ..PLAIN
-    },
-    Effect {
-        id: "32m",
-        element: Element::STRUT,
-        name: "controllable damping",
-        equation: "F = (d + d_s s) v, s = |i|/i_r",
-        driven: COIL,
-        parts: &[CONTROLLABLE_DAMPING],
-        literature: &["Spencer1997", "Dixon2007"],
-        experiment: "hold several currents, and sweep the velocity with each",
-        ..PLAIN
-    },
-    Effect {
-        id: "32mt",
-        element: Element::STRUT,
-        name: "controllable damping behind a lag",
-        equation: "F = (d + d_s s) v, T s' = |i|/i_r - s",
-        contains: &["32m"],
-        replaces: LATE,
-        driven: COIL,
-        parts: &[CONTROLLABLE_DAMPING, CONTROL_LAG],
-        literature: &["Spencer1997", "Dixon2007"],
-        experiment: "step the current at a constant velocity",
-        ..PLAIN
-    },
-    Effect {
-        id: "32n",
-        element: Element::STRUT,
-        name: "controllable yield force",
-        equation: "F = (F_y + F_s s) tanh(v/v_y + beta x), s = |i|/i_r",
-        contains: &["01", "02", "32f", "32m"],
-        driven: COIL,
-        parts: &CONTROLLABLE_YIELD,
-        literature: &["Spencer1997", "Kwok2006"],
-        experiment: "hold several currents, and move slowly to and fro with each",
-        ..PLAIN
-    },
-    Effect {
-        id: "32nt",
-        element: Element::STRUT,
-        name: "controllable yield force behind a lag",
-        equation: "F = (F_y + F_s s) tanh(v/v_y + beta x), T s' = |i|/i_r - s",
-        contains: &["01", "02", "32f", "32m", "32mt", "32n"],
-        replaces: LATE,
-        driven: COIL,
-        parts: &[
-            CONTROLLABLE_YIELD[0],
-            CONTROLLABLE_YIELD[1],
-            CONTROLLABLE_YIELD[2],
-            CONTROLLABLE_YIELD[3],
-            CONTROL_LAG,
-        ],
-        literature: &["Spencer1997", "Kwok2006"],
-        experiment: "step the current at a constant velocity",
-        ..PLAIN
-    },
-    Effect {
-        id: "32ns",
-        element: Element::STRUT,
-        name: "controllable yield force that saturates",
-        equation: "F = (F_y + F_s s/(1 + kappa s)) tanh(v/v_y + beta x), s = |i|/i_r",
-        contains: &["01", "02", "32f", "32m", "32n"],
-        driven: COIL,
-        parts: &[
-            CONTROLLABLE_YIELD[0],
-            CONTROLLABLE_YIELD[1],
-            CONTROLLABLE_YIELD[2],
-            CONTROLLABLE_YIELD[3],
-            part("control.saturation", Scale::ONE, (0.0, 5.0), &[0.3]),
-        ],
-        literature: &["Kennelly1891", "Spencer1997"],
-        experiment: "compare equal steps of a small and of a large current",
         ..PLAIN
     },
     Effect {

@@ -167,7 +167,10 @@ fn places(text: &mut Text, rig: &Rig) {
     if no_command {
         text.paragraph(
             "  ",
-            "No input counts as a command: those have names that begin with actuator, brake, command, control, motor or voltage.",
+            &format!(
+                "No input counts as a command: those have names that begin with {}.",
+                list(&catalogue::naming::ACTUATORS.map(str::to_owned), "or")
+            ),
         );
     }
 }
