@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use crate::catalogue::naming::name;
 use crate::catalogue::{self, Signal};
-use crate::dataset::recorded::{Dataset, Source};
+use crate::dataset::recorded::Dataset;
 use crate::estimation::fit::Normal;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::unknowns::{Estimate, Unknown};
@@ -65,7 +65,7 @@ impl Baseline<'_> {
             }
         }
         for (input, source) in record.inputs.iter().enumerate() {
-            if matches!(source, Source::Measured(_)) && !self.twofold(record, input) {
+            if source.measured().is_some() && !self.twofold(record, input) {
                 let name = &plant.inputs[input].name;
                 let faults = catalogue::distortions(Signal::of_input(name), name);
                 let centred = self.rig.without_mean() == Some(name);
@@ -87,16 +87,9 @@ impl Baseline<'_> {
 
     /// Whether an input whose name begins so was measured, and moves within or between the estimation records.
     fn moves(&self, start: &str) -> bool {
-        let inputs = self.rig.plant.inputs.iter().enumerate().filter(|(_, it)| it.name.starts_with(start));
-        let values = |input: usize| {
-            let measured = self.train.iter().filter_map(move |record| match &record.inputs[input] {
-                Source::Measured(values) => Some(values),
-                _ => None,
-            });
-            measured.flatten()
-        };
-        inputs.into_iter().any(|(input, _)| {
-            let mut values = values(input);
+        let inputs = &self.rig.plant.inputs;
+        (0..inputs.len()).filter(|input| inputs[*input].name.starts_with(start)).any(|input| {
+            let mut values = self.train.iter().filter_map(|record| record.inputs[input].measured()).flatten();
             values.next().is_some_and(|first| values.any(|value| value != first))
         })
     }
@@ -106,9 +99,10 @@ impl Baseline<'_> {
         let plant = &self.rig.plant;
         let name = &plant.inputs[input].name;
         let other = |from: &str, to: &str| Some(format!("{}{to}", name.strip_suffix(from)?));
-        [other("position", "velocity"), other("velocity", "position")].into_iter().flatten().any(|name| {
-            plant.input(&name).is_some_and(|index| matches!(record.inputs[index], Source::Measured(_)))
-        })
+        [other("position", "velocity"), other("velocity", "position")]
+            .into_iter()
+            .flatten()
+            .any(|name| plant.input(&name).is_some_and(|index| record.inputs[index].measured().is_some()))
     }
 
     /// What every term would change beside a fit.

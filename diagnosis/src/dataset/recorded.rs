@@ -44,6 +44,14 @@ pub enum Source {
 }
 
 impl Source {
+    /// The samples, if it was measured.
+    pub fn measured(&self) -> Option<&[f64]> {
+        match self {
+            Self::Measured(values) => Some(values),
+            Self::DerivativeOf(_) | Self::RateOf(_) | Self::Constant(_) => None,
+        }
+    }
+
     /// The input that it is the derivative of.
     pub fn motion(&self) -> Option<usize> {
         match self {

@@ -1,6 +1,6 @@
 //! Within what an experiment has to stay: stroke, force, rate, frequencies and time.
 
-use crate::dataset::recorded::{Dataset, Source, derivative};
+use crate::dataset::recorded::{Dataset, derivative};
 use crate::diagnosis::simulated;
 use crate::estimation::hypothesis::{Baseline, Fitted};
 use crate::rig::ForceOf;
@@ -89,10 +89,8 @@ impl Baseline<'_> {
         let largest = |values: &[f64], about: f64| {
             values.iter().filter(|it| it.is_finite()).fold(0.0_f64, |most, it| most.max((it - about).abs()))
         };
-        let measured = self.train.iter().filter_map(|record| match &record.inputs[input] {
-            Source::Measured(values) => Some((values, record.step)),
-            Source::DerivativeOf(_) | Source::RateOf(_) | Source::Constant(_) => None,
-        });
+        let measured =
+            self.train.iter().filter_map(|record| Some((record.inputs[input].measured()?, record.step)));
         let each =
             measured.map(|(values, step)| [largest(values, rest), largest(&derivative(values, step), 0.0)]);
         let reached = each.reduce(|[a, b], [c, d]| [a.max(c), b.max(d)])?;

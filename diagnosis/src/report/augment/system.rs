@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use strut_check::import::Unit;
 
-use crate::plant::{Attachment, Conversion, FaceVariable, Own, is_of_strut};
+use crate::plant::{Attachment, Conversion, FaceVariable, Own, is_of_strut, models};
 use crate::report::words;
 use crate::signal::distortion::{Correction, Fault};
 
@@ -17,6 +17,8 @@ pub const NAME: &str = "augmented";
 const MODEL: &str = "model";
 /// The component of Strut's strut.
 const STRUT: &str = "strut";
+/// The model that Strut's strut is.
+const BENCH: &str = "ElementDyno";
 /// Where every value of a set comes from.
 const SOURCE: &str = "found by the diagnosis";
 
@@ -217,8 +219,8 @@ impl<'m> Draft<'m> {
             let way = format!(", factor = {:?}", -factor / conversion.factor);
             self.connect(&format!("{STRUT}.force"), input, &way);
         }
-        let mut set = String::from(
-            "fmu = \"Augmented_strut\"\nmodel = \"ElementDyno\"\ntitle = \"The strut beside the model, with the effects \
+        let mut set = format!(
+            "fmu = \"Augmented_strut\"\nmodel = \"{BENCH}\"\ntitle = \"The strut beside the model, with the effects \
              found\"\nsource = \"diagnosis\"\n\n[values]\n",
         );
         let mut given = |name: &str, value: f64, unit: &str| {
@@ -240,11 +242,14 @@ impl<'m> Draft<'m> {
             given(it.name, it.value, it.unit);
         }
         self.component(STRUT, set);
-        // No coil sets its damper.
-        for (input, unit) in [("current", "A"), ("voltage", "V")] {
+        // All but its motion rests: no coil sets its damper.
+        let bench = models::named(BENCH).ok_or_else(|| format!("there is no {BENCH}"))?;
+        for it in bench.inputs.iter().filter(|it| !it.name.starts_with("motion.")) {
+            let name = quoted(&format!("{STRUT}.{}", it.name));
             let _ = writeln!(
                 self.parameters,
-                "\"{STRUT}.control.{input}\" = {{ value = 0.0, unit = \"{unit}\" }}"
+                "{name} = {{ value = {:?}, unit = \"{}\" }}",
+                it.start, it.unit.symbol
             );
         }
         self.outputs.push(format!("{STRUT}.force"));
