@@ -23,8 +23,7 @@ def main():
     path = Path(sys.argv[1])
     with tempfile.TemporaryDirectory() as unpacked:
         job = system(path, unpacked)
-        # A second tells whether the system is the same one; in five, ecos's sum of steps and sticking friction make 2.5e-9 of rounding.
-        job.count = 1000
+        job.count = 5000
         masters = [Libcosimpy("libcosimpy", ""), Ecos("ecos", ""), *map(OMSimulator, sys.argv[2:])]
         for master in masters:
             rows, scheme = master.run("ssp", path, job)

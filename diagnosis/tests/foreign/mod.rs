@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use strut_blind::{cases, files, generate};
-use strut_diagnosis::plant::{Between, Drive, Foreign, Plant, Seed, models};
+use strut_diagnosis::plant::{Attachment, Between, Drive, Follower, Foreign, Plant, Seed, Seen, models};
 use strut_diagnosis::rig::Rig;
 use tempfile::TempDir;
 use zip::ZipWriter;
@@ -221,6 +221,61 @@ fn an_fmu_predicts_as_the_same_model_of_the_library_does() {
         near(&found.outputs[output], &exact.outputs[output], 1e-12, name);
         for (seed, (found, exact)) in found.slopes.iter().zip(&exact.slopes).enumerate() {
             near(&found[output], &exact[output], 1e-5, &format!("{name}, seed {seed}"));
+        }
+    }
+}
+
+/// Keeps what becomes of the states from sample to sample.
+#[derive(Default)]
+struct Slopes(Vec<Vec<f64>>);
+
+impl Follower for Slopes {
+    fn state(&mut self, _: usize, _: &mut [f64]) {}
+
+    fn seen(&mut self, _: usize, _: Seen<'_>, _: &mut [f64]) {}
+
+    fn advanced(&mut self, _: usize, _: &[f64], slopes: &[f64]) {
+        self.0.push(slopes.to_vec());
+    }
+}
+
+/// No output sees the memory of effects that are off, however often a change of it is made.
+#[test]
+fn the_memory_of_effects_that_are_off_keeps_its_derivatives() {
+    if LIBRARY.is_none() {
+        return println!("skipped: FMI 2.0 has no name for this platform that this test knows");
+    }
+    let (folder, _) = rig(&[], |text| text);
+    let strut = Attachment {
+        deflection: "z_rel".into(),
+        rest: 0.0,
+        velocity: "v_rel".into(),
+        acts_on: vec![("F_act".into(), -1.0)],
+        replaces: None,
+    };
+    let fmu = folder.path().join("quarter.fmu");
+    let plant =
+        Foreign { fmu, parameters: Vec::new(), locals: Vec::new(), strut: Some(strut) }.plant().unwrap();
+    let dynamics = plant.prepare(&plant.choices).unwrap();
+    let values: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
+    let start: Vec<f64> = plant.states.iter().map(|it| it.start).collect();
+    let road = (0..20).map(|k| 0.01 * (0.1 * f64::from(k)).sin()).collect();
+    let mut inputs = vec![vec![0.0; 20]; plant.inputs.len()];
+    inputs[plant.input("z_r").unwrap()] = road;
+    let drive = Drive { start: 0.0, step: 1e-3, inputs, finer: 1, between: Between::Lines };
+    let seeds: Vec<Seed> = (0..start.len()).map(Seed::State).collect();
+    for _ in 0..40 {
+        dynamics.linearised(&values, &start, &drive, &seeds, &[0]);
+    }
+    let mut slopes = Slopes::default();
+    dynamics.followed(&values, &start, &drive, (&seeds, &[0]), &mut slopes);
+    let memory: Vec<usize> =
+        (0..start.len()).filter(|index| plant.states[*index].name.contains('.')).collect();
+    assert!(memory.len() >= 4, "{memory:?}");
+    for (sample, slopes) in slopes.0.iter().enumerate() {
+        for index in &memory {
+            let name = &plant.states[*index].name;
+            assert_eq!(slopes[index * start.len() + index], 1.0, "{name} after sample {sample}");
         }
     }
 }

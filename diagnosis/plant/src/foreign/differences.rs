@@ -60,7 +60,8 @@ impl Differences {
         parameters: &[Declaration],
         states: &[Declaration],
     ) -> Self {
-        let of = |it: &Declaration| if it.start == 0.0 { it.nominal.unwrap_or(0.0) } else { it.start.abs() };
+        // Of a variable without one, FMI takes a nominal value of 1.
+        let of = |it: &Declaration| if it.start == 0.0 { it.nominal.unwrap_or(1.0) } else { it.start.abs() };
         let typical = [parameters, states].map(|all| all.iter().map(of).collect());
         Self { fmu, beside, typical, changes: Arc::default() }
     }
@@ -155,16 +156,19 @@ impl Differences {
         base: &(Signals, usize),
     ) -> Signals {
         let (key, mut by) = self.change(seed, parameters, start);
-        let mut moved = Vec::new();
+        let (mut moved, mut seen) = (Vec::new(), 0.0);
         for attempt in 0..4 {
             (moved, _) = self.run(&Self::changed(parameters, start, seed, by), drive, Some(base.1));
-            let share = share(&base.0, &moved);
-            if attempt == 3 || (SEEN..=1e3 * WANTED).contains(&share) {
+            seen = share(&base.0, &moved);
+            if attempt == 3 || (SEEN..=1e3 * WANTED).contains(&seen) {
                 break;
             }
-            by *= if share == 0.0 { 1e4 } else { (WANTED / share).clamp(1e-6, 1e8) };
+            by *= if seen == 0.0 { 1e4 } else { (WANTED / seen).clamp(1e-6, 1e8) };
         }
-        self.changes.lock().unwrap_or_else(PoisonError::into_inner).insert(key, by);
+        // What no output sees would be changed by more in every call, until it is no number.
+        if seen > 0.0 {
+            self.changes.lock().unwrap_or_else(PoisonError::into_inner).insert(key, by);
+        }
         for (moved, base) in moved.iter_mut().zip(&base.0) {
             moved.iter_mut().zip(base).for_each(|(moved, base)| *moved = (*moved - base) / by);
         }

@@ -55,10 +55,16 @@ impl Follower for Watch {
     fn seen(&mut self, _: usize, _: Seen<'_>, _: &mut [f64]) {}
 
     fn advanced(&mut self, sample: usize, _: &[f64], slopes: &[f64]) {
-        if sample.is_multiple_of(EVERY) && slopes.iter().all(|it| it.is_finite()) && self.states > 0 {
-            let over_a_sample = DMatrix::from_row_slice(self.states, self.states, slopes);
-            self.longest = self.longest.min(short_enough(&over_a_sample, self.step));
+        if !sample.is_multiple_of(EVERY) || self.states == 0 {
+            return;
         }
+        let of_modes = if slopes.iter().all(|it| it.is_finite()) {
+            short_enough(&DMatrix::from_row_slice(self.states, self.states, slopes), self.step)
+        } else {
+            // What cannot be looked at may have any rate.
+            SHORTEST
+        };
+        self.longest = self.longest.min(of_modes);
     }
 }
 
