@@ -5,6 +5,7 @@
 //! and one that is enough at rest, and goes between them by what the stages of each step tell.
 
 use num_dual::Dual64;
+use strut_model::unit::{M_PER_S, N, RAD_PER_S};
 use strut_model::{Bundle, Declaration, Declarations, Instant, Model, Real};
 
 use super::Drive;
@@ -21,8 +22,10 @@ pub(super) const ACCURATE: f64 = 0.6;
 const WELL_BELOW: f64 = 0.75;
 /// How far what friction and bushes remember is displaced to look for contact, SI: beyond any backlash.
 const DISPLACED: f64 = 0.1;
-/// The same of what follows behind a backlash, whatever its unit: beyond the band its rate has one slope.
+/// The same of a force that builds up behind a backlash, and of what follows behind one: beyond the band their rates have one slope.
 const BEYOND_BANDS: f64 = 1e9;
+/// A velocity in m/s or rad/s that suspensions seldom exceed: friction before it slides forgets the faster the faster it is moved.
+const FAST: f64 = 1.0;
 /// Steps between two samples beyond which a model is too stiff for this method.
 pub(super) const MOST_STEPS: f64 = 60.0;
 
@@ -124,9 +127,10 @@ fn range<M: Model>(
     let derived = model.derive(&lifted);
     let memory = Declarations::of::<M::Memory<f64>>();
     let memory = Bundle::from_fn(|i| Dual64::from(memory[i].start));
-    let input = Bundle::from_fn(|i| Dual64::from(drive.inputs[i].first().copied().unwrap_or(0.0)));
-    let jacobian_at = |at: &[f64]| {
+    let jacobian_at = |at: &[f64], inputs: &[f64]| {
+        let input = Bundle::from_fn(|i| Dual64::from(inputs[i]));
         let mut jacobian = nalgebra::DMatrix::<f64>::zeros(states, states);
+        let mut moves = vec![false; states];
         for column in 0..states {
             let state = Bundle::from_fn(|i| Dual64::new(at[i], f64::from(i == column)));
             let now = Instant {
@@ -139,9 +143,12 @@ fn range<M: Model>(
                 tick: 0,
             };
             let (rates, _) = model.equations(now);
-            rates.for_each(|row, rate| jacobian[(row, column)] = rate.eps);
+            rates.for_each(|row, rate| {
+                jacobian[(row, column)] = rate.eps;
+                moves[row] |= rate.re != 0.0 || rate.eps != 0.0;
+            });
         }
-        jacobian
+        (jacobian, moves)
     };
     let fastest_of = |jacobian: &nalgebra::DMatrix<f64>| -> f64 {
         if !jacobian.iter().all(|entry| entry.is_finite()) {
@@ -150,18 +157,23 @@ fn range<M: Model>(
         jacobian.complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max)
     };
     let rest: Vec<f64> = declared.iter().map(|state| state.start).collect();
-    let resting = jacobian_at(&rest);
-    let mut fastest = fastest_of(&resting);
-    // What has backlash is loose at rest: it is looked at where it is in contact, too.
-    for (index, state) in declared.iter().enumerate() {
+    let first: Vec<f64> = drive.inputs.iter().map(|it| it.first().copied().unwrap_or(0.0)).collect();
+    let (resting, _) = jacobian_at(&rest, &first);
+    let [moved, moving] = moved(declared, &Declarations::of::<M::Input<f64>>(), (&rest, &first), drive);
+    let (when_moved, moves) = jacobian_at(&moved, &moving);
+    let mut fastest = fastest_of(&resting).max(fastest_of(&when_moved));
+    // What has backlash is loose at rest: it is looked at where it is in contact, too. What is off does not move.
+    for (index, state) in declared.iter().enumerate().filter(|(index, _)| moves[*index]) {
         let by = match &state.name {
-            name if name.starts_with("hysteresis.") => DISPLACED,
-            name if name.ends_with(".follower") => BEYOND_BANDS,
+            name if name.starts_with("hysteresis.") && state.unit != N => DISPLACED,
+            name if name.starts_with("hysteresis.") || name.ends_with(".follower") => BEYOND_BANDS,
             _ => continue,
         };
-        let mut displaced = rest.clone();
-        displaced[index] += by;
-        fastest = fastest.max(fastest_of(&jacobian_at(&displaced)));
+        for (at, inputs) in [(&rest, &first), (&moved, &moving)] {
+            let mut displaced = at.clone();
+            displaced[index] += by;
+            fastest = fastest.max(fastest_of(&jacobian_at(&displaced, inputs).0));
+        }
     }
     // The rational function of a delay is one only in steps well below it.
     let late = declared.iter().enumerate().filter(|(_, state)| state.name.contains(".delay."));
@@ -169,6 +181,29 @@ fn range<M: Model>(
     let steps = |rate: f64| (drive.step * rate).ceil().clamp(1.0, MOST_STEPS) as usize;
     let loose = (1.0 / LONGEST_STEP).max(sharpest / WELL_BELOW);
     (steps(loose), steps(loose.max(fastest / ACCURATE)))
+}
+
+/// States and inputs where everything moves fast, one thing against the next, so that no two of them go together; an input as fast
+/// as it becomes.
+fn moved(
+    states: &[Declaration],
+    inputs: &[Declaration],
+    (rest, first): (&[f64], &[f64]),
+    drive: &Drive,
+) -> [Vec<f64>; 2] {
+    let (mut moved, mut moving, mut sign) = (rest.to_vec(), first.to_vec(), 1.0);
+    let mut next = || {
+        sign = -sign;
+        -sign
+    };
+    let is_velocity = |declared: &Declaration| [M_PER_S, RAD_PER_S].contains(&declared.unit);
+    for (value, _) in moved.iter_mut().zip(states).filter(|(_, it)| is_velocity(it)) {
+        *value += FAST * next();
+    }
+    for (index, _) in inputs.iter().enumerate().filter(|(_, it)| is_velocity(it)) {
+        moving[index] = drive.inputs[index].iter().fold(0.0, |most: f64, it| most.max(it.abs())) * next();
+    }
+    [moved, moving]
 }
 
 fn lift<R: Real, A: Bundle<f64>, B: Bundle<R>>(bundle: &A) -> B {
@@ -244,6 +279,25 @@ mod tests {
                 let difference = rms(some.iter().zip(all).map(|(some, all)| some - all));
                 prop_assert!(difference <= 2e-3 * rms(all.iter().copied()), "{difference}");
             }
+        }
+    }
+
+    /// The way over which it builds up is a fiftieth of a millimetre: it is there in a fraction of a sample.
+    #[test]
+    fn friction_before_it_slides_is_integrated_however_stiff_it_is() {
+        let rig = |stiffness: f64| {
+            [
+                ("sprung_mass", 94.4),
+                ("hysteresis.presliding.force", 50.0),
+                ("hysteresis.presliding.stiffness", stiffness),
+                ("hysteresis.presliding.gap", 1e-5),
+            ]
+        };
+        let (soft, _) = driven(&rig(5e5), false);
+        let (stiff, _) = driven(&rig(3e6), false);
+        for (soft, stiff) in soft.iter().zip(&stiff) {
+            let difference = rms(soft.iter().zip(stiff).map(|(soft, stiff)| soft - stiff));
+            assert!(difference <= 0.1 * rms(soft.iter().copied()), "{difference}");
         }
     }
 

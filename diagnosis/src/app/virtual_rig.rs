@@ -74,7 +74,7 @@ pub fn hidden(rig: &Rig, text: &str) -> Result<(String, f64), String> {
 /// A record as CSV; `number` tells its excitation: one for each.
 ///
 /// # Errors
-/// If the rig has no parameter of a name, or refuses the values.
+/// If the rig has no parameter of a name, refuses the values, or diverges with them.
 pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String, String> {
     let mut parameters = rig.parameters.clone();
     let mut distorted: BTreeMap<&str, Correction> = BTreeMap::new();
@@ -113,6 +113,14 @@ pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String,
     }
     let drive = Drive { start: 0.0, step, inputs, finer: 1, between: Between::Lines };
     let outputs = dynamics.outputs(&parameters, &rig.start, &drive);
+    if !outputs.iter().flatten().all(|it| it.is_finite()) {
+        return Err(format!(
+            "the simulation of {} diverges with these values: it is unstable, or too stiff for {} samples a second; hide less, or give a higher \
+             --sample-rate",
+            rig.name,
+            step.recip().round()
+        ));
+    }
     let declared = rig.plant.inputs.iter().chain(&rig.plant.outputs);
     let signals: Vec<(String, Vec<f64>)> = declared
         .zip(drive.inputs.iter().chain(&outputs))
@@ -208,6 +216,15 @@ mod tests {
             assert!((rms(after) - factor * rms(before)).abs() < 1e-5 * rms(before), "{name}");
         }
         assert!(super::hidden(&rig, "body.acceleration.gian=0.5").is_err());
+    }
+
+    #[test]
+    fn a_simulation_that_diverges_is_no_record() {
+        let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
+        let hidden = ["hysteresis.presliding.force=50", "hysteresis.presliding.stiffness=1e12"];
+        let hidden = hidden.map(|it| super::hidden(&rig, it).unwrap()).to_vec();
+        let told = record(&rig, &Experiment { hidden, ..plain() }, 1).unwrap_err();
+        assert!(told.contains("diverges") && told.contains("--sample-rate"), "{told}");
     }
 
     #[test]

@@ -56,7 +56,8 @@ pub(super) const EFFECTS: &[Effect] = &[
         contains: &["01"],
         parts: &[
             part("hysteresis.presliding.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
-            part("hysteresis.presliding.stiffness", Scale::STIFFNESS, (1e-2, 1e3), &[0.5, 3.0]),
+            // From a slow build-up to one that is Coulomb friction's but for the noise.
+            part("hysteresis.presliding.stiffness", Scale::STIFFNESS, (1e-2, 1e3), &[0.5, 3.0, 20.0]),
             part("hysteresis.presliding.exponent", Scale::ONE, (0.2, 4.0), &[1.0]),
         ],
         literature: &["Dahl1968"],
@@ -71,8 +72,8 @@ pub(super) const EFFECTS: &[Effect] = &[
         contains: &["01", "03"],
         parts: &[
             part("hysteresis.presliding.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
-            part("hysteresis.presliding.stiffness", Scale::STIFFNESS, (1e-2, 1e3), &[3.0]),
-            part("hysteresis.presliding.gap", Scale::DEFLECTION, (0.0, 1.0), &[0.05, 0.2]),
+            part("hysteresis.presliding.stiffness", Scale::STIFFNESS, (1e-2, 1e3), &[0.5, 3.0]),
+            part("hysteresis.presliding.gap", Scale::DEFLECTION, (0.0, 1.0), &[0.05, 0.2, 0.6]),
             part("hysteresis.presliding.exponent", Scale::ONE, (0.2, 4.0), &[1.0]),
         ],
         literature: &["Dahl1968", "Nordin2002"],
@@ -205,8 +206,8 @@ pub(super) const EFFECTS: &[Effect] = &[
         contains: &["13"],
         onset: Onset::Threshold,
         parts: &[
-            part("hysteresis.mount.gap", Scale::DEFLECTION, (1e-4, 2.0), &[0.02, 0.1, 0.3]),
-            part("hysteresis.mount.compliance", Scale::COMPLIANCE, (3e-3, 1.0), &[0.01]),
+            part("hysteresis.mount.gap", Scale::DEFLECTION, (1e-4, 2.0), &[0.02, 0.045, 0.1, 0.2, 0.4]),
+            part("hysteresis.mount.compliance", Scale::COMPLIANCE, (3e-3, 1.0), &[0.03]),
         ],
         literature: &["Nordin2002"],
         experiment: "compare small and large strokes",

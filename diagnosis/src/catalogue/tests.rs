@@ -1,5 +1,7 @@
 //! Whether entries of the catalogue mean what there is.
 
+mod shapes;
+
 use std::collections::BTreeSet;
 
 use super::signals::{Among, DISTORTIONS};
