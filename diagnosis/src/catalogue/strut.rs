@@ -56,8 +56,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         contains: &["01"],
         parts: &[
             part("hysteresis.presliding.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
-            // From a slow build-up to one that is Coulomb friction's but for the noise.
-            part("hysteresis.presliding.stiffness", Scale::STIFFNESS, (1e-2, 1e3), &[0.5, 3.0, 20.0]),
+            part("hysteresis.presliding.stiffness", Scale::STIFFNESS, (1e-2, 1e3), &[0.5, 3.0]),
             part("hysteresis.presliding.exponent", Scale::ONE, (0.2, 4.0), &[1.0]),
         ],
         literature: &["Dahl1968"],
