@@ -22,10 +22,12 @@ pub(super) const ACCURATE: f64 = 0.6;
 const WELL_BELOW: f64 = 0.75;
 /// How far what friction and bushes remember is displaced to look for contact, SI: beyond any backlash.
 const DISPLACED: f64 = 0.1;
-/// The same of a force that builds up behind a backlash, and of what follows behind one: beyond the band their rates have one slope.
+/// The same of what follows behind a backlash, whatever its unit: beyond the band its rate has one slope.
 const BEYOND_BANDS: f64 = 1e9;
+/// How often a newton is doubled to look for the force at which a backlash is gone.
+const DOUBLED: usize = 24;
 /// A velocity in m/s or rad/s that suspensions seldom exceed: friction before it slides forgets the faster the faster it is moved.
-const FAST: f64 = 1.0;
+pub(super) const FAST: f64 = 1.0;
 /// Steps between two samples beyond which a model is too stiff for this method.
 pub(super) const MOST_STEPS: f64 = 60.0;
 
@@ -34,7 +36,7 @@ const NEGLIGIBLE: f64 = 1e-9;
 /// Largest difference of a step from one of lower order, in the same shares.
 const TOLERATED: f64 = 3e-4;
 /// More steps than the last one's stages ask for, lest the next attempt is refused too.
-const RESERVE: f64 = 1.2;
+pub(super) const RESERVE: f64 = 1.2;
 
 /// How many steps a model makes between samples.
 #[derive(Clone, Debug)]
@@ -122,6 +124,20 @@ fn range<M: Model>(
     drive: &Drive,
     declared: &[Declaration],
 ) -> (usize, usize) {
+    let [fastest, sharpest] = rates(model, parameters, drive, declared);
+    let steps = |rate: f64| (drive.step * rate).ceil().clamp(1.0, MOST_STEPS) as usize;
+    let loose = (1.0 / LONGEST_STEP).max(sharpest / WELL_BELOW);
+    (steps(loose), steps(loose.max(fastest / ACCURATE)))
+}
+
+/// The fastest rate of change at rest, in fast motion, and in contact behind a backlash, and the largest slope of a delay's states,
+/// per second.
+pub(super) fn rates<M: Model>(
+    model: &M,
+    parameters: &M::Parameters<f64>,
+    drive: &Drive,
+    declared: &[Declaration],
+) -> [f64; 2] {
     let states = declared.len();
     let lifted: M::Parameters<Dual64> = lift(parameters);
     let derived = model.derive(&lifted);
@@ -164,23 +180,33 @@ fn range<M: Model>(
     let mut fastest = fastest_of(&resting).max(fastest_of(&when_moved));
     // What has backlash is loose at rest: it is looked at where it is in contact, too. What is off does not move.
     for (index, state) in declared.iter().enumerate().filter(|(index, _)| moves[*index]) {
-        let by = match &state.name {
-            name if name.starts_with("hysteresis.") && state.unit != N => DISPLACED,
-            name if name.starts_with("hysteresis.") || name.ends_with(".follower") => BEYOND_BANDS,
-            _ => continue,
-        };
-        for (at, inputs) in [(&rest, &first), (&moved, &moving)] {
-            let mut displaced = at.clone();
+        let displaced = |at: &[f64], by: f64| {
+            let mut displaced = at.to_vec();
             displaced[index] += by;
-            fastest = fastest.max(fastest_of(&jacobian_at(&displaced, inputs).0));
+            displaced
+        };
+        match &state.name {
+            name if name.starts_with("hysteresis.") && state.unit == N => {
+                // Not much beyond it, where some laws grow without end.
+                let doubled = std::iter::successors(Some(1.0), |by| Some(2.0 * by)).take(DOUBLED);
+                let mut jacobians = std::iter::once(0.0)
+                    .chain(doubled)
+                    .map(|by| jacobian_at(&displaced(&moved, by), &moving).0);
+                let in_contact = jacobians.find(|it| it[(index, index)] != 0.0);
+                fastest = in_contact.map_or(fastest, |it| fastest.max(fastest_of(&it)));
+            }
+            name if name.starts_with("hysteresis.") || name.ends_with(".follower") => {
+                let by = if name.ends_with(".follower") { BEYOND_BANDS } else { DISPLACED };
+                for (at, inputs) in [(&rest, &first), (&moved, &moving)] {
+                    fastest = fastest.max(fastest_of(&jacobian_at(&displaced(at, by), inputs).0));
+                }
+            }
+            _ => {}
         }
     }
     // The rational function of a delay is one only in steps well below it.
     let late = declared.iter().enumerate().filter(|(_, state)| state.name.contains(".delay."));
-    let sharpest = late.map(|(row, _)| resting.row(row).amax()).fold(0.0, f64::max);
-    let steps = |rate: f64| (drive.step * rate).ceil().clamp(1.0, MOST_STEPS) as usize;
-    let loose = (1.0 / LONGEST_STEP).max(sharpest / WELL_BELOW);
-    (steps(loose), steps(loose.max(fastest / ACCURATE)))
+    [fastest, late.map(|(row, _)| resting.row(row).amax()).fold(0.0, f64::max)]
 }
 
 /// States and inputs where everything moves fast, one thing against the next, so that no two of them go together; an input as fast

@@ -239,13 +239,8 @@ impl Follower for Slopes {
     }
 }
 
-/// No output sees the memory of effects that are off, however often a change of it is made.
-#[test]
-fn the_memory_of_effects_that_are_off_keeps_its_derivatives() {
-    if LIBRARY.is_none() {
-        return println!("skipped: FMI 2.0 has no name for this platform that this test knows");
-    }
-    let (folder, _) = rig(&[], |text| text);
+/// The FMU with a strut of the library on top of its own.
+fn with_strut(folder: &TempDir) -> Plant {
     let strut = Attachment {
         deflection: "z_rel".into(),
         rest: 0.0,
@@ -254,15 +249,55 @@ fn the_memory_of_effects_that_are_off_keeps_its_derivatives() {
         replaces: None,
     };
     let fmu = folder.path().join("quarter.fmu");
-    let plant =
-        Foreign { fmu, parameters: Vec::new(), locals: Vec::new(), strut: Some(strut) }.plant().unwrap();
+    Foreign { fmu, parameters: Vec::new(), locals: Vec::new(), strut: Some(strut) }.plant().unwrap()
+}
+
+/// A sine of 10 mm: so many samples of a millisecond, and so many rad in each.
+fn on_a_road(plant: &Plant, samples: u32, turned: f64) -> Drive {
+    let mut inputs = vec![vec![0.0; samples as usize]; plant.inputs.len()];
+    inputs[plant.input("z_r").unwrap()] =
+        (0..samples).map(|k| 0.01 * (turned * f64::from(k)).sin()).collect();
+    Drive { start: 0.0, step: 1e-3, inputs, finer: 1, between: Between::Lines }
+}
+
+/// It builds up over a tenth and a hundredth of a millimetre, and at rest nothing of it is fast.
+#[test]
+fn friction_before_it_slides_is_integrated_beside_the_fmu_however_stiff_it_is() {
+    if LIBRARY.is_none() {
+        return println!("skipped: FMI 2.0 has no name for this platform that this test knows");
+    }
+    let (folder, _) = rig(&[], |text| text);
+    let plant = with_strut(&folder);
+    let dynamics = plant.prepare(&plant.choices).unwrap();
+    let start: Vec<f64> = plant.states.iter().map(|it| it.start).collect();
+    let drive = on_a_road(&plant, 2000, 0.02);
+    let deflection = plant.output("z_rel").unwrap();
+    let with = |stiffness: f64| {
+        let mut values: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
+        values[plant.parameter("hysteresis.presliding.force").unwrap()] = 50.0;
+        values[plant.parameter("hysteresis.presliding.stiffness").unwrap()] = stiffness;
+        dynamics.outputs(&values, &start, &drive).swap_remove(deflection)
+    };
+    let (soft, stiff) = (with(5e5), with(5e6));
+    let largest = soft.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
+    let apart = soft.iter().zip(&stiff).fold(0.0_f64, |most, (soft, stiff)| {
+        if stiff.is_finite() { most.max((soft - stiff).abs()) } else { f64::INFINITY }
+    });
+    assert!(apart < 0.05 * largest, "{apart} of {largest}");
+}
+
+/// No output sees the memory of effects that are off, however often a change of it is made.
+#[test]
+fn the_memory_of_effects_that_are_off_keeps_its_derivatives() {
+    if LIBRARY.is_none() {
+        return println!("skipped: FMI 2.0 has no name for this platform that this test knows");
+    }
+    let (folder, _) = rig(&[], |text| text);
+    let plant = with_strut(&folder);
     let dynamics = plant.prepare(&plant.choices).unwrap();
     let values: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
     let start: Vec<f64> = plant.states.iter().map(|it| it.start).collect();
-    let road = (0..20).map(|k| 0.01 * (0.1 * f64::from(k)).sin()).collect();
-    let mut inputs = vec![vec![0.0; 20]; plant.inputs.len()];
-    inputs[plant.input("z_r").unwrap()] = road;
-    let drive = Drive { start: 0.0, step: 1e-3, inputs, finer: 1, between: Between::Lines };
+    let drive = on_a_road(&plant, 20, 0.1);
     let seeds: Vec<Seed> = (0..start.len()).map(Seed::State).collect();
     for _ in 0..40 {
         dynamics.linearised(&values, &start, &drive, &seeds, &[0]);

@@ -4,6 +4,8 @@ use strut_model::{Bundle, Declaration, Declarations, Instant, Model, Settings};
 use strut_physics::rigs::ElementDyno;
 
 use super::exchange::{Fmu, LEAST, Session};
+use crate::pace::{ACCURATE, FAST, RESERVE, rates};
+use crate::{Between, Drive};
 
 /// Where a strut is attached.
 #[derive(Clone, Debug)]
@@ -148,12 +150,26 @@ impl Beside {
             all[*index] = *value;
         }
         let parameters = Bundle::from_fn(|i| all[i]);
-        Set { derived: self.model.derive(&parameters), parameters }
+        let forgets = [0.0, FAST].map(|velocity| {
+            let inputs = Declarations::of::<<ElementDyno as Model>::Input<f64>>();
+            let moved = |it: &Declaration| vec![if it.name == "motion.velocity" { velocity } else { 0.0 }];
+            let inputs = inputs.iter().map(moved).collect();
+            let drive = Drive { start: 0.0, step: 1.0, inputs, finer: 1, between: Between::Lines };
+            rates(&self.model, &parameters, &drive, &self.states)[0]
+        });
+        Set { derived: self.model.derive(&parameters), parameters, forgets }
+    }
+
+    /// Steps that its memory asks for over a time in s from where these are the model's outputs.
+    pub fn steps(&self, set: &Set, time: f64, outputs: &[f64]) -> usize {
+        let [at_rest, fast] = set.forgets;
+        let moved = RESERVE * fast * outputs[self.velocity].abs() / FAST;
+        (time * at_rest.max(moved) / ACCURATE).ceil() as usize
     }
 
     /// Refuses parameters that do not go together.
     pub fn check(&self, parameters: &[f64]) -> Result<(), String> {
-        let Set { parameters, derived } = self.set(parameters);
+        let Set { parameters, derived, .. } = self.set(parameters);
         self.model.check(&parameters, &derived)
     }
 
@@ -199,6 +215,8 @@ impl Beside {
 pub struct Set {
     parameters: Parameters,
     derived: <ElementDyno as Model>::Derived<f64>,
+    /// How fast its memory changes at rest and in fast motion, per second.
+    forgets: [f64; 2],
 }
 
 #[cfg(test)]

@@ -99,12 +99,17 @@ impl Differences {
     }
 
     /// The outputs of a model that is changed; not a number from where it cannot be run.
-    fn run(&self, changed: &Changed<'_>, drive: &Drive, steps: Option<usize>) -> (Signals, usize) {
+    /// `steps` are those between the samples, if they are given; they come back with the outputs.
+    fn run(&self, changed: &Changed<'_>, drive: &Drive, steps: Option<&[usize]>) -> (Signals, Vec<usize>) {
         let count = self.fmu.outputs.len();
         let mut signals = vec![Vec::with_capacity(drive.len()); count];
         let mut state = changed.start.clone();
         let mut walk = self.walk(&changed.parameters, drive.start);
-        let steps = steps.unwrap_or_else(|| walk.as_mut().map_or(1, |walk| walk.steps(&state, drive)));
+        let least = match (steps, &mut walk) {
+            (None, Some(walk)) => walk.steps(&state, drive),
+            _ => 1,
+        };
+        let mut made = Vec::with_capacity(drive.len());
         let (mut rates, mut outputs) = (vec![0.0; state.len()], vec![f64::NAN; count]);
         for sample in 0..drive.len() {
             if let Some(walk) = &mut walk {
@@ -116,12 +121,15 @@ impl Differences {
                 }
                 if sample + 1 < drive.len() {
                     let input = |i: usize, share: f64| changed.input(drive, i, sample, share);
+                    let own = || walk.paced(least, drive, &outputs);
+                    let steps = steps.and_then(|it| it.get(sample)).copied().unwrap_or_else(own);
                     walk.advance((sample, steps), drive, &mut state, &rates, &input);
+                    made.push(steps);
                 }
             }
             signals.iter_mut().zip(&outputs).for_each(|(signal, value)| signal.push(*value));
         }
-        (signals, steps)
+        (signals, made)
     }
 
     /// What a seed is kept under, and the change to begin with.
@@ -153,12 +161,12 @@ impl Differences {
         (parameters, start): (&[f64], &[f64]),
         drive: &Drive,
         seed: &Seed,
-        base: &(Signals, usize),
+        base: &(Signals, Vec<usize>),
     ) -> Signals {
         let (key, mut by) = self.change(seed, parameters, start);
         let (mut moved, mut seen) = (Vec::new(), 0.0);
         for attempt in 0..4 {
-            (moved, _) = self.run(&Self::changed(parameters, start, seed, by), drive, Some(base.1));
+            (moved, _) = self.run(&Self::changed(parameters, start, seed, by), drive, Some(&base.1));
             seen = share(&base.0, &moved);
             if attempt == 3 || (SEEN..=1e3 * WANTED).contains(&seen) {
                 break;
@@ -221,7 +229,7 @@ impl Dynamics for Differences {
             seeds.iter().zip(&changes).map(|(seed, by)| Self::changed(parameters, &none, seed, *by));
         let Some(mut lanes) = Lanes::new(self, std::iter::once(plain).chain(changed), drive) else { return };
         let mut state = start.to_vec();
-        let steps = lanes.steps(&state);
+        let least = lanes.steps(&state);
         let count = seeds.len();
         let (mut values, mut slopes) = (vec![0.0; wanted.len()], vec![0.0; wanted.len() * count]);
         let mut advanced = vec![0.0; state.len() * count];
@@ -243,7 +251,7 @@ impl Dynamics for Differences {
                 return;
             }
             lanes.look(sample, &state);
-            lanes.advance(sample, steps);
+            lanes.advance(sample, least);
             state.copy_from_slice(lanes.next(0));
             for (index, value) in state.iter().enumerate() {
                 for (seed, by) in changes.iter().enumerate() {

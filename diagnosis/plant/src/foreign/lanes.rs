@@ -79,9 +79,11 @@ impl<'a> Lanes<'a> {
         }
     }
 
-    /// Goes to the next sample from where they are.
-    pub fn advance(&mut self, sample: usize, steps: usize) {
+    /// Goes to the next sample from where they are, all in the steps that the model asks for there: at least so many.
+    pub fn advance(&mut self, sample: usize, least: usize) {
         let Self { drive, walks, lanes } = self;
+        let Some(first) = lanes.first() else { return };
+        let steps = walks[first.walk].paced(least, drive, &first.outputs);
         for lane in lanes {
             let walk = &mut walks[lane.walk];
             if let Some(set) = &lane.set {

@@ -107,6 +107,13 @@ impl<'a> Walk<'a> {
         self.session.settle(&mut state[..self.own])
     }
 
+    /// Steps to the next sample from where these are the outputs, at least so many: the element's memory is the faster the faster it
+    /// is moved.
+    pub fn paced(&self, least: usize, drive: &Drive, outputs: &[f64]) -> usize {
+        let of = |(beside, set): &(&Beside, Set)| beside.steps(set, drive.step, outputs);
+        self.beside.as_ref().map_or(0, of).max(least).min(MOST_STEPS as usize)
+    }
+
     /// Steps between two samples that the fastest mode about a state asks for.
     pub fn steps(&mut self, state: &[f64], drive: &Drive) -> usize {
         let (states, inputs) = (state.len(), drive.inputs.len());
