@@ -114,12 +114,17 @@ fn the_voltage_of_a_coil_sets_the_yield_force() {
     let Some(records) = real("real/mr-damper-random") else { return };
     let (report, phi) = diagnose_element("voltage", &records, "a.csv", &["b.csv"]);
     assert!(phi >= 0.76, "Φ = {phi}");
-    assert_eq!(named(&report), ["32nt"]);
-    let parameters = report["effects"][0]["parameters"].as_array().expect("a list");
+    // What yields without a voltage builds up over a tenth of a millimetre after each reversal.
+    assert_eq!(named(&report), ["32nt", "03"]);
+    let effects = report["effects"].as_array().expect("a list");
+    let parameters: Vec<&Value> =
+        effects.iter().flat_map(|it| it["parameters"].as_array().expect("a list")).collect();
     let of = |name: &str| parameters.iter().find(|it| it["name"] == name).expect(name);
     let value = |name: &str, field: &str| of(name)[field].as_f64().expect("a number");
-    let force = value("control.yield_force", "value");
-    assert!((force / 354.0 - 1.0).abs() < 0.25, "{force} N");
+    for (name, by_hand) in [("control.yield_force", 354.0), ("hysteresis.presliding.force", 235.0)] {
+        let force = value(name, "value");
+        assert!((force / by_hand - 1.0).abs() < 0.25, "{name} = {force} N");
+    }
     assert!(value("control.lag", "low") > 0.0 && value("control.lag", "high") < 0.02);
 }
 
@@ -133,7 +138,9 @@ fn a_force_that_follows_another_column_is_told() {
         let text = std::fs::read_to_string(records.join(record)).expect("a record");
         std::fs::write(unnamed.join(record), text.replacen("voltage [V]", "dial [1]", 1)).expect("a record");
     }
-    let (report, phi) = diagnose_element("random", &unnamed, "a.csv", &["b.csv"]);
+    let (report, _) = diagnose_element("random", &unnamed, "a.csv", &["b.csv"]);
+    // Friction before it slides answers the noise of the motion, which a smooth law by hand does not.
+    let phi = report["signals"][0]["fit_without_input_noise"].as_f64().expect("a number");
     assert!(phi >= 0.60, "Φ = {phi}");
     let unmodelled = report["unmodelled"].as_array().expect("a list");
     let voltage = unmodelled.iter().find(|it| it["depends_on"][0] == "column dial").expect("the voltage");
