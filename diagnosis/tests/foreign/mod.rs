@@ -252,7 +252,7 @@ fn with_strut(folder: &TempDir) -> Plant {
     Foreign { fmu, parameters: Vec::new(), locals: Vec::new(), strut: Some(strut) }.plant().unwrap()
 }
 
-/// A sine of 10 mm: so many samples of a millisecond, and so many rad in each.
+/// A sine of 10 mm, sampled every millisecond; `turned` is its angle per sample in rad.
 fn on_a_road(plant: &Plant, samples: u32, turned: f64) -> Drive {
     let mut inputs = vec![vec![0.0; samples as usize]; plant.inputs.len()];
     inputs[plant.input("z_r").unwrap()] =

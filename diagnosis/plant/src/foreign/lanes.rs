@@ -79,7 +79,7 @@ impl<'a> Lanes<'a> {
         }
     }
 
-    /// Goes to the next sample from where they are, all in the steps that the model asks for there: at least so many.
+    /// Goes to the next sample from where they are. All make the same number of steps, `least` or what the model needs there.
     pub fn advance(&mut self, sample: usize, least: usize) {
         let Self { drive, walks, lanes } = self;
         let Some(first) = lanes.first() else { return };

@@ -107,8 +107,7 @@ impl<'a> Walk<'a> {
         self.session.settle(&mut state[..self.own])
     }
 
-    /// Steps to the next sample from where these are the outputs, at least so many: the element's memory is the faster the faster it
-    /// is moved.
+    /// Number of steps to the next sample: `least`, or more where the element moves fast, as its memory then changes fast.
     pub fn paced(&self, least: usize, drive: &Drive, outputs: &[f64]) -> usize {
         let of = |(beside, set): &(&Beside, Set)| beside.steps(set, drive.step, outputs);
         self.beside.as_ref().map_or(0, of).max(least).min(MOST_STEPS as usize)
