@@ -116,7 +116,7 @@ fn the_voltage_of_a_coil_sets_the_yield_force() {
     assert!(phi >= 0.76, "Φ = {phi}");
     // What yields without a voltage builds up after each reversal, with or without a backlash of micrometres.
     let found = named(&report);
-    assert!(found.len() == 2 && found[0] == "32nt" && ["03", "03b"].contains(&&*found[1]), "{found:?}");
+    assert!(found == ["32nt", "03"] || found == ["32nt", "03b"], "{found:?}");
     let effects = report["effects"].as_array().expect("a list");
     let parameters: Vec<&Value> =
         effects.iter().flat_map(|it| it["parameters"].as_array().expect("a list")).collect();
