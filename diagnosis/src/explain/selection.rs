@@ -1,5 +1,7 @@
 //! Which candidate explains what is missing: by the estimation records, and whether the validation records agree.
 
+use std::ops::Range;
+
 use nalgebra::DVector;
 
 use crate::catalogue::{Element, Scale, Table, distortion};
@@ -9,8 +11,7 @@ use crate::decision::criteria::CRITERIA;
 use crate::estimation::hypothesis::{Baseline, Term};
 use crate::estimation::unknowns::{Estimate, FreeParameter, Unknown};
 use crate::missing::Missing;
-use crate::missing::innovations::{Block, Column, Noise};
-use crate::missing::likelihood::{Amounts, Sums};
+use crate::missing::innovations::{Column, Columns, Noise, Stretch};
 use crate::screening::Probe;
 
 use super::candidates::{Candidates, Kind};
@@ -50,33 +51,36 @@ pub struct Compared {
 impl Baseline<'_> {
     /// Compares all candidates to what is missing.
     pub fn compared(&self, missing: &Missing<'_>, candidates: Candidates, noise: &Noise) -> Option<Compared> {
-        let blocks = missing.setting.innovations(&missing.windows, noise, &candidates.columns);
-        let own = missing.nuisances();
-        let first = own.len() + 1;
-        let of = |train: bool| move |block: &&Block| (block.record < missing.train) == train;
-        let train = Sums::of(blocks.iter().filter(of(true)))?;
-        let test = Sums::of(blocks.iter().filter(of(false)));
-        let before = train.fitted(&own, &missing.precisions)?;
-        let misses = before.left / (train.count as f64).max(1.0);
-        let held_out = test.as_ref().and_then(|sums| Some((sums, sums.fitted(&own, &missing.precisions)?)));
+        let ranges: Vec<Range<usize>> = candidates.list.iter().map(|it| it.columns.clone()).collect();
+        let beside = Columns { windows: &candidates.columns, candidates: &ranges };
+        let stretches = missing.setting.innovations(&missing.windows, noise, beside);
+        let of = |train: bool| Stretch::total(&stretches, missing.train, train);
+        let (train, test) = (of(true)?, of(false));
+        let known = train.known();
+        let before = known.fitted(&missing.precisions)?;
+        let misses = before.left / (known.count as f64).max(1.0);
+        let held_out = test.as_ref().and_then(|sums| {
+            let known = sums.known();
+            Some((sums, known.fitted(&missing.precisions)?.left, known.count))
+        });
         let (mut named, mut features) = (Vec::new(), Vec::new());
         let (mut all_amounts, mut points) = (Vec::new(), Vec::new());
         for (number, candidate) in candidates.list.iter().enumerate() {
-            let columns: Vec<usize> =
-                own.iter().copied().chain(candidate.columns.clone().map(|it| first + it)).collect();
-            let mut precisions = missing.precisions.clone();
-            precisions.resize(columns.len(), 0.0);
-            let fitted = train.fitted(&columns, &precisions);
-            let amounts: Vec<f64> =
-                fitted.as_ref().map_or(Vec::new(), |it| it.values.iter().skip(own.len()).copied().collect());
+            let precisions = missing.precisions_beside(candidate.columns.len());
+            let fitted = train.with(number).fitted(&precisions);
+            let amounts: Vec<f64> = fitted
+                .as_ref()
+                .map_or(Vec::new(), |it| it.values.iter().skip(missing.precisions.len()).copied().collect());
             all_amounts.push(amounts.clone());
             points.push(None);
             let Some(fitted) = fitted else { continue };
-            let chance = (candidate.columns.len() as f64) * (train.count as f64).ln();
+            let chance = (candidate.columns.len() as f64) * (known.count as f64).ln();
             let gain = before.left - fitted.left - chance;
-            let validated = held_out
-                .as_ref()
-                .map_or(0.0, |(sums, before)| before.left - with_amounts(sums, missing, &columns, &fitted));
+            // What is left of other records with these amounts, nuisances being fitted there.
+            let validated = held_out.map_or(0.0, |(sums, before, _)| {
+                let left = sums.with(number).moved(&amounts).fitted(&missing.precisions);
+                before - left.map_or(f64::INFINITY, |it| it.left)
+            });
             // Reductions of the sums of squares; shares need all candidates.
             let mut score = Score { candidate: number, share: gain, validated };
             match &candidate.kind {
@@ -100,8 +104,8 @@ impl Baseline<'_> {
         // Less than one, as no sensor is believed beyond its accuracy.
         let quiet = missing.setting.floors.iter().zip(&noise.outputs).map(|(floor, error)| floor / error);
         let quiet = quiet.sum::<f64>() / noise.outputs.len().max(1) as f64;
-        let held_out = held_out.map_or((0.0, 0), |(sums, before)| (before.left, sums.count));
-        in_shares(&mut [&mut named, &mut features], quiet, [(before.left, train.count), held_out]);
+        let held_out = held_out.map_or((0.0, 0), |(_, left, count)| (left, count));
+        in_shares(&mut [&mut named, &mut features], quiet, [(before.left, known.count), held_out]);
         Some(Compared {
             candidates,
             misses,
@@ -168,27 +172,6 @@ fn is_possible(group: Group, amounts: &[f64], peaks: &[f64]) -> bool {
         _ => false,
     };
     !light && amounts.iter().zip(peaks).all(|(amount, peak)| amount.abs() * peak < CRITERIA.largest)
-}
-
-/// What is left of other records with a candidate's amounts, nuisances being fitted there.
-fn with_amounts(sums: &Sums, missing: &Missing<'_>, columns: &[usize], fitted: &Amounts) -> f64 {
-    let known = missing.precisions.len();
-    let mut moved = sums.clone();
-    // The record less the candidate takes the record's place.
-    let size = moved.normal.nrows();
-    for (column, value) in columns.iter().zip(fitted.values.iter()).skip(known) {
-        for other in 0..size {
-            moved.normal[(other, 0)] += value * sums.normal[(other, *column)];
-        }
-    }
-    let own = || columns.iter().zip(fitted.values.iter()).skip(known);
-    let mut corner = sums.normal[(0, 0)];
-    for (a, x) in own() {
-        corner += 2.0 * x * sums.normal[(*a, 0)];
-        corner += own().map(|(b, y)| x * y * sums.normal[(*a, *b)]).sum::<f64>();
-    }
-    moved.normal[(0, 0)] = corner;
-    moved.fitted(&columns[..known], &missing.precisions).map_or(f64::INFINITY, |it| it.left)
 }
 
 impl Compared {

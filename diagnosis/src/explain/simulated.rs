@@ -1,8 +1,7 @@
 //! Candidates in a simulation, where errors add up, and not from sample to sample.
 
 use crate::missing::Missing;
-use crate::missing::innovations::Noise;
-use crate::missing::likelihood::Sums;
+use crate::missing::innovations::{Columns, Noise, Stretch};
 
 use super::selection::Compared;
 
@@ -23,14 +22,12 @@ impl Compared {
             outputs: magnitudes.iter().map(|it| it * it).collect(),
             simulated: Some(length),
         };
-        let blocks = missing.setting.innovations(&missing.windows, &noise, &columns);
-        let sums = Sums::of(blocks.iter().filter(|block| block.record < missing.train))?;
-        let own = missing.nuisances();
-        let all: Vec<usize> = (1..=own.len() + self.candidates.list[candidate].columns.len()).collect();
-        let mut precisions = missing.precisions.clone();
-        precisions.resize(all.len(), 0.0);
-        let before = sums.fitted(&own, &missing.precisions)?.left;
-        let after = sums.fitted(&all, &precisions)?.left;
+        let own = 0..self.candidates.list[candidate].columns.len();
+        let beside = Columns { windows: &columns, candidates: std::slice::from_ref(&own) };
+        let stretches = missing.setting.innovations(&missing.windows, &noise, beside);
+        let normal = Stretch::total(&stretches, missing.train, true)?.with(0);
+        let before = normal.fitted(&missing.precisions)?.left;
+        let after = normal.fitted(&missing.precisions_beside(own.len()))?.left;
         (before > 0.0).then(|| 1.0 - after / before)
     }
 }

@@ -1,14 +1,16 @@
 //! Records and candidates through the same filter: what is left is white, and its sums of squares are likelihoods.
 
-use nalgebra::DMatrix;
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::filter::{Filter, Passed, Smoothed, smoothed};
+use super::likelihood::Sums;
 use super::ports::{Entry, Port};
 use super::trajectory::{MEMORY, ROUNDING, Setting, Window};
 
-/// Length of the blocks of time over which sums are kept apart, in seconds.
-const BLOCK: f64 = 0.5;
+/// Measurements of which the innovations are summed in one go.
+const TOGETHER: usize = 256;
 
 /// How much signal is missing at each port, and how noisy each output is.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,19 +65,30 @@ impl Window {
     }
 }
 
-/// Sums over a block of time.
+/// Candidates that pass the filter beside the record.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Columns<'a> {
+    /// All their columns, in each window.
+    pub windows: &'a [Vec<Column>],
+    /// Which of these columns are each one's.
+    pub candidates: &'a [Range<usize>],
+}
+
+/// Sums over a window's innovations.
 #[derive(Clone, Debug)]
-pub struct Block {
+pub struct Stretch {
     /// Number of the record.
     pub record: usize,
-    /// First sample in the record.
-    pub sample: usize,
-    /// Products of all columns' innovations over their variances: the record first, then parameters, then candidates.
-    pub normal: DMatrix<f64>,
-    /// Sum of the logarithms of the variances.
-    pub log_variance: f64,
-    /// Number of innovations.
-    pub count: usize,
+    /// Sums over the innovations of the record, of what parameters and timing change, and of the candidates.
+    pub sums: Sums,
+}
+
+impl Stretch {
+    /// Sums over the estimation records, of which there are so many, or over the others.
+    pub fn total(stretches: &[Self], train: usize, of_train: bool) -> Option<Sums> {
+        let own = stretches.iter().filter(|it| (it.record < train) == of_train);
+        Sums::of(own.map(|it| &it.sums))
+    }
 }
 
 /// Which of a window's ports are in the filter, and how their signals show.
@@ -154,29 +167,37 @@ impl Setting<'_> {
     }
 
     /// The record of each window, the change by each parameter, and the candidates through the filter.
-    pub fn innovations(&self, windows: &[Window], noise: &Noise, candidates: &[Vec<Column>]) -> Vec<Block> {
-        let none = Vec::new();
-        let own = |index: usize| candidates.get(index).unwrap_or(&none);
+    pub fn innovations(&self, windows: &[Window], noise: &Noise, beside: Columns<'_>) -> Vec<Stretch> {
         let parts = windows.par_iter().enumerate();
-        parts.flat_map(|(index, window)| self.through(window, noise, own(index))).collect()
+        let of = |(index, window): (usize, &Window)| {
+            let columns = beside.windows.get(index).map_or(&[][..], |it| it);
+            let sums = self.through(window, noise, (columns, beside.candidates));
+            Stretch { record: window.record, sums }
+        };
+        parts.map(of).collect()
     }
 
-    fn through(&self, window: &Window, noise: &Noise, candidates: &[Column]) -> Vec<Block> {
+    fn through(
+        &self,
+        window: &Window,
+        noise: &Noise,
+        (candidates, ranges): (&[Column], &[Range<usize>]),
+    ) -> Sums {
         let entered = Entered::new(window, self.ports, noise);
         let (n, m, width, own) = (window.states, window.outputs, window.width, entered.width());
         let decay = (-window.step / MEMORY).exp();
         let parameters = self.parameters.len();
-        let columns = 1 + parameters + window.timing.len() + candidates.len();
+        let known = 1 + parameters + window.timing.len();
+        let columns = known + candidates.len();
         let start = self.variances(&entered);
         let mut filter = Filter::new(&start, columns);
         let restart = noise.simulated.map_or(usize::MAX, |length| ((length / window.step) as usize).max(2));
         let (driven, mut spread) = (self.driven(&entered, noise, decay), Vec::new());
         let samples = window.samples.len();
-        let length = ((BLOCK / window.step).round() as usize).max(4);
         let (mut h, mut a) = (vec![0.0; own], vec![0.0; own * own]);
         let (mut y, mut input) = (vec![0.0; columns], vec![0.0; own * columns]);
-        let mut rows: Vec<f64> = Vec::new();
-        let mut blocks = Vec::new();
+        let mut rows: Vec<f64> = Vec::with_capacity(columns * (TOGETHER + m));
+        let mut sums = Sums::none(known, ranges);
         let mut log_variance = 0.0;
         for sample in 0..samples {
             if sample % restart == 0 {
@@ -202,16 +223,8 @@ impl Setting<'_> {
                 rows.extend(y.iter().map(|it| it * scale));
                 log_variance += update.variance.ln();
             }
-            if (sample + 1) % length == 0 || sample + 1 == samples {
-                let count = rows.len() / columns;
-                let all = DMatrix::from_column_slice(columns, count, &rows);
-                blocks.push(Block {
-                    record: window.record,
-                    sample: window.samples.start + sample - sample % length,
-                    normal: &all * all.transpose(),
-                    log_variance,
-                    count,
-                });
+            if rows.len() >= columns * TOGETHER || sample + 1 == samples {
+                sums.take(&rows, log_variance);
                 rows.clear();
                 log_variance = 0.0;
             }
@@ -232,7 +245,7 @@ impl Setting<'_> {
             entered.transition(sample, decay, &mut a);
             filter.predict(&a, &input, window.driven(noise, &driven, sample, &mut spread));
         }
-        blocks
+        sums
     }
 
     /// The deviation from the trajectory and the missing signals of a window by all its data: states first, then the ports
@@ -357,9 +370,12 @@ mod tests {
         let window = window(&drives, &measured);
         // The candidate is what drives it, so that nothing but what is measured is left with it.
         let candidate = Column { next: drives.map(|it| it as f32).to_vec(), outputs: vec![] };
-        let blocks = |length: f64| {
+        let (columns, only) = ([vec![candidate]], 0..1);
+        let normal = |length: f64| {
             let noise = Noise { ports: vec![], outputs: vec![0.25], simulated: Some(length) };
-            setting.innovations(std::slice::from_ref(&window), &noise, &[vec![candidate.clone()]])
+            let beside = Columns { windows: &columns, candidates: std::slice::from_ref(&only) };
+            let stretches = setting.innovations(std::slice::from_ref(&window), &noise, beside);
+            Stretch::total(&stretches, 1, true).unwrap().with(0)
         };
         let squares = |restart: usize| {
             let (mut state, mut all) = (0.0, 0.0);
@@ -370,12 +386,10 @@ mod tests {
             all
         };
         for (length, restart) in [(1.0, 6), (0.03, 3)] {
-            let blocks = blocks(length);
-            let sum: f64 = blocks.iter().map(|it| it.normal[(0, 0)]).sum();
+            let sum = normal(length).products[(0, 0)];
             assert!((sum - squares(restart)).abs() < 1e-5, "{sum} and {}", squares(restart));
         }
-        let all: DMatrix<f64> = blocks(1.0).iter().map(|it| it.normal.clone()).sum();
-        let without = all[(0, 0)] - 2.0 * all[(0, 1)] + all[(1, 1)];
+        let without = normal(1.0).moved(&[-1.0]).products[(0, 0)];
         let left: f64 = measured.iter().map(|it| it * it / 0.25).sum();
         assert!((without - left).abs() < 1e-5, "{without} and {left}");
     }

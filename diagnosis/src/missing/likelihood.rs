@@ -1,89 +1,148 @@
 //! Likelihoods and amounts from sums of squared innovations.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 
-use super::innovations::Block;
-
-/// Sums over some blocks.
+/// Sums over the innovations of a stretch of a record: what a comparison of candidates needs of them. Candidates are compared and
+/// never fitted together, so no products of two candidates' columns are among them.
 #[derive(Clone, Debug)]
 pub struct Sums {
-    /// Products of all columns' innovations over their variances.
-    pub normal: DMatrix<f64>,
+    /// Each candidate's columns, among all candidates'.
+    candidates: Vec<Range<usize>>,
+    /// Products of the record's and the nuisances' innovations with all columns' innovations, over their variances.
+    shared: DMatrix<f64>,
+    /// Products of each candidate's columns with one another.
+    own: Vec<DMatrix<f64>>,
+    /// Sum of the logarithms of the variances.
+    log_variance: f64,
+    /// Number of innovations.
+    count: usize,
+}
+
+impl Sums {
+    /// Of no innovations: `known` columns are the record's and the nuisances'; those of the candidates follow.
+    pub fn none(known: usize, candidates: &[Range<usize>]) -> Self {
+        let columns = known + candidates.iter().map(|it| it.end).max().unwrap_or(0);
+        Self {
+            candidates: candidates.to_vec(),
+            shared: DMatrix::zeros(known, columns),
+            own: candidates.iter().map(|it| DMatrix::zeros(it.len(), it.len())).collect(),
+            log_variance: 0.0,
+            count: 0,
+        }
+    }
+
+    /// Takes in innovations, one measurement's of all columns after the other, over their standard deviations.
+    pub fn take(&mut self, innovations: &[f64], log_variance: f64) {
+        let (known, columns) = self.shared.shape();
+        let count = innovations.len() / columns;
+        let all = DMatrix::from_column_slice(columns, count, innovations);
+        self.shared.gemm(1.0, &all.rows(0, known), &all.transpose(), 1.0);
+        for (range, own) in self.candidates.iter().zip(&mut self.own) {
+            for measurement in innovations.chunks_exact(columns) {
+                let measurement = &measurement[known..][range.clone()];
+                for (mut column, by) in own.column_iter_mut().zip(measurement) {
+                    column.iter_mut().zip(measurement).for_each(|(sum, it)| *sum += it * by);
+                }
+            }
+        }
+        self.log_variance += log_variance;
+        self.count += count;
+    }
+
+    /// Of several stretches.
+    pub fn of<'a>(mut stretches: impl Iterator<Item = &'a Self>) -> Option<Self> {
+        let mut sums = stretches.next()?.clone();
+        for stretch in stretches {
+            sums.shared += &stretch.shared;
+            sums.own.iter_mut().zip(&stretch.own).for_each(|(all, more)| *all += more);
+            sums.log_variance += stretch.log_variance;
+            sums.count += stretch.count;
+        }
+        Some(sums)
+    }
+
+    /// The record and the nuisances.
+    pub fn known(&self) -> Normal {
+        let known = self.shared.nrows();
+        self.normal(self.shared.columns(0, known).into_owned())
+    }
+
+    /// The record, the nuisances, and a candidate behind them.
+    pub fn with(&self, candidate: usize) -> Normal {
+        let (known, range, own) = (self.shared.nrows(), &self.candidates[candidate], &self.own[candidate]);
+        let size = known + range.len();
+        let column = |index: usize| if index < known { index } else { index + range.start };
+        self.normal(DMatrix::from_fn(size, size, |i, j| match (i.checked_sub(known), j.checked_sub(known)) {
+            (Some(i), Some(j)) => own[(i, j)],
+            (None, _) => self.shared[(i, column(j))],
+            (Some(_), None) => self.shared[(j, column(i))],
+        }))
+    }
+
+    fn normal(&self, products: DMatrix<f64>) -> Normal {
+        Normal { products, log_variance: self.log_variance, count: self.count }
+    }
+}
+
+/// The normal equations of some columns: the record's first.
+#[derive(Clone, Debug)]
+pub struct Normal {
+    /// Products of the columns' innovations over their variances.
+    pub products: DMatrix<f64>,
     /// Sum of the logarithms of the variances.
     pub log_variance: f64,
     /// Number of innovations.
     pub count: usize,
 }
 
-/// Amounts of some columns that fit the record best.
+/// Amounts of the columns behind the record that fit it best.
 #[derive(Clone, Debug)]
 pub struct Amounts {
-    /// The columns, by their numbers.
-    pub columns: Vec<usize>,
     /// How much there is of each.
     pub values: DVector<f64>,
-    /// Their covariance as if the innovations were white.
-    pub covariance: DMatrix<f64>,
     /// What is left of the record's sum of squares, priors included.
     pub left: f64,
 }
 
-impl Sums {
-    /// Of some blocks.
-    pub fn of<'a>(blocks: impl Iterator<Item = &'a Block>) -> Option<Self> {
-        let mut sums: Option<Self> = None;
-        for block in blocks {
-            let sums = sums.get_or_insert_with(|| Self {
-                normal: DMatrix::zeros(block.normal.nrows(), block.normal.ncols()),
-                log_variance: 0.0,
-                count: 0,
-            });
-            sums.normal += &block.normal;
-            sums.log_variance += block.log_variance;
-            sums.count += block.count;
-        }
-        sums
-    }
-
-    /// The best amounts of some columns, with the precision that is known of each before; none where columns do the same.
-    pub fn fitted(&self, columns: &[usize], precisions: &[f64]) -> Option<Amounts> {
-        let n = columns.len();
-        let size: Vec<f64> = columns
-            .iter()
-            .zip(precisions)
-            .map(|(it, more)| (self.normal[(*it, *it)] + more).sqrt())
-            .collect();
+impl Normal {
+    /// The best amounts of the first columns behind the record, with the precision that is known of each before; none where columns
+    /// do the same.
+    pub fn fitted(&self, precisions: &[f64]) -> Option<Amounts> {
+        let n = precisions.len();
+        let product = |i: usize, j: usize| self.products[(i + 1, j + 1)];
+        let size: Vec<f64> = (0..n).map(|it| (product(it, it) + precisions[it]).sqrt()).collect();
         let scaled = DMatrix::from_fn(n, n, |i, j| {
             if size[i] == 0.0 || size[j] == 0.0 {
                 return f64::from(i == j);
             }
             let prior = if i == j { precisions[i] } else { 0.0 };
             let ridge = if i == j { 1e-9 } else { 0.0 };
-            (self.normal[(columns[i], columns[j])] + prior) / size[i] / size[j] + ridge
+            (product(i, j) + prior) / size[i] / size[j] + ridge
         });
-        let right =
-            DVector::from_fn(
-                n,
-                |i, _| {
-                    if size[i] == 0.0 { 0.0 } else { -self.normal[(columns[i], 0)] / size[i] }
-                },
-            );
+        let unscale = |i: usize| if size[i] == 0.0 { 0.0 } else { 1.0 / size[i] };
+        let right = DVector::from_fn(n, |i, _| -self.products[(i + 1, 0)] * unscale(i));
         let factor = scaled.cholesky()?;
         let solved = factor.solve(&right);
-        let unscale = |i: usize| if size[i] == 0.0 { 0.0 } else { 1.0 / size[i] };
-        let inverse = factor.inverse();
         Some(Amounts {
-            columns: columns.to_vec(),
             values: DVector::from_fn(n, |i, _| solved[i] * unscale(i)),
-            covariance: DMatrix::from_fn(n, n, |i, j| inverse[(i, j)] * unscale(i) * unscale(j)),
-            left: self.normal[(0, 0)] - solved.dot(&right),
+            left: self.products[(0, 0)] - solved.dot(&right),
         })
     }
 
-    /// Logarithm of the likelihood, the first `parameters` columns behind the record being fitted.
+    /// The record plus the last columns times these amounts, in place of those columns.
+    #[must_use]
+    pub fn moved(&self, amounts: &[f64]) -> Self {
+        let known = self.products.nrows() - amounts.len();
+        let mut change = DMatrix::identity(known, self.products.nrows());
+        change.view_mut((0, known), (1, amounts.len())).copy_from_slice(amounts);
+        Self { products: &change * &self.products * change.transpose(), ..*self }
+    }
+
+    /// Logarithm of the likelihood, the first columns behind the record being fitted.
     pub fn log_likelihood(&self, precisions: &[f64]) -> f64 {
-        let columns: Vec<usize> = (1..=precisions.len()).collect();
-        let left = self.fitted(&columns, precisions).map_or(self.normal[(0, 0)], |it| it.left);
+        let left = self.fitted(precisions).map_or(self.products[(0, 0)], |it| it.left);
         -0.5 * (left + self.log_variance)
     }
 }

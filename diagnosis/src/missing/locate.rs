@@ -1,7 +1,7 @@
 //! Where a signal is missing.
 
 use super::Missing;
-use super::innovations::{Column, Noise};
+use super::innovations::{Column, Columns, Noise};
 use super::likelihood::Sums;
 
 /// Shares of a port's size that are tried as the standard deviation of what is missing there.
@@ -43,11 +43,12 @@ impl Missing<'_> {
 
     /// With columns, one list for each window, that are fitted along.
     fn log_likelihood_with(&self, noise: &Noise, columns: &[Vec<Column>]) -> f64 {
-        let blocks = self.setting.innovations(&self.windows, noise, columns);
-        let mut precisions = self.precisions.clone();
-        precisions.resize(precisions.len() + columns.first().map_or(0, Vec::len), 0.0);
-        let likelihood =
-            Sums::of(blocks.iter()).map_or(f64::NEG_INFINITY, |it| it.log_likelihood(&precisions));
+        let own = 0..columns.first().map_or(0, Vec::len);
+        let beside = Columns { windows: columns, candidates: std::slice::from_ref(&own) };
+        let stretches = self.setting.innovations(&self.windows, noise, beside);
+        let sums = Sums::of(stretches.iter().map(|it| &it.sums));
+        let precisions = self.precisions_beside(own.len());
+        let likelihood = sums.map_or(f64::NEG_INFINITY, |it| it.with(0).log_likelihood(&precisions));
         if likelihood.is_finite() { likelihood } else { f64::NEG_INFINITY }
     }
 

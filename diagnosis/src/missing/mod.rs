@@ -292,9 +292,10 @@ impl Missing<'_> {
         self.stated.iter().fold(self.setting.point.clone(), |point, law| law.at(&point))
     }
 
-    /// Numbers of the columns that are fitted whatever is looked for.
-    pub fn nuisances(&self) -> Vec<usize> {
-        (1..=self.precisions.len()).collect()
+    /// What was known of each nuisance before, and nothing of a candidate's columns behind them.
+    pub fn precisions_beside(&self, columns: usize) -> Vec<f64> {
+        let candidate = std::iter::repeat_n(&0.0, columns);
+        self.precisions.iter().chain(candidate).copied().collect()
     }
 
     /// Takes columns, one for each window, as explained: they are fitted along from here on.

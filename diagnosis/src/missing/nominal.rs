@@ -7,8 +7,8 @@ use crate::estimation::hypothesis::Baseline;
 use crate::estimation::unknowns::{Estimate, Unknown};
 
 use super::Frame;
-use super::innovations::Noise;
-use super::likelihood::{Amounts, Sums};
+use super::innovations::{Columns, Noise, Stretch};
+use super::likelihood::Amounts;
 
 /// Least share of a nominal value that a parameter is believed to have, where it cannot be zero.
 const LEAST: f64 = 0.3;
@@ -143,13 +143,12 @@ impl Baseline<'_> {
         point: &Estimate,
     ) -> Result<Option<(f64, Amounts)>, String> {
         let (setting, windows) = self.along(about, point)?;
-        let columns: Vec<usize> = (1..=precisions.len()).collect();
         let tried = shares.iter().filter_map(|share| {
             let noise =
                 Noise { ports: setting.shared(*share), outputs: setting.noise.clone(), simulated: None };
-            let blocks = setting.innovations(&windows, &noise, &[]);
-            let sums = Sums::of(blocks.iter().filter(|block| block.record < self.train.len()))?;
-            Some((sums.log_likelihood(precisions), sums.fitted(&columns, precisions)?))
+            let stretches = setting.innovations(&windows, &noise, Columns::default());
+            let normal = Stretch::total(&stretches, self.train.len(), true)?.known();
+            Some((normal.log_likelihood(precisions), normal.fitted(precisions)?))
         });
         Ok(tried.filter(|(likelihood, _)| likelihood.is_finite()).max_by(|a, b| a.0.total_cmp(&b.0)))
     }
