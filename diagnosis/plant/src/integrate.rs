@@ -125,11 +125,22 @@ impl<'a, M: Model, R: Scalar> Run<'a, M, R> {
         self.memory = Bundle::from_fn(|i| R::from(numbers[i]));
     }
 
-    /// Goes from the state at a sample to the next one and hands out the states there, by their index.
-    pub fn advanced(&mut self, sample: usize, input: impl Fn(usize, f64) -> R, put: impl FnMut(usize, R)) {
-        let (first, rates) = self.outputs(sample, &input, |_, _| {});
-        self.reach_next(sample, &first, &rates, input);
+    /// Goes from the state at a sample, where inputs and rates are known, to the next one and hands out the states there, by their
+    /// index.
+    pub fn advanced(
+        &mut self,
+        sample: usize,
+        (first, rates): &(M::Input<R>, M::State<R>),
+        input: impl Fn(usize, f64) -> R,
+        put: impl FnMut(usize, R),
+    ) {
+        self.reach_next(sample, first, rates, input);
         self.state.for_each(put);
+    }
+
+    /// Whether it has a sampled part, which changes where no state moves.
+    pub fn is_sampled(&self) -> bool {
+        self.period.is_some()
     }
 
     /// Goes from a sample, where input and rates are known, to the next; the largest need of its steps, as [`Pace::need`].

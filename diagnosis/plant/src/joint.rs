@@ -228,6 +228,10 @@ impl Summed<'_> {
 }
 
 impl Follower for Summed<'_> {
+    fn given(&self) -> Option<&[usize]> {
+        self.follower.given()
+    }
+
     fn state(&mut self, sample: usize, state: &mut [f64]) {
         self.follower.state(sample, state);
     }

@@ -19,6 +19,12 @@ pub struct Seen<'a> {
 
 /// Follows a model from sample to sample, and says from which state it goes on.
 pub trait Follower {
+    /// The states that it replaces at every sample, if it does not ask what follows of them: as long as all others rest, nothing is
+    /// integrated.
+    fn given(&self) -> Option<&[usize]> {
+        None
+    }
+
     /// The state at a sample, as predicted, before anything is computed from it: it may be replaced.
     fn state(&mut self, sample: usize, state: &mut [f64]);
 
@@ -97,12 +103,17 @@ fn follow<M: Model, R: Scalar>(
     let mut rates = vec![0.0; state.len()];
     let (mut values, mut slopes) = (vec![0.0; wanted.len()], vec![0.0; wanted.len() * seeds]);
     let mut advanced = vec![0.0; state.len() * seeds];
+    let others: Option<Vec<usize>> =
+        follower.given().map(|given| (0..state.len()).filter(|it| !given.contains(it)).collect());
+    let mut rests = others.is_some() && lanes.iter().all(|it| !it.run.is_sampled());
+    let mut known = Vec::with_capacity(lanes.len());
     for sample in 0..drive.len() {
         follower.state(sample, &mut state);
+        known.clear();
         for lane in &mut lanes {
             lane.run.place(|i| seeded(state[i], i, &lane.seeds));
             let at = |i: usize, share: f64| input(&lane.seeding, (i, sample, share));
-            let (_, own) = lane.run.outputs(sample, at, |output, value| {
+            let (first, own) = lane.run.outputs(sample, at, |output, value| {
                 let Some(row) = rows[output] else { return };
                 values[row] = value.number();
                 for (seed, slope) in lane.seeds.iter().zip(value.slopes()) {
@@ -110,25 +121,28 @@ fn follow<M: Model, R: Scalar>(
                 }
             });
             own.for_each(|index, rate| rates[index] = rate.number());
+            known.push((first, own));
         }
         let seen = Seen { outputs: &values, slopes: &slopes, rates: &rates };
+        let before = state.clone();
         follower.seen(sample, seen, &mut state);
-        if sample + 1 == drive.len() {
-            return;
+        rests = rests && others.iter().flatten().all(|it| rates[*it] == 0.0);
+        if sample + 1 == drive.len() || rests {
+            continue;
         }
         let mut next = state.clone();
-        for lane in &mut lanes {
-            lane.run.place(|i| seeded(state[i], i, &lane.seeds));
-            lane.run.advanced(
-                sample,
-                |i, share| input(&lane.seeding, (i, sample, share)),
-                |index, value| {
-                    next[index] = value.number();
-                    for (seed, slope) in lane.seeds.iter().zip(value.slopes()) {
-                        advanced[index * seeds + seed] = *slope;
-                    }
-                },
-            );
+        for (lane, known) in lanes.iter_mut().zip(&mut known) {
+            let at = |i: usize, share: f64| input(&lane.seeding, (i, sample, share));
+            if state != before {
+                lane.run.place(|i| seeded(state[i], i, &lane.seeds));
+                *known = lane.run.outputs(sample, at, |_, _| {});
+            }
+            lane.run.advanced(sample, known, at, |index, value| {
+                next[index] = value.number();
+                for (seed, slope) in lane.seeds.iter().zip(value.slopes()) {
+                    advanced[index * seeds + seed] = *slope;
+                }
+            });
         }
         follower.advanced(sample, &next, &advanced);
         state = next;

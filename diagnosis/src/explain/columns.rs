@@ -238,6 +238,10 @@ impl Along<'_> {
 }
 
 impl Follower for Along<'_> {
+    fn given(&self) -> Option<&[usize]> {
+        Some(self.active)
+    }
+
     fn state(&mut self, sample: usize, state: &mut [f64]) {
         for index in self.active {
             state[*index] = self.window.trajectory[sample][*index];

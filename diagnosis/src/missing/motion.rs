@@ -38,6 +38,10 @@ struct All<'a> {
 }
 
 impl Follower for All<'_> {
+    fn given(&self) -> Option<&[usize]> {
+        Some(self.active)
+    }
+
     fn state(&mut self, sample: usize, state: &mut [f64]) {
         for index in self.active {
             state[*index] = self.window.trajectory[sample][*index];
