@@ -60,8 +60,7 @@ pub struct Confirmed {
 
 impl Baseline<'_> {
     fn tried(&self, base: &Fitted, null: &Fitted, proposal: &Proposal) -> Tried {
-        let mut terms = null.terms.clone();
-        terms.push(proposal.term);
+        let terms = self.terms_with(null, proposal.term);
         // From where the fit without the effect is, and from where the smoother is.
         let own = self.own_coordinates(proposal.term);
         let with = |start: &Estimate, parameters: &[f64]| {
@@ -80,6 +79,17 @@ impl Baseline<'_> {
             false => self.fitted(&terms, &starts, comparing(base, null)),
         };
         self.weighed(base, null, proposal.term, fitted)
+    }
+
+    /// The terms of a fit and another one, in the place of those that it has as limits of its own parameters: two laws of the same
+    /// parameters are not beside each other.
+    fn terms_with(&self, null: &Fitted, term: Term) -> Vec<Term> {
+        let handles = |term: Term| -> BTreeSet<Unknown> {
+            self.own_coordinates(term).into_iter().map(|it| it.handle).collect()
+        };
+        let own = handles(term);
+        let is_limit = |it: &Term| contains_by_name(term, *it) && handles(*it).is_subset(&own);
+        null.terms.iter().copied().filter(|it| !is_limit(it)).chain([term]).collect()
     }
 
     /// A fit of a term on top of the null's, with what it shows.
@@ -159,8 +169,11 @@ impl Baseline<'_> {
         });
         let again: Vec<(Term, Estimate)> = again.collect();
         let fit = |(joint, start): &(Term, Estimate)| {
-            let terms = [null.terms.as_slice(), &[*joint]].concat();
-            let fitted = self.fitted(&terms, std::slice::from_ref(start), comparing(base, null));
+            let fitted = self.fitted(
+                &self.terms_with(null, *joint),
+                std::slice::from_ref(start),
+                comparing(base, null),
+            );
             self.weighed(base, null, *joint, fitted)
         };
         again.par_iter().map(fit).collect()

@@ -209,12 +209,11 @@ impl Baseline<'_> {
                 let refusal = |it: &&Tried| curve.is_none() || it.evidence.refusal().is_some();
                 refused.extend(tried.iter().filter(refusal).map(|it| it.term));
                 found.tried.extend(tried);
-                if let Some(Confirmed { accepted, fitted }) = confirmed
-                    && self.explained_there(accepted.term, &found.extended, &fitted) >= least
+                if let Some(confirmed) = confirmed
+                    && self.explained_there(confirmed.accepted.term, &found.extended, &confirmed.fitted)
+                        >= least
                 {
-                    found.accepted.push(accepted);
-                    found.extended = fitted.clone();
-                    found.stages.push(fitted);
+                    found.extend(confirmed);
                     return Ok(Next::Effect);
                 }
             }
@@ -278,12 +277,10 @@ impl Baseline<'_> {
         let port = compared.feature(score.candidate).map(|(port, _)| &missing.setting.ports[port]);
         let curve = compared.curve_for(score, port.and_then(|it| it.element));
         if let Some((term, own)) = curve.filter(|(term, _)| !found.retracted.contains(term))
-            && let Some(Confirmed { accepted, fitted }) = self.drawn(found, compared, own)?
+            && let Some(confirmed) = self.drawn(found, compared, own)?
         {
             found.unmodelled.push(Unmodelled::curve(term, own, improvement, &self.rig.plant));
-            found.accepted.push(accepted);
-            found.extended = fitted.clone();
-            found.stages.push(fitted);
+            found.extend(confirmed);
             return Ok(true);
         }
         // Without a curve in the model that the data confirm, its place and its variable are known all the same.
@@ -360,5 +357,16 @@ impl Found {
             tried: Vec::new(),
             retracted: Vec::new(),
         }
+    }
+
+    /// Takes a confirmed effect into the model, in the place of what is no longer in it: a law that had been found as its limit.
+    fn extend(&mut self, Confirmed { accepted, fitted }: Confirmed) {
+        let stays: Vec<bool> = self.accepted.iter().map(|it| fitted.terms.contains(&it.term)).collect();
+        let (mut of_accepted, mut of_stages) = (stays.iter(), stays.iter());
+        self.accepted.retain(|_| of_accepted.next() == Some(&true));
+        self.stages.retain(|_| of_stages.next() == Some(&true));
+        self.accepted.push(accepted);
+        self.extended = fitted.clone();
+        self.stages.push(fitted);
     }
 }
