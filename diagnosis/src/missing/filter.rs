@@ -31,6 +31,8 @@ pub struct Filter {
     gain: Vec<f64>,
     next: Vec<f64>,
     product: Vec<f64>,
+    /// Which states follow from themselves alone, as a port's signal does.
+    alone: Vec<bool>,
 }
 
 /// What a measurement brought.
@@ -48,8 +50,16 @@ impl Filter {
         for (index, variance) in variances.iter().enumerate() {
             p[index * n + index] = *variance;
         }
-        let (gain, product) = (vec![0.0; n], vec![0.0; n * n]);
-        Self { n, columns, x: vec![0.0; n * columns], p, gain, next: vec![0.0; n * columns], product }
+        Self {
+            n,
+            columns,
+            x: vec![0.0; n * columns],
+            p,
+            gain: vec![0.0; n],
+            next: vec![0.0; n * columns],
+            product: vec![0.0; n * n],
+            alone: vec![false; n],
+        }
     }
 
     /// The gain of the last measurement.
@@ -60,8 +70,9 @@ impl Filter {
     /// Takes in a measurement `y = h x + e` with variance `noise` of e; `y` becomes the innovations, of each right-hand side.
     pub fn measure(&mut self, h: &[f64], noise: f64, y: &mut [f64]) -> Update {
         let n = self.n;
-        for (gain, row) in self.gain.iter_mut().zip(rows(&self.p, n)) {
-            *gain = row.iter().zip(h).map(|(p, h)| p * h).sum();
+        self.gain.fill(0.0);
+        for (h, row) in h.iter().zip(rows(&self.p, n)).filter(|(h, _)| **h != 0.0) {
+            self.gain.iter_mut().zip(row).for_each(|(gain, p)| *gain += p * h);
         }
         // Rounding must not make less of it than the noise.
         let variance = noise + self.gain.iter().zip(h).map(|(g, h)| g * h).sum::<f64>().max(0.0);
@@ -71,11 +82,9 @@ impl Filter {
                 y.iter_mut().zip(x).for_each(|(y, x)| *y -= h * x);
             }
         }
-        for i in 0..n {
-            let factor = self.gain[i] * inverse;
-            for j in 0..n {
-                self.p[i * n + j] -= factor * self.gain[j];
-            }
+        for (gain, row) in self.gain.iter().zip(rows_mut(&mut self.p, n)) {
+            let factor = gain * inverse;
+            row.iter_mut().zip(&self.gain).for_each(|(p, gain)| *p -= factor * gain);
         }
         for (gain, x) in self.gain.iter_mut().zip(self.x.chunks_exact_mut(self.columns)) {
             *gain *= inverse;
@@ -103,7 +112,8 @@ impl Filter {
     pub fn spread(&mut self, a: &[f64], driven: &[f64]) {
         let n = self.n;
         self.product.fill(0.0);
-        for (row, product) in rows(a, n).zip(rows_mut(&mut self.product, n)) {
+        for (j, (row, product)) in rows(a, n).zip(rows_mut(&mut self.product, n)).enumerate() {
+            self.alone[j] = row.iter().enumerate().all(|(i, a)| i == j || *a == 0.0);
             for (a, p) in row.iter().zip(rows(&self.p, n)) {
                 if *a != 0.0 {
                     product.iter_mut().zip(p).for_each(|(product, p)| *product += a * p);
@@ -114,7 +124,10 @@ impl Filter {
             let product = &self.product[i * n..(i + 1) * n];
             for j in 0..=i {
                 let row = &a[j * n..(j + 1) * n];
-                let value: f64 = product.iter().zip(row).map(|(p, a)| p * a).sum();
+                let value: f64 = match self.alone[j] {
+                    true => product[j] * row[j],
+                    false => product.iter().zip(row).map(|(p, a)| p * a).sum(),
+                };
                 (self.p[i * n + j], self.p[j * n + i]) = (value, value);
             }
             self.p[i * n + i] += driven;

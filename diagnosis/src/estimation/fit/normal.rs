@@ -22,10 +22,14 @@ pub(super) struct Elimination {
     pub(super) constant: DVector<f64>,
     /// `C⁻¹ Bᵀ`
     pub(super) linear: DMatrix<f64>,
+    /// By how much the cost falls where they follow.
+    pub(super) fall: f64,
 }
 
 /// The normal equations of a section.
 pub(super) struct Section {
+    /// Half the weighted sum of squares.
+    pub(super) cost: f64,
     pub(super) h: DMatrix<f64>,
     pub(super) g: DVector<f64>,
     pub(super) scores: Vec<DVector<f64>>,
@@ -75,17 +79,19 @@ impl Fit<'_> {
         let products = |row: usize| {
             let (jacobian, residual) =
                 self.jacobian(point, record, section, (row, &columns, &linearised), extra);
-            (products(&jacobian, fixed, groups), scores(&jacobian, &residual, record.block()))
+            let cost = 0.5 * residual.norm_squared();
+            (cost, products(&jacobian, fixed, groups), scores(&jacobian, &residual, record.block()))
         };
         // Added in the same order, whoever is ready first: a sum does not depend on the number of processors.
         let parts: Vec<_> = (0..wanted.len()).into_par_iter().map(products).collect();
-        let (h, scores) = parts
+        let (cost, h, scores) = parts
             .into_iter()
-            .reduce(|(h, scores), (more, further)| {
-                (h + more, scores.into_iter().zip(further).map(|(score, more)| score + more).collect())
+            .reduce(|(cost, h, scores), (dearer, more, further)| {
+                let scores = scores.into_iter().zip(further).map(|(score, more)| score + more).collect();
+                (cost + dearer, h + more, scores)
             })
-            .unwrap_or_else(|| (DMatrix::zeros(all, all), Vec::new()));
-        eliminate(&h, &scores, &self.ridge)
+            .unwrap_or_else(|| (0.0, DMatrix::zeros(all, all), Vec::new()));
+        eliminate(cost, &h, &scores, &self.ridge)
     }
 
     /// The derivatives of a measured signal's residuals over their deviation, and these: columns for the states at the
@@ -171,7 +177,7 @@ fn products(jacobian: &DMatrix<f64>, fixed: usize, groups: &[Range<usize>]) -> D
 }
 
 /// The normal equations without the states at the start, each of which is held where it is by its entry in `ridge`.
-fn eliminate(h: &DMatrix<f64>, scores: &[DVector<f64>], ridge: &[f64]) -> Section {
+fn eliminate(cost: f64, h: &DMatrix<f64>, scores: &[DVector<f64>], ridge: &[f64]) -> Section {
     let (states, n) = (ridge.len(), h.ncols() - ridge.len());
     let g: DVector<f64> = scores.iter().fold(DVector::zeros(states + n), |sum, score| sum + score);
     let mut c = h.view((0, 0), (states, states)).into_owned();
@@ -183,12 +189,14 @@ fn eliminate(h: &DMatrix<f64>, scores: &[DVector<f64>], ridge: &[f64]) -> Sectio
     let inverse = c.cholesky().map_or_else(|| DMatrix::zeros(states, states), |it| it.inverse());
     let linear = &inverse * b.transpose();
     let constant = &inverse * g.rows(0, states);
+    let fall = 0.5 * constant.dot(&g.rows(0, states));
     let reduce = |whole: &DVector<f64>| whole.rows(states, n) - linear.transpose() * whole.rows(0, states);
     Section {
+        cost,
         h: h.view((states, states), (n, n)) - &b * &linear,
         g: reduce(&g),
         scores: scores.iter().map(reduce).collect(),
-        elimination: Elimination { constant, linear },
+        elimination: Elimination { constant, linear, fall },
     }
 }
 

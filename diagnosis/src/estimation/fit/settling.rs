@@ -8,6 +8,7 @@ use crate::dataset::recorded::Dataset;
 use crate::estimation::unknowns::Estimate;
 
 use super::Fit;
+use super::normal::Section;
 
 /// Steps at most.
 const STEPS: usize = 6;
@@ -36,9 +37,12 @@ impl Fit<'_> {
         record: &Dataset,
         section: &Range<usize>,
     ) -> Vec<f64> {
-        let mut cost = self.section_cost(point, &start, record, section);
         for _ in 0..STEPS {
-            let step = self.section(point, &start, record, section, (&[], &[])).elimination.constant;
+            let Section { cost, elimination, .. } = self.section(point, &start, record, section, (&[], &[]));
+            if elimination.fall < SETTLED * cost {
+                break;
+            }
+            let step = elimination.constant;
             let tried = (0..=HALVINGS).map(|halvings| {
                 let mut moved = start.clone();
                 for (state, change) in self.states.iter().zip(step.iter()) {
@@ -46,10 +50,9 @@ impl Fit<'_> {
                 }
                 (self.section_cost(point, &moved, record, section), moved)
             });
-            let before = cost;
-            let Some(better) = tried.into_iter().find(|(cost, _)| *cost < before) else { break };
-            (cost, start) = better;
-            if before - cost < SETTLED * before {
+            let Some((better, moved)) = tried.into_iter().find(|(better, _)| *better < cost) else { break };
+            start = moved;
+            if cost - better < SETTLED * cost {
                 break;
             }
         }
