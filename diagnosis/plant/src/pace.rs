@@ -26,8 +26,6 @@ const DISPLACED: f64 = 0.1;
 const BEYOND_BANDS: f64 = 1e9;
 /// How often a newton is doubled to look for the force at which a backlash is gone.
 const DOUBLED: usize = 24;
-/// How often the interval is halved in which friction rests that slides: to less than what its limit is rounded over.
-const BISECTIONS: usize = 12;
 /// A velocity in m/s or rad/s that suspensions seldom exceed: friction before it slides forgets the faster the faster it is moved.
 pub(super) const FAST: f64 = 1.0;
 /// Steps between two samples beyond which a model is too stiff for this method.
@@ -145,26 +143,23 @@ pub(super) fn rates<M: Model>(
     let derived = model.derive(&lifted);
     let memory = Declarations::of::<M::Memory<f64>>();
     let memory = Bundle::from_fn(|i| Dual64::from(memory[i].start));
-    // Rates and their derivatives by one state.
-    let rates_at = |at: &[f64], inputs: &[f64], column: usize| {
-        let input = Bundle::from_fn(|i| Dual64::from(inputs[i]));
-        let state = Bundle::from_fn(|i| Dual64::new(at[i], f64::from(i == column)));
-        let now = Instant {
-            time: Dual64::from(0.0),
-            state: &state,
-            input: &input,
-            parameters: &lifted,
-            derived: &derived,
-            memory: &memory,
-            tick: 0,
-        };
-        model.equations(now).0
-    };
     let jacobian_at = |at: &[f64], inputs: &[f64]| {
+        let input = Bundle::from_fn(|i| Dual64::from(inputs[i]));
         let mut jacobian = nalgebra::DMatrix::<f64>::zeros(states, states);
         let mut moves = vec![false; states];
         for column in 0..states {
-            rates_at(at, inputs, column).for_each(|row, rate| {
+            let state = Bundle::from_fn(|i| Dual64::new(at[i], f64::from(i == column)));
+            let now = Instant {
+                time: Dual64::from(0.0),
+                state: &state,
+                input: &input,
+                parameters: &lifted,
+                derived: &derived,
+                memory: &memory,
+                tick: 0,
+            };
+            let (rates, _) = model.equations(now);
+            rates.for_each(|row, rate| {
                 jacobian[(row, column)] = rate.eps;
                 moves[row] |= rate.re != 0.0 || rate.eps != 0.0;
             });
@@ -199,18 +194,6 @@ pub(super) fn rates<M: Model>(
                     .map(|by| jacobian_at(&displaced(&moved, by), &moving).0);
                 let in_contact = jacobians.find(|it| it[(index, index)] != 0.0);
                 fastest = in_contact.map_or(fastest, |it| fastest.max(fastest_of(&it)));
-                let rate = |by: f64| {
-                    let mut own = 0.0;
-                    let all = rates_at(&displaced(&moved, by), &moving, index);
-                    all.for_each(|row, rate| own = if row == index { rate.re } else { own });
-                    own
-                };
-                // Some laws are stiffest as they slide, others as they turn back from there.
-                if let Some(built_up) = built_up(rate) {
-                    for by in [built_up, -built_up] {
-                        fastest = fastest.max(fastest_of(&jacobian_at(&displaced(&moved, by), &moving).0));
-                    }
-                }
             }
             name if name.starts_with("hysteresis.") || name.ends_with(".follower") => {
                 let by = if name.ends_with(".follower") { BEYOND_BANDS } else { DISPLACED };
@@ -224,20 +207,6 @@ pub(super) fn rates<M: Model>(
     // The rational function of a delay is one only in steps well below it.
     let late = declared.iter().enumerate().filter(|(_, state)| state.name.contains(".delay."));
     [fastest, late.map(|(row, _)| resting.row(row).amax()).fold(0.0, f64::max)]
-}
-
-/// The displacement at which a state rests that follows a steady motion, as friction that slides does; none if it is not found.
-fn built_up(rate: impl Fn(f64) -> f64) -> Option<f64> {
-    let sign = rate(0.0).signum();
-    let rises = |by: f64| sign * rate(by) > 0.0;
-    let mut doubled = std::iter::successors(Some(sign), |by| Some(2.0 * by)).take(DOUBLED);
-    let mut beyond = doubled.find(|by| !rises(*by))?;
-    let mut before = if rises(0.5 * beyond) { 0.5 * beyond } else { 0.0 };
-    for _ in 0..BISECTIONS {
-        let middle = 0.5 * (before + beyond);
-        *(if rises(middle) { &mut before } else { &mut beyond }) = middle;
-    }
-    Some(0.5 * (before + beyond))
 }
 
 /// States and inputs where everything moves fast, one thing against the next, so that no two of them go together; an input as fast
@@ -336,31 +305,6 @@ mod tests {
                 let difference = rms(some.iter().zip(all).map(|(some, all)| some - all));
                 prop_assert!(difference <= 2e-3 * rms(all.iter().copied()), "{difference}");
             }
-        }
-    }
-
-    /// Near its limit friction with an exponent below one is forty times as stiff as far from it; with one above, as it turns back.
-    #[test]
-    fn friction_is_integrated_as_stiff_as_it_is_near_its_limit() {
-        for (exponent, stiffest) in [(0.2, 40.0), (1.0, 1.0), (4.0, 32.0)] {
-            let model = QuarterCar::prepare(&strut_model::Settings::starts(), None).unwrap();
-            let plant = models::named("QuarterCar").unwrap();
-            let mut parameters: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
-            for (name, value) in [
-                ("hysteresis.presliding.force", 50.0),
-                ("hysteresis.presliding.stiffness", 1e5),
-                ("hysteresis.presliding.gap", 2e-3),
-                ("hysteresis.presliding.exponent", exponent),
-            ] {
-                parameters[plant.parameter(name).unwrap()] = value;
-            }
-            let inputs = vec![vec![0.0; 2]; plant.inputs.len()];
-            let drive = Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines };
-            let parameters = Bundle::from_fn(|i| parameters[i]);
-            let [fastest, _] = rates(&model, &parameters, &drive, &plant.states);
-            // Body and wheel move against each other.
-            let expected = 1e5 * 2.0 * FAST / 50.0 * stiffest;
-            assert!((fastest / expected - 1.0).abs() < 0.1, "{exponent}: {fastest} of {expected}");
         }
     }
 
