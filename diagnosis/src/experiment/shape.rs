@@ -109,16 +109,20 @@ impl Shape {
             Self::Chirp { from, to } => TAU * from.max(to),
             Self::Triangle { frequency } => 4.0 * frequency,
             Self::Multisine { from, to } => {
-                // To its very end: it may be steepest there.
-                let count = (100.0 * to * duration).ceil();
-                let step = duration / count;
-                let time = (0..=count as usize).map(|k| step * k as f64);
-                let signal: Vec<f64> = multisine(time, (from, to), duration).collect();
-                signal.windows(2).map(|pair| (pair[1] - pair[0]).abs() / step).fold(0.0, f64::max)
+                let time: Vec<f64> = moments(duration, 0.01 / to).collect();
+                let signal: Vec<f64> = multisine(time.iter().copied(), (from, to), duration).collect();
+                let rate = |(t, y): (&[f64], &[f64])| (y[1] - y[0]).abs() / (t[1] - t[0]);
+                time.windows(2).zip(signal.windows(2)).map(rate).fold(0.0, f64::max)
             }
         };
         (self, amplitude.min(rate / steepest))
     }
+}
+
+/// Moments of a duration, no further apart than a step, to its very end: a signal may be largest or steepest there.
+fn moments(duration: f64, step: f64) -> impl Iterator<Item = f64> {
+    let count = (duration / step).ceil();
+    (0..=count as usize).map(move |k| duration * k as f64 / count)
 }
 
 /// Sines with the phases of M. R. Schroeder, Synthesis of low-peak-factor signals and binary sequences with low
@@ -140,9 +144,7 @@ fn multisine(
         grown * grown * (3.0 - 2.0 * grown) * sum
     };
     // The peak is that between the samples, too: it must not depend on how often it is sampled.
-    let fine = 5e-3 / to;
-    let moments = (0..=(duration / fine) as usize).map(|k| fine * k as f64);
-    let peak = moments.map(|t| value(t).abs()).fold(f64::MIN_POSITIVE, f64::max);
+    let peak = moments(duration, 5e-3 / to).map(|t| value(t).abs()).fold(f64::MIN_POSITIVE, f64::max);
     time.map(move |t| value(t) / peak)
 }
 
