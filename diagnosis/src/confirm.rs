@@ -60,7 +60,7 @@ pub struct Confirmed {
 
 impl Baseline<'_> {
     fn tried(&self, base: &Fitted, null: &Fitted, proposal: &Proposal) -> Tried {
-        let terms = self.terms_with(null, proposal.term);
+        let terms = self.terms_with(&null.terms, proposal.term);
         // From where the fit without the effect is, and from where the smoother is.
         let own = self.own_coordinates(proposal.term);
         let with = |start: &Estimate, parameters: &[f64]| {
@@ -81,15 +81,15 @@ impl Baseline<'_> {
         self.weighed(base, null, proposal.term, fitted)
     }
 
-    /// The terms of a fit and another one, in the place of those that it has as limits of its own parameters: two laws of the same
+    /// Some terms and another one, in the place of those that it has as limits of its own parameters: two laws of the same
     /// parameters are not beside each other.
-    fn terms_with(&self, null: &Fitted, term: Term) -> Vec<Term> {
+    fn terms_with(&self, terms: &[Term], term: Term) -> Vec<Term> {
         let handles = |term: Term| -> BTreeSet<Unknown> {
             self.own_coordinates(term).into_iter().map(|it| it.handle).collect()
         };
         let own = handles(term);
         let is_limit = |it: &Term| contains_by_name(term, *it) && handles(*it).is_subset(&own);
-        null.terms.iter().copied().filter(|it| !is_limit(it)).chain([term]).collect()
+        terms.iter().copied().filter(|it| !is_limit(it)).chain([term]).collect()
     }
 
     /// A fit of a term on top of the null's, with what it shows.
@@ -170,7 +170,7 @@ impl Baseline<'_> {
         let again: Vec<(Term, Estimate)> = again.collect();
         let fit = |(joint, start): &(Term, Estimate)| {
             let fitted = self.fitted(
-                &self.terms_with(null, *joint),
+                &self.terms_with(&null.terms, *joint),
                 std::slice::from_ref(start),
                 comparing(base, null),
             );
@@ -249,4 +249,28 @@ fn comparing(base: &Fitted, null: &Fitted) -> Stop {
 /// Whether nothing shows of a term while it is absent, and of what it does only now and then.
 fn has_threshold(term: Term) -> bool {
     naming::onset(term) != Onset::Always
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue::Element;
+    use crate::dataset::split::Split;
+    use crate::diagnosis::Options;
+    use crate::rig::Rig;
+
+    #[test]
+    fn a_law_takes_the_place_of_its_limits_only() {
+        let rig = Rig::published("quarter-car").unwrap();
+        let records = Split { train: vec![], test: vec![], measured: vec![], whole: vec![] };
+        let baseline = Baseline::new(&rig, &records, Options::default());
+        let effects: Vec<_> = catalogue::effects(&rig.plant).collect();
+        let of_strut = |id: &str| effects.iter().find(|it| it.id == id && it.element == Element::STRUT);
+        let term = |id: &str| Term::Effect(of_strut(id).expect(id));
+        let [dahl, loose, spring, coulomb] = ["03", "03b", "08", "01"].map(term);
+        assert_eq!(baseline.terms_with(&[dahl, spring], loose), [spring, loose]);
+        // It has no parameter of Coulomb's friction, which is a limit of it by name.
+        assert_eq!(baseline.terms_with(&[coulomb, spring], loose), [coulomb, spring, loose]);
+        assert_eq!(baseline.terms_with(&[loose], dahl), [loose, dahl]);
+    }
 }

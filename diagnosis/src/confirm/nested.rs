@@ -26,7 +26,7 @@ impl Baseline<'_> {
     ) {
         let again = tried.par_iter().zip(screened).map(|(it, screened)| {
             let start = self.beside(limit(null, it, tried)?, screened)?;
-            let terms = self.terms_with(null, it.term);
+            let terms = self.terms_with(&null.terms, it.term);
             let fitted = self.fitted(&terms, &[start], comparing(base, null)).ok()?;
             (fitted.cost < cost(it)).then(|| self.weighed(base, null, it.term, Ok(fitted)))
         });
@@ -43,7 +43,7 @@ impl Baseline<'_> {
         let Ok(at) = &limit.fitted else { return Vec::new() };
         let fit = |it: &Proposal| {
             let start = self.beside(at, it)?;
-            let terms = self.terms_with(null, it.term);
+            let terms = self.terms_with(&null.terms, it.term);
             let fitted = self.fitted(&terms, &[start], comparing(base, null));
             Some(self.weighed(base, null, it.term, fitted))
         };
