@@ -19,7 +19,7 @@ pub struct Seen<'a> {
 
 /// Follows a model from sample to sample, and says from which state it goes on.
 pub trait Follower {
-    /// The states that it replaces at every sample, if it does not ask what follows of them: as long as all others rest, nothing is
+    /// The states that it replaces at every sample, if it does not ask for the next ones: as long as all others rest, nothing is
     /// integrated.
     fn given(&self) -> Option<&[usize]> {
         None
@@ -103,9 +103,11 @@ fn follow<M: Model, R: Scalar>(
     let mut rates = vec![0.0; state.len()];
     let (mut values, mut slopes) = (vec![0.0; wanted.len()], vec![0.0; wanted.len() * seeds]);
     let mut advanced = vec![0.0; state.len() * seeds];
-    let others: Option<Vec<usize>> =
-        follower.given().map(|given| (0..state.len()).filter(|it| !given.contains(it)).collect());
-    let mut rests = others.is_some() && lanes.iter().all(|it| !it.run.is_sampled());
+    let given = follower.given();
+    let others: Vec<usize> =
+        (0..state.len()).filter(|it| given.is_none_or(|given| !given.contains(it))).collect();
+    let mut rests = given.is_some() && lanes.iter().all(|it| !it.run.is_sampled());
+    let mut before = state.clone();
     let mut known = Vec::with_capacity(lanes.len());
     for sample in 0..drive.len() {
         follower.state(sample, &mut state);
@@ -124,9 +126,9 @@ fn follow<M: Model, R: Scalar>(
             known.push((first, own));
         }
         let seen = Seen { outputs: &values, slopes: &slopes, rates: &rates };
-        let before = state.clone();
+        before.copy_from_slice(&state);
         follower.seen(sample, seen, &mut state);
-        rests = rests && others.iter().flatten().all(|it| rates[*it] == 0.0);
+        rests = rests && others.iter().all(|it| rates[*it] == 0.0);
         if sample + 1 == drive.len() || rests {
             continue;
         }
@@ -146,5 +148,67 @@ fn follow<M: Model, R: Scalar>(
         }
         follower.advanced(sample, &next, &advanced);
         state = next;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Between, models};
+
+    /// Gives some states, and counts how often it is handed the next ones.
+    struct Given {
+        states: Vec<usize>,
+        asks: bool,
+        outputs: Vec<f64>,
+        advanced: usize,
+    }
+
+    impl Follower for Given {
+        fn given(&self) -> Option<&[usize]> {
+            (!self.asks).then_some(&self.states)
+        }
+
+        fn state(&mut self, sample: usize, state: &mut [f64]) {
+            for (number, index) in self.states.iter().enumerate() {
+                state[*index] = 1e-3 * (0.05 * sample as f64 + number as f64).sin();
+            }
+        }
+
+        fn seen(&mut self, _: usize, seen: Seen<'_>, _: &mut [f64]) {
+            self.outputs.extend(seen.outputs);
+        }
+
+        fn advanced(&mut self, _: usize, _: &[f64], _: &[f64]) {
+            self.advanced += 1;
+        }
+    }
+
+    /// Outputs, and how often states were integrated, of a quarter car whose bodies' motions are given.
+    fn followed(friction: f64, asks: bool) -> (Vec<f64>, usize) {
+        let plant = models::named("QuarterCar").unwrap();
+        let mut parameters: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
+        parameters[plant.parameter("hysteresis.presliding.force").unwrap()] = friction;
+        let start: Vec<f64> = plant.states.iter().map(|it| it.start).collect();
+        let states = ["body.position", "body.velocity", "wheel.position", "wheel.velocity"];
+        let states = states.map(|name| plant.state(name).unwrap()).to_vec();
+        let inputs = vec![vec![0.0; 50]; plant.inputs.len()];
+        let drive = Drive { start: 0.0, step: 2e-3, inputs, finer: 1, between: Between::Lines };
+        let wanted: Vec<usize> = (0..plant.outputs.len()).collect();
+        let mut given = Given { states, asks, outputs: Vec::new(), advanced: 0 };
+        let dynamics = plant.prepare(&plant.choices).unwrap();
+        dynamics.followed(&parameters, &start, &drive, (&[], &wanted), &mut given);
+        (given.outputs, given.advanced)
+    }
+
+    #[test]
+    fn only_what_remembers_is_integrated_where_the_motion_is_given() {
+        let [plain, asked] = [false, true].map(|asks| followed(0.0, asks));
+        assert_eq!((plain.1, asked.1), (0, 49));
+        assert_eq!(plain.0, asked.0);
+        let [remembers, asked] = [false, true].map(|asks| followed(50.0, asks));
+        assert_eq!(remembers, asked);
+        assert_eq!(asked.1, 49);
+        assert_ne!(remembers.0, plain.0);
     }
 }
