@@ -54,8 +54,8 @@ impl Baseline<'_> {
         let ranges: Vec<Range<usize>> = candidates.list.iter().map(|it| it.columns.clone()).collect();
         let beside = Columns { windows: &candidates.columns, candidates: &ranges };
         let stretches = missing.setting.innovations(&missing.windows, noise, beside);
-        let of = |train: bool| Stretch::total(&stretches, missing.train, train);
-        let (train, test) = (of(true)?, of(false));
+        let train = Stretch::total(&stretches, |record| record < missing.train)?;
+        let test = Stretch::total(&stretches, |record| record >= missing.train);
         let known = train.known();
         let before = known.fitted(&missing.precisions)?;
         let misses = before.left / (known.count as f64).max(1.0);
@@ -76,7 +76,7 @@ impl Baseline<'_> {
             let Some(fitted) = fitted else { continue };
             let chance = (candidate.columns.len() as f64) * (known.count as f64).ln();
             let gain = before.left - fitted.left - chance;
-            // What is left of other records with these amounts, nuisances being fitted there.
+            // The remaining error of other records with these amounts, nuisances being fitted there.
             let validated = held_out.map_or(0.0, |(sums, before, _)| {
                 let left = sums.with(number).moved(&amounts).fitted(&missing.precisions);
                 before - left.map_or(f64::INFINITY, |it| it.left)

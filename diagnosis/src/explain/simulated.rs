@@ -25,7 +25,7 @@ impl Compared {
         let own = 0..self.candidates.list[candidate].columns.len();
         let beside = Columns { windows: &columns, candidates: std::slice::from_ref(&own) };
         let stretches = missing.setting.innovations(&missing.windows, &noise, beside);
-        let normal = Stretch::total(&stretches, missing.train, true)?.with(0);
+        let normal = Stretch::total(&stretches, |record| record < missing.train)?.with(0);
         let before = normal.fitted(&missing.precisions)?.left;
         let after = normal.fitted(&missing.precisions_beside(own.len()))?.left;
         (before > 0.0).then(|| 1.0 - after / before)

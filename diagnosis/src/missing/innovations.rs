@@ -70,7 +70,7 @@ impl Window {
 pub struct Columns<'a> {
     /// All their columns, in each window.
     pub windows: &'a [Vec<Column>],
-    /// Which of these columns are each one's.
+    /// The range of columns of each candidate.
     pub candidates: &'a [Range<usize>],
 }
 
@@ -84,10 +84,9 @@ pub struct Stretch {
 }
 
 impl Stretch {
-    /// Sums over the estimation records, of which there are so many, or over the others.
-    pub fn total(stretches: &[Self], train: usize, of_train: bool) -> Option<Sums> {
-        let own = stretches.iter().filter(|it| (it.record < train) == of_train);
-        Sums::of(own.map(|it| &it.sums))
+    /// Sums over some of the records, by their numbers; none of no record.
+    pub fn total(stretches: &[Self], of: impl Fn(usize) -> bool) -> Option<Sums> {
+        Sums::of(stretches.iter().filter(|it| of(it.record)).map(|it| &it.sums))
     }
 }
 
@@ -375,7 +374,7 @@ mod tests {
             let noise = Noise { ports: vec![], outputs: vec![0.25], simulated: Some(length) };
             let beside = Columns { windows: &columns, candidates: std::slice::from_ref(&only) };
             let stretches = setting.innovations(std::slice::from_ref(&window), &noise, beside);
-            Stretch::total(&stretches, 1, true).unwrap().with(0)
+            Stretch::total(&stretches, |_| true).unwrap().with(0)
         };
         let squares = |restart: usize| {
             let (mut state, mut all) = (0.0, 0.0);

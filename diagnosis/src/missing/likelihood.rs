@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-/// Sums over the innovations of a stretch of a record: what a comparison of candidates needs of them. Candidates are compared and
-/// never fitted together, so no products of two candidates' columns are among them.
+/// Sums over the innovations of a stretch of a record. Candidates are compared and never fitted together, so there are no products
+/// of two candidates' columns.
 #[derive(Clone, Debug)]
 pub struct Sums {
     /// Each candidate's columns, among all candidates'.
@@ -102,7 +102,7 @@ pub struct Normal {
 pub struct Amounts {
     /// How much there is of each.
     pub values: DVector<f64>,
-    /// What is left of the record's sum of squares, priors included.
+    /// The remaining sum of squares of the record, priors included.
     pub left: f64,
 }
 
@@ -144,5 +144,41 @@ impl Normal {
     pub fn log_likelihood(&self, precisions: &[f64]) -> f64 {
         let left = self.fitted(precisions).map_or(self.products[(0, 0)], |it| it.left);
         -0.5 * (left + self.log_variance)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::signal::random::with_noise;
+
+    /// A record, a nuisance, and two candidates of one and two columns, seven measurements in two stretches.
+    #[test]
+    fn sums_are_those_of_all_columns() {
+        let (known, candidates, columns, count) = (2, [0..1, 1..3], 5, 7);
+        let rows = with_noise(&[0.0; 35], 1.0, 5);
+        let all = DMatrix::from_column_slice(columns, count, &rows);
+        let parts = rows.split_at(3 * columns);
+        let stretches = [parts.0, parts.1].map(|part| {
+            let mut sums = Sums::none(known, &candidates);
+            sums.take(part, 0.5);
+            sums
+        });
+        let sums = Sums::of(stretches.iter()).unwrap();
+        for (candidate, own) in [vec![0, 1, 2], vec![0, 1, 3, 4]].into_iter().enumerate() {
+            let normal = sums.with(candidate);
+            let excerpt = all.select_rows(&own);
+            assert!((&normal.products - &excerpt * excerpt.transpose()).amax() < 1e-12);
+            assert_eq!((normal.count, normal.log_variance), (count, 1.0));
+            // Amounts of the candidate's columns, added to the record.
+            let amounts: Vec<f64> = (2..own.len()).map(|it| 0.3 * it as f64).collect();
+            let mut moved = all.rows(0, known).into_owned();
+            for (column, amount) in own[known..].iter().zip(&amounts) {
+                let added = moved.row(0) + all.row(*column) * *amount;
+                moved.set_row(0, &added);
+            }
+            assert!((normal.moved(&amounts).products - &moved * moved.transpose()).amax() < 1e-12);
+        }
+        assert_eq!(sums.known().products.nrows(), known);
     }
 }

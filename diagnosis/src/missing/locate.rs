@@ -1,8 +1,7 @@
 //! Where a signal is missing.
 
 use super::Missing;
-use super::innovations::{Column, Columns, Noise};
-use super::likelihood::Sums;
+use super::innovations::{Column, Columns, Noise, Stretch};
 
 /// Shares of a port's size that are tried as the standard deviation of what is missing there.
 const SHARES: [f64; 3] = [0.1, 0.3, 1.0];
@@ -46,7 +45,7 @@ impl Missing<'_> {
         let own = 0..columns.first().map_or(0, Vec::len);
         let beside = Columns { windows: columns, candidates: std::slice::from_ref(&own) };
         let stretches = self.setting.innovations(&self.windows, noise, beside);
-        let sums = Sums::of(stretches.iter().map(|it| &it.sums));
+        let sums = Stretch::total(&stretches, |_| true);
         let precisions = self.precisions_beside(own.len());
         let likelihood = sums.map_or(f64::NEG_INFINITY, |it| it.with(0).log_likelihood(&precisions));
         if likelihood.is_finite() { likelihood } else { f64::NEG_INFINITY }

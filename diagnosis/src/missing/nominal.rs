@@ -147,7 +147,7 @@ impl Baseline<'_> {
             let noise =
                 Noise { ports: setting.shared(*share), outputs: setting.noise.clone(), simulated: None };
             let stretches = setting.innovations(&windows, &noise, Columns::default());
-            let normal = Stretch::total(&stretches, self.train.len(), true)?.known();
+            let normal = Stretch::total(&stretches, |record| record < self.train.len())?.known();
             Some((normal.log_likelihood(precisions), normal.fitted(precisions)?))
         });
         Ok(tried.filter(|(likelihood, _)| likelihood.is_finite()).max_by(|a, b| a.0.total_cmp(&b.0)))

@@ -27,7 +27,7 @@ impl Linear {
         let n = g.len();
         let scale = DVector::from_fn(n, |i, _| h[(i, i)].max(0.0).sqrt());
         let mut r = DMatrix::zeros(n, n);
-        // Row by row, in units of each column's own norm: what is left of a dependent column is rounding.
+        // Row by row, in units of each column's own norm: the remainder of a dependent column is rounding.
         for i in 0..n {
             let mut pivot = h[(i, i)];
             for k in 0..i {
