@@ -185,17 +185,21 @@ impl Baseline<'_> {
         catalogue::joints_of(&self.rig.plant, effect).into_iter().any(|it| Term::Effect(it) == several)
     }
 
+    /// Whether the records tell how large a term is: its amount is not zero, and at no end of where it is looked for.
+    pub fn is_sized(&self, tried: &Tried, base: &Fitted) -> bool {
+        let determined = |fitted: &Fitted| is_determined(&self.amounts(tried.term, fitted, base));
+        tried.fitted.as_ref().is_ok_and(determined)
+    }
+
     /// The effect among those that were tried which the data confirm, if any.
     ///
     /// # Errors
     /// If the model diverges in the close fit.
     pub fn confirmed(&self, base: &Fitted, tried: &[Tried]) -> Result<Option<Confirmed>, String> {
         let sure = self.uses(Component::Confirmation);
-        let determined = |it: &Tried| {
-            it.fitted.as_ref().is_ok_and(|fitted| is_determined(&self.amounts(it.term, fitted, base)))
+        let passes = |it: &&Tried| {
+            it.evidence.refusal().is_none() && self.is_sized(it, base) || !sure && it.fitted.is_ok()
         };
-        let passes =
-            |it: &&Tried| it.evidence.refusal().is_none() && determined(it) || !sure && it.fitted.is_ok();
         let passing: Vec<&Tried> = tried.iter().filter(passes).collect();
         let Some(chosen) = self.chosen(base, &passing).cloned() else { return Ok(None) };
         let Ok(fitted) = &chosen.fitted else { return Ok(None) };

@@ -306,6 +306,12 @@ impl Diagnosis<'_> {
                     (Err(error), _) => error.clone(),
                     (Ok(_), Some(refusal)) => refusal,
                     (Ok(_), None) if self.is_unfinished() && self.found.accepted.is_empty() => late(),
+                    (Ok(_), None) if self.found.retracted.contains(term) => {
+                        "taken back: its interval holds zero, or a signal fits worse with it".into()
+                    }
+                    (Ok(_), None) if !self.baseline.is_sized(tried, &self.found.base) => {
+                        "its size may be zero, or is at a bound of the search".into()
+                    }
                     (Ok(_), None) => "another effect explains it better".into(),
                 },
             };
