@@ -18,9 +18,7 @@ use strut_model::{Bundle, Declaration, Declarations, Model, SettingDeclaration, 
 
 use integrate::{Equations, Run};
 
-pub use foreign::{
-    Attachment, Conversion, Face, FaceVariable, Foreign, Own, Replaced, is_of_strut, needs_own,
-};
+pub use foreign::{Attachment, Conversion, Face, FaceVariable, Foreign, Own, Replaced, Role, needs_own};
 use joint::Joint;
 pub use joint::{Instance, placed};
 pub use steps::{Follower, Seen};

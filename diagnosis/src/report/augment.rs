@@ -11,7 +11,7 @@ use std::path::Path;
 use strut_model::Declaration;
 
 use crate::diagnosis::Diagnosis;
-use crate::plant::{Drive, Face, Foreign, Signals, is_of_strut};
+use crate::plant::{Drive, Face, Foreign, Signals};
 use crate::rig::{Rig, UNSEEN, difference, fmu_of};
 use crate::signal::distortion::Correction;
 
@@ -43,8 +43,13 @@ pub fn obstacle(face: &Face) -> Option<&'static str> {
 pub fn possible(rig: &Rig) -> Option<Result<Vec<String>, String>> {
     rig.kind.is_foreign().then(|| {
         let mut parameters = rig.parameters.clone();
-        // As if something had been found.
-        rig.plant.parameter("strut.coulomb.force").into_iter().for_each(|index| parameters[index] = 1.0);
+        // As if something had been found in each element.
+        for at in rig.kind.attached()? {
+            let friction =
+                ["strut.coulomb.force", "tire.coulomb.force"].iter().find_map(|it| at.role.beside(it));
+            let index = friction.and_then(|name| rig.plant.parameter(&name));
+            index.into_iter().for_each(|index| parameters[index] = 1.0);
+        }
         let drive = rig.trial();
         let outputs = rig.plant.outputs.iter().filter(|it| !rig.is_trivial(&it.name));
         let found = Found {
@@ -107,15 +112,15 @@ impl Found<'_> {
         if !simulated.iter().flatten().all(|it| it.is_finite()) {
             return Err("the model cannot be simulated".into());
         }
-        let strut = rig.kind.attached()?;
-        let of_strut = plant.states.iter().zip(start).filter(|(it, _)| is_of_strut(&it.name));
+        let beside = rig.kind.attached()?;
+        let memory = plant.states.iter().zip(start).filter(|(it, _)| rig.kind.is_beside(&it.name));
         let mut material = Material {
             fmu: &fmu,
             face: &face,
-            strut: strut.as_ref(),
+            beside: &beside,
             stands_in: difference(rig)?.is_some_and(|it| it < UNSEEN),
             parameters: plant.parameters.iter().zip(&plant.own(parameters)).map(valued).collect(),
-            memory: of_strut.map(valued).collect(),
+            memory: memory.map(valued).collect(),
             starts: Vec::new(),
             inputs: plant.inputs.iter().zip(&drive.inputs).map(|(it, of)| (&*it.name, &**of)).collect(),
             outputs: plant.outputs.iter().zip(&simulated).map(|(it, of)| (&*it.name, &**of)).collect(),
@@ -160,7 +165,8 @@ fn apart(
     material: &mut Material<'_>,
     (states, start): (&[Declaration], &[f64]),
 ) -> Result<Option<String>, String> {
-    let alone = Foreign { fmu: material.fmu.into(), parameters: Vec::new(), locals: Vec::new(), strut: None };
+    let alone =
+        Foreign { fmu: material.fmu.into(), parameters: Vec::new(), locals: Vec::new(), beside: Vec::new() };
     let mut found = alone.started(&material.given())?;
     if found.is_none() {
         material.starts.clear();

@@ -107,9 +107,10 @@ impl Names<'_> {
             ForceOf::SpringAndDamper { stiffness, damping } => {
                 [stiffness, damping].into_iter().for_each(|name| self.parameter(&place, name));
             }
-            ForceOf::Moment { moment_of, lever } => {
-                self.output(&place, moment_of);
-                self.parameter(&place, lever);
+            ForceOf::Inertia { acceleration: output, mass: parameter }
+            | ForceOf::Moment { moment_of: output, lever: parameter } => {
+                self.output(&place, output);
+                self.parameter(&place, parameter);
             }
         }
     }

@@ -11,7 +11,7 @@ use std::path::{Component, Path, PathBuf};
 use super::Rig;
 use super::own::{fmu_of, is_fmu, is_manifest};
 use super::stand_in;
-use crate::plant::is_of_strut;
+use crate::plant::Role;
 
 use guess::{Declared, Force, Guess, Strut};
 
@@ -74,7 +74,8 @@ fn simpler(declared: &Declared, guess: &Guess) -> Vec<Option<Strut>> {
     // A name of the library's strut cannot mean the FMU's own spring or damper.
     let is_meant = |strut: &Strut| match strut.force {
         Force::Rates(spring, damper) => {
-            strut.replaces || [spring, damper].iter().all(|it| !is_of_strut(&declared.parameters[*it].name))
+            strut.replaces
+                || [spring, damper].iter().all(|it| !Role::Strut.has(&declared.parameters[*it].name))
         }
         Force::Output(_) => true,
     };

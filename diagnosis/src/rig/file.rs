@@ -6,7 +6,7 @@ use std::path::Path;
 use strut_model::Value;
 
 use crate::catalogue::Element;
-use crate::plant::{self, Attachment, Foreign, Instance, Plant, is_of_strut, models};
+use crate::plant::{self, Attachment, Foreign, Instance, Plant, Role, models};
 
 use super::Rig;
 use super::kind::{ElementSignals, ForceOf, Given, Kind};
@@ -61,8 +61,8 @@ impl Rig {
             }
         }
         if rig.kind.is_foreign() {
-            // Who made the model said what its parameters are; of the library's strut nobody has said anything.
-            let own = rig.plant.parameters.iter().map(|it| !is_of_strut(&it.name));
+            // Who made the model said what its parameters are; of the library's elements nobody has said anything.
+            let own = rig.plant.parameters.iter().map(|it| !kind.is_beside(&it.name));
             rig.stated.iter_mut().zip(own).for_each(|(stated, own)| *stated |= own);
         }
         Ok(rig)
@@ -86,18 +86,27 @@ impl Kind {
         is_fmu(model) || is_manifest(model)
     }
 
-    /// Where the library's strut is attached to the model; none if it is not.
+    /// Where the library's elements are attached to the model.
     ///
     /// # Errors
     /// If the file does not say all that it takes.
-    pub fn attached(&self) -> Result<Option<Attachment>, String> {
-        let attached: Vec<&ElementSignals> =
-            self.elements.iter().filter(|it| !it.acts_on.is_empty()).collect();
-        match attached[..] {
-            [] => Ok(None),
-            [element] if element.element == Element::STRUT => element.attachment().map(Some),
-            _ => Err("elements: acts_on is for one element, the strut".into()),
+    pub fn attached(&self) -> Result<Vec<Attachment>, String> {
+        let attached = self.elements.iter().filter(|it| !it.acts_on.is_empty());
+        let attached: Vec<Attachment> = attached.map(ElementSignals::attachment).collect::<Result<_, _>>()?;
+        let twice =
+            |(place, it): (usize, &Attachment)| attached[..place].iter().any(|other| other.role == it.role);
+        match attached.iter().enumerate().find(|it| twice(*it)) {
+            Some((_, it)) => {
+                Err(format!("elements, {}: only one of a kind can have acts_on", it.role.name()))
+            }
+            None => Ok(attached),
         }
+    }
+
+    /// Whether a parameter or a state is that of an element of the library beside another maker's model.
+    pub fn is_beside(&self, name: &str) -> bool {
+        let attached = self.elements.iter().filter(|it| !it.acts_on.is_empty());
+        attached.filter_map(ElementSignals::role).any(|it| it.has(name))
     }
 
     /// Its model.
@@ -116,13 +125,13 @@ impl Kind {
                 )
             });
         }
-        let is_own = |name: &&String| !is_of_strut(name);
+        let is_own = |name: &&String| !self.is_beside(name);
         let mut parameters: Vec<String> = self.nominal.iter().filter(is_own).cloned().collect();
         let given = self.values.keys().filter(is_own).filter(|name| !parameters.contains(name));
         parameters.extend(given.cloned().collect::<Vec<_>>());
-        let strut = self.attached()?;
+        let beside = self.attached()?;
         let locals = self.signals().map(str::to_owned).collect();
-        let foreign = Foreign { fmu: fmu_of(Path::new(&self.model))?, parameters, locals, strut };
+        let foreign = Foreign { fmu: fmu_of(Path::new(&self.model))?, parameters, locals, beside };
         Ok(foreign.plant()?.with_instances(self.instances()))
     }
 
@@ -139,7 +148,9 @@ impl Kind {
     /// All that is named as something to be measured.
     fn signals(&self) -> impl Iterator<Item = &str> {
         let forces = self.elements.iter().filter_map(|it| match &it.force {
-            ForceOf::Output { output: name } | ForceOf::Moment { moment_of: name, .. } => Some(name),
+            ForceOf::Output { output: name }
+            | ForceOf::Inertia { acceleration: name, .. }
+            | ForceOf::Moment { moment_of: name, .. } => Some(name),
             ForceOf::Input { .. } | ForceOf::SpringAndDamper { .. } => None,
         });
         let motions = self.elements.iter().flat_map(|it| std::iter::once(&it.deflection).chain(&it.velocity));
@@ -195,9 +206,24 @@ impl Kind {
 }
 
 impl ElementSignals {
+    /// What it can be beside another maker's model.
+    fn role(&self) -> Option<Role> {
+        Role::named(self.element.name())
+    }
+
     fn attachment(&self) -> Result<Attachment, String> {
-        let velocity =
-            self.velocity.clone().ok_or("elements, strut: a strut that acts on inputs needs its velocity")?;
+        let name = self.element.name();
+        let roles = Role::ALL.map(Role::name);
+        let role = self
+            .role()
+            .ok_or_else(|| format!("elements, {name}: acts_on is for one of {}", roles.join(", ")))?;
+        if self.replaces.is_some() && role != Role::Strut {
+            return Err(format!("elements, {name}: replaces is for the strut"));
+        }
+        let velocity = self
+            .velocity
+            .clone()
+            .ok_or_else(|| format!("elements, {name}: an element that acts on inputs needs its velocity"))?;
         let factor = |name: &String| match name.strip_prefix('-') {
             Some(name) => (name.to_owned(), -1.0),
             None => (name.clone(), 1.0),
@@ -208,6 +234,7 @@ impl ElementSignals {
             .map(|it| plant::Replaced { stiffness: it.stiffness.clone(), damping: it.damping.clone() });
         let (deflection, rest) = (self.deflection.clone(), self.rest);
         Ok(Attachment {
+            role,
             deflection,
             rest,
             velocity,

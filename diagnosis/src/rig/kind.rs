@@ -167,8 +167,8 @@ pub struct ElementSignals {
     pub velocity: Option<String>,
     /// Where its force is found.
     pub force: ForceOf,
-    /// Inputs of a foreign model that take the force of a strut of the library, positive where it pulls the ends together;
-    /// `-name` takes the negative.
+    /// Inputs of a foreign model that take the force of such an element of the library, positive where it pulls the ends
+    /// together; `-name` takes the negative.
     #[serde(default)]
     pub acts_on: Vec<String>,
     /// Parameters of a foreign model that the library's strut stands for.
@@ -189,7 +189,7 @@ pub struct Replaced {
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(
     untagged,
-    expecting = "write output, input, stiffness and damping, or moment_of and lever",
+    expecting = "write output, input, stiffness and damping, mass and acceleration, or moment_of and lever",
     deny_unknown_fields
 )]
 pub enum ForceOf {
@@ -209,6 +209,13 @@ pub enum ForceOf {
         stiffness: String,
         /// The parameter of the damping rate.
         damping: String,
+    },
+    /// What the mass that it guides takes to be accelerated.
+    Inertia {
+        /// The parameter of the mass.
+        mass: String,
+        /// The output of its acceleration.
+        acceleration: String,
     },
     /// An output times a parameter, the lever with which it turns something.
     Moment {
@@ -248,7 +255,7 @@ impl ForceOf {
     pub fn signal(&self) -> Option<&str> {
         match self {
             Self::Output { output: name } | Self::Input { input: name } => Some(name),
-            Self::SpringAndDamper { .. } | Self::Moment { .. } => None,
+            Self::SpringAndDamper { .. } | Self::Inertia { .. } | Self::Moment { .. } => None,
         }
     }
 }

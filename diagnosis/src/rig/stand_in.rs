@@ -5,7 +5,7 @@ use std::path::Path;
 
 use strut_model::Declaration;
 
-use crate::plant::{Between, Drive, Foreign, Plant, is_of_strut};
+use crate::plant::{Between, Drive, Foreign, Plant};
 
 use super::Rig;
 use super::own::fmu_of;
@@ -36,10 +36,10 @@ pub fn difference(rig: &Rig) -> Result<Option<f64>, String> {
         return Ok(None);
     }
     let mut parameters: Vec<String> = vec![replaced.stiffness.clone(), replaced.damping.clone()];
-    let own = rig.plant.parameters.iter().map(|it| &it.name).filter(|it| !is_of_strut(it));
+    let own = rig.plant.parameters.iter().map(|it| &it.name).filter(|it| !rig.kind.is_beside(it));
     parameters.extend(own.cloned());
     let fmu = fmu_of(Path::new(&rig.kind.model))?;
-    let alone = Foreign { fmu, parameters, locals: Vec::new(), strut: None }.plant()?;
+    let alone = Foreign { fmu, parameters, locals: Vec::new(), beside: Vec::new() }.plant()?;
     // Both have the values of the rig.
     let values: Vec<f64> = alone
         .parameters

@@ -52,8 +52,9 @@ pub fn typical(
                 if measured.is_empty() { magnitude(&signal(name)) } else { rms(&measured).max(1e-12) }
             }
             ForceOf::Input { input: name } => driven(name),
-            ForceOf::Moment { moment_of: force, lever } => {
-                (value(lever) * magnitude(&signal(force))).max(1e-12)
+            ForceOf::Inertia { acceleration: output, mass: by }
+            | ForceOf::Moment { moment_of: output, lever: by } => {
+                (value(by) * magnitude(&signal(output))).max(1e-12)
             }
             ForceOf::SpringAndDamper { stiffness, damping } => {
                 (value(stiffness) * deflection).hypot(value(damping) * velocity)

@@ -1,18 +1,21 @@
-//! A strut of the library that acts beside a model of another maker, between two of its outputs and its inputs.
+//! Elements of the library that act beside a model of another maker, between its outputs and its inputs.
 
 use strut_model::{Bundle, Declaration, Declarations, Instant, Model, Settings};
 use strut_physics::rigs::ElementDyno;
 
 use super::exchange::{Fmu, LEAST, Session};
+use super::role::Role;
 use crate::pace::{ACCURATE, FAST, RESERVE, rates};
 use crate::{Between, Drive};
 
-/// Where a strut is attached.
+/// Where an element is attached.
 #[derive(Clone, Debug)]
 pub struct Attachment {
+    /// What it is.
+    pub role: Role,
     /// Output with its deflection, positive in rebound.
     pub deflection: String,
-    /// What that output is where the strut's spring carries nothing, in m.
+    /// What that output is where the element's spring carries nothing, in m.
     pub rest: f64,
     /// Output with its rate.
     pub velocity: String,
@@ -45,11 +48,6 @@ const OF_ITS_OWN: [&str; 7] = [
     "hysteresis.mount.",
 ];
 
-/// Whether a parameter is one of the strut beside a model, and not the model's own.
-pub fn is_of_strut(name: &str) -> bool {
-    ["strut.", "hysteresis."].iter().any(|start| name.starts_with(start))
-}
-
 /// What of a replaced spring and damper the strut beside a model has to have itself, with these parameters: an effect
 /// that changes a damper acts in the strut's own. Any other effect only adds a force.
 pub fn needs_own<'a>(values: impl Iterator<Item = (&'a str, f64)>) -> Own {
@@ -57,8 +55,7 @@ pub fn needs_own<'a>(values: impl Iterator<Item = (&'a str, f64)>) -> Own {
     let neutral = |name: &str| declared.iter().find(|it| it.name == name).map(|it| it.start);
     let mut own = Own::default();
     for (name, _) in values.filter(|(name, value)| neutral(name) != Some(*value)) {
-        let rates = ["strut.stiffness", "strut.damping"].contains(&name);
-        if !rates && OF_ITS_OWN.iter().any(|group| name.starts_with(group)) {
+        if !Role::Strut.rates().contains(&name) && OF_ITS_OWN.iter().any(|group| name.starts_with(group)) {
             own.damper = true;
             // The linkage is between the wheel and the spring, too.
             own.spring |= name.starts_with("strut.linkage.");
@@ -76,16 +73,25 @@ pub struct Own {
     pub damper: bool,
 }
 
-/// An attached strut.
+/// The elements beside a model.
 #[derive(Clone, Debug)]
 pub struct Beside {
-    /// Its parameters that may be changed.
+    /// Their parameters that may be changed.
     pub parameters: Vec<Declaration>,
-    /// What it remembers.
+    /// What they remember.
     pub states: Vec<Declaration>,
+    all: Vec<Attached>,
+}
+
+/// An attached element.
+#[derive(Clone, Debug)]
+struct Attached {
+    role: Role,
     model: ElementDyno,
-    /// Of each of `parameters`: its index in the model.
+    /// Of each of its parameters: its index in the model.
     indices: Vec<usize>,
+    /// How many states are its own.
+    states: usize,
     /// The model's parameters with all effects off.
     plain: Vec<f64>,
     deflection: usize,
@@ -95,98 +101,179 @@ pub struct Beside {
 }
 
 impl Beside {
-    /// A strut at its place in a model.
-    pub fn new(fmu: &Fmu, at: &Attachment) -> Result<Self, String> {
-        let index = |declared: &[Declaration], name: &str, what: &str| {
-            let found = declared.iter().position(|it| it.name == *name);
+    /// Elements at their places in a model.
+    ///
+    /// # Errors
+    /// If the model lacks what one is attached to.
+    pub fn new(fmu: &Fmu, attachments: &[Attachment]) -> Result<Self, String> {
+        let mut beside = Self { parameters: Vec::new(), states: Vec::new(), all: Vec::new() };
+        for at in attachments {
+            let (attached, parameters) = Attached::new(fmu, at)?;
+            beside.parameters.extend(parameters);
+            beside.states.extend(at.role.states());
+            beside.all.push(attached);
+        }
+        Ok(beside)
+    }
+
+    /// Their parameters as the models have them.
+    pub fn set(&self, parameters: &[f64]) -> Set {
+        let mut rest = parameters;
+        let one = |it: &Attached| {
+            let own;
+            (own, rest) = rest.split_at(it.indices.len());
+            it.set(own)
+        };
+        Set(self.all.iter().map(one).collect())
+    }
+
+    /// Steps that their memory asks for over a time in s from where these are the model's outputs.
+    pub fn steps(&self, set: &Set, time: f64, outputs: &[f64]) -> usize {
+        let one = |(it, set): (&Attached, &Laws)| it.steps(set, time, outputs);
+        self.all.iter().zip(&set.0).map(one).max().unwrap_or(0)
+    }
+
+    /// Refuses parameters that do not go together.
+    pub fn check(&self, parameters: &[f64]) -> Result<(), String> {
+        let Set(all) = self.set(parameters);
+        self.all.iter().zip(&all).try_for_each(|(it, set)| it.model.check(&set.parameters, &set.derived))
+    }
+
+    /// Adds their forces to the inputs of a placed model, and computes the rates of their memory.
+    pub fn act(
+        &self,
+        set: &Set,
+        time: f64,
+        session: &mut Session,
+        (inputs, mut states, mut rates): (&mut [f64], &[f64], &mut [f64]),
+    ) {
+        if self.all.is_empty() {
+            return;
+        }
+        for (it, set) in self.all.iter().zip(&set.0) {
+            let (own, of_own);
+            (own, states) = states.split_at(it.states);
+            (of_own, rates) = rates.split_at_mut(it.states);
+            let force = it.force(set, time, session, (own, of_own));
+            it.acts_on.iter().for_each(|(input, factor)| inputs[*input] += factor * force);
+        }
+        // Once for all: no force changes a motion at once.
+        session.drive(inputs);
+    }
+
+    /// Of each element: its name, and the inputs that it changes.
+    pub fn acts_on(&self) -> impl Iterator<Item = (&'static str, impl Iterator<Item = usize>)> {
+        self.all.iter().map(|it| (it.role.name(), it.acts_on.iter().map(|(input, _)| *input)))
+    }
+
+    /// The outputs that they need.
+    pub fn motions(&self) -> Vec<usize> {
+        self.all.iter().flat_map(|it| [it.deflection, it.velocity]).collect()
+    }
+}
+
+impl Role {
+    /// What it remembers.
+    fn states(self) -> impl Iterator<Item = Declaration> {
+        Declarations::of::<State>().into_iter().filter(move |it| self.has(&it.name))
+    }
+}
+
+impl Attached {
+    /// The element with its parameters that may be changed, under its own names.
+    fn new(fmu: &Fmu, at: &Attachment) -> Result<(Self, Vec<Declaration>), String> {
+        let name = at.role.name();
+        let index = |declared: &[Declaration], signal: &str, what: &str| {
+            let found = declared.iter().position(|it| it.name == *signal);
             found.ok_or_else(|| {
-                format!("the strut is attached to {what} `{name}`, which {} does not have", fmu.name)
+                format!("the {name} is attached to {what} `{signal}`, which {} does not have", fmu.name)
             })
         };
         let acts_on =
             at.acts_on.iter().map(|(name, factor)| Ok((index(&fmu.inputs, name, "the input")?, *factor)));
         let acts_on: Vec<(usize, f64)> = acts_on.collect::<Result<_, String>>()?;
-        if acts_on.is_empty() {
-            return Err("the strut acts on no input: name those that take its force in acts_on".into());
-        }
-        let declared = Declarations::of::<Parameters>();
-        let mut plain: Vec<f64> = declared.iter().map(|it| it.start).collect();
-        let mut own: Vec<(usize, Declaration)> = declared.into_iter().enumerate().collect();
-        for (index, declared) in &mut own {
-            let replaced = match (declared.name.as_str(), &fmu.replaced[..]) {
-                ("strut.stiffness", [stiffness, _]) => *stiffness,
-                ("strut.damping", [_, damping]) => *damping,
-                ("strut.stiffness" | "strut.damping", _) => 0.0,
-                _ => continue,
-            };
-            (plain[*index], declared.start) = (replaced, replaced);
-            // On its own bench there may be no spring. Here it has the place of one.
-            if declared.name == "strut.stiffness" && replaced > 0.0 {
-                declared.min = Some(LEAST * replaced);
+        let mut declared = Declarations::of::<Parameters>();
+        let rates = match (&at.replaces, &fmu.replaced[..]) {
+            (Some(_), [stiffness, damping]) => [*stiffness, *damping],
+            _ => [0.0; 2],
+        };
+        let [spring, damper] = at.role.rates();
+        for it in &mut declared {
+            if it.name == spring {
+                it.start = rates[0];
+                // On its own bench there may be no spring. Here it may have the place of one.
+                it.min = Some(LEAST * rates[0]);
+            } else if it.name == damper {
+                it.start = rates[1];
             }
         }
-        own.retain(|(_, it)| is_of_strut(&it.name));
-        if at.replaces.is_none() {
-            own.retain(|(_, it)| !OF_ITS_OWN.iter().any(|group| it.name.starts_with(group)));
-        }
-        let (indices, parameters) = own.into_iter().unzip();
-        Ok(Self {
-            parameters,
-            states: Declarations::of::<State>(),
-            model: ElementDyno::prepare(&Settings::starts(), None)?,
+        let plain = declared.iter().map(|it| it.start).collect();
+        // The strut's own rates are the model's; on top of them, a strut only adds forces.
+        let adds = |name: &str| {
+            let own = at.role == Role::Strut && OF_ITS_OWN.iter().any(|group| name.starts_with(group));
+            !own || at.replaces.is_some()
+        };
+        let own = declared.into_iter().enumerate().filter(|(_, it)| adds(&it.name));
+        let named = own
+            .filter_map(|(index, it)| Some((index, Declaration { name: at.role.beside(&it.name)?, ..it })));
+        let (indices, parameters) = named.unzip();
+        let attached = Self {
+            role: at.role,
+            model: if at.role.is_tire() {
+                ElementDyno::of_a_tire()
+            } else {
+                ElementDyno::prepare(&Settings::starts(), None)?
+            },
             indices,
+            states: at.role.states().count(),
             plain,
             deflection: index(&fmu.outputs, &at.deflection, "the output")?,
             rest: at.rest,
             velocity: index(&fmu.outputs, &at.velocity, "the output")?,
             acts_on,
-        })
+        };
+        Ok((attached, parameters))
     }
 
-    /// Its parameters as the model has them.
-    pub fn set(&self, parameters: &[f64]) -> Set {
+    fn set(&self, parameters: &[f64]) -> Laws {
         let mut all = self.plain.clone();
         for (index, value) in self.indices.iter().zip(parameters) {
             all[*index] = *value;
         }
         let parameters = Bundle::from_fn(|i| all[i]);
         let forgets = [0.0, FAST].map(|velocity| {
+            if self.states == 0 {
+                return 0.0;
+            }
             let inputs = Declarations::of::<<ElementDyno as Model>::Input<f64>>();
             let moved = |it: &Declaration| vec![if it.name == "motion.velocity" { velocity } else { 0.0 }];
             let inputs = inputs.iter().map(moved).collect();
             let drive = Drive { start: 0.0, step: 1.0, inputs, finer: 1, between: Between::Lines };
-            rates(&self.model, &parameters, &drive, &self.states)[0]
+            rates(&self.model, &parameters, &drive, &Declarations::of::<State>())[0]
         });
-        Set { derived: self.model.derive(&parameters), parameters, forgets }
+        Laws { derived: self.model.derive(&parameters), parameters, forgets }
     }
 
-    /// Steps that its memory asks for over a time in s from where these are the model's outputs.
-    pub fn steps(&self, set: &Set, time: f64, outputs: &[f64]) -> usize {
+    fn steps(&self, set: &Laws, time: f64, outputs: &[f64]) -> usize {
         let [at_rest, fast] = set.forgets;
         let moved = RESERVE * fast * outputs[self.velocity].abs() / FAST;
         (time * at_rest.max(moved) / ACCURATE).ceil() as usize
     }
 
-    /// Refuses parameters that do not go together.
-    pub fn check(&self, parameters: &[f64]) -> Result<(), String> {
-        let Set { parameters, derived, .. } = self.set(parameters);
-        self.model.check(&parameters, &derived)
-    }
-
-    /// Adds its force to the inputs of a placed model, and computes the rates of its memory.
-    pub fn act(
+    /// The force that pulls its ends together; the rates of its memory go into the last slice.
+    fn force(
         &self,
-        set: &Set,
+        set: &Laws,
         time: f64,
         session: &mut Session,
-        (inputs, states, rates): (&mut [f64], &[f64], &mut [f64]),
-    ) {
+        (states, rates): (&[f64], &mut [f64]),
+    ) -> f64 {
         let (deflection, velocity) =
             (session.output(self.deflection) - self.rest, session.output(self.velocity));
         // The bench moves the lower end: its deflection is the motion's negative.
         let moved = [-deflection, -velocity];
         let input = <ElementDyno as Model>::Input::from_fn(|i| moved.get(i).copied().unwrap_or(0.0));
-        let state: State = Bundle::from_fn(|i| states[i]);
+        let state: State = Bundle::from_fn(|i| states.get(i).copied().unwrap_or(0.0));
         let memory = Bundle::from_fn(|_| 0.0);
         let now = Instant {
             time,
@@ -198,21 +285,19 @@ impl Beside {
             tick: 0,
         };
         let (change, output) = self.model.equations(now);
-        change.for_each(|index, rate| rates[index] = rate);
+        change.for_each(|index, rate| rates.iter_mut().skip(index).take(1).for_each(|it| *it = rate));
         // What the bench measures is positive in compression.
-        self.acts_on.iter().for_each(|(input, factor)| inputs[*input] -= factor * output.force);
-        session.drive(inputs);
-    }
-
-    /// The outputs that it needs, and the inputs that it changes.
-    pub fn ends(&self) -> ([usize; 2], impl Iterator<Item = usize>) {
-        ([self.deflection, self.velocity], self.acts_on.iter().map(|(input, _)| *input))
+        -output.force
     }
 }
 
-/// Parameters of a strut with what follows from them.
+/// Parameters of all elements with what follows from them.
 #[derive(Clone, Debug)]
-pub struct Set {
+pub struct Set(Vec<Laws>);
+
+/// Parameters of an element with what follows from them.
+#[derive(Clone, Debug)]
+struct Laws {
     parameters: Parameters,
     derived: <ElementDyno as Model>::Derived<f64>,
     /// How fast its memory changes at rest and in fast motion, per second.

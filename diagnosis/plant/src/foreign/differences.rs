@@ -20,11 +20,11 @@ const SEEN: f64 = 1e-8;
 /// Share that a change is made anew for if it was not seen, or was too large to be a derivative.
 const WANTED: f64 = 1e-6;
 
-/// An FMU, with or without an element beside it.
+/// An FMU with the elements beside it.
 #[derive(Clone, Debug)]
 pub struct Differences {
     pub(super) fmu: Arc<Fmu>,
-    pub(super) beside: Option<Beside>,
+    pub(super) beside: Beside,
     /// Declared start or typical magnitude of each parameter, and of each state.
     typical: [Vec<f64>; 2],
     /// Changes that were found to be seen, by what was changed.
@@ -54,39 +54,42 @@ impl Changed<'_> {
 }
 
 impl Differences {
-    pub fn new(
-        fmu: Arc<Fmu>,
-        beside: Option<Beside>,
-        parameters: &[Declaration],
-        states: &[Declaration],
-    ) -> Self {
+    pub fn new(fmu: Arc<Fmu>, beside: Beside, parameters: &[Declaration], states: &[Declaration]) -> Self {
         // Of a variable without one, FMI takes a nominal value of 1.
         let of = |it: &Declaration| if it.start == 0.0 { it.nominal.unwrap_or(1.0) } else { it.start.abs() };
         let typical = [parameters, states].map(|all| all.iter().map(of).collect());
         Self { fmu, beside, typical, changes: Arc::default() }
     }
 
-    /// Refuses an element whose force changes its own motion at once.
+    /// Refuses an element whose force changes a motion at once.
     pub fn refuse_loops(&self) -> Result<(), String> {
-        let Some(beside) = &self.beside else { return Ok(()) };
+        let motions = self.beside.motions();
+        if motions.is_empty() {
+            return Ok(());
+        }
         let parameters: Vec<f64> = self.fmu.parameters.iter().map(|it| it.start).collect();
         let mut session = self
             .fmu
             .open(&parameters)
             .ok_or_else(|| format!("{} refuses its own start values", self.fmu.name))?;
         let start: Vec<f64> = self.fmu.states.iter().map(|it| it.start).collect();
-        let (outputs, inputs) = beside.ends();
-        let mut values: Vec<f64> = self.fmu.inputs.iter().map(|it| it.start).collect();
-        session.place(0.0, &start, &values);
-        let before = outputs.map(|output| session.output(output));
-        inputs.for_each(|input| values[input] += 1.0);
-        session.drive(&values);
-        if outputs.map(|output| session.output(output)) != before {
-            return Err(format!(
-                "{}: the strut's force changes its own deflection or velocity at once (an algebraic loop); name outputs \
-                 that follow from states",
-                self.fmu.name
-            ));
+        let rest: Vec<f64> = self.fmu.inputs.iter().map(|it| it.start).collect();
+        session.place(0.0, &start, &rest);
+        let mut moved = |values: &[f64]| -> Vec<f64> {
+            session.drive(values);
+            motions.iter().map(|output| session.output(*output)).collect()
+        };
+        let before = moved(&rest);
+        for (name, inputs) in self.beside.acts_on() {
+            let mut pushed = rest.clone();
+            inputs.for_each(|input| pushed[input] += 1.0);
+            if moved(&pushed) != before {
+                return Err(format!(
+                    "{}: the force of the {name} changes a deflection or velocity at once (an algebraic loop); name outputs \
+                     that follow from states",
+                    self.fmu.name
+                ));
+            }
         }
         Ok(())
     }
@@ -94,7 +97,7 @@ impl Differences {
     /// A model on its way, with these parameters; none if it refuses them.
     pub(super) fn walk(&self, parameters: &[f64], start: f64) -> Option<Walk<'_>> {
         let (own, further) = parameters.split_at(self.fmu.parameters.len());
-        let beside = self.beside.as_ref().map(|it| (it, it.set(further)));
+        let beside = (&self.beside, self.beside.set(further));
         Some(Walk::new(self.fmu.open(own)?, beside, self.typical[1].len(), start))
     }
 
@@ -263,7 +266,6 @@ impl Dynamics for Differences {
     }
 
     fn check(&self, parameters: &[f64]) -> Result<(), String> {
-        let further = &parameters[self.fmu.parameters.len()..];
-        self.beside.as_ref().map_or(Ok(()), |it| it.check(further))
+        self.beside.check(&parameters[self.fmu.parameters.len()..])
     }
 }

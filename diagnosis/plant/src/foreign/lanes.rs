@@ -15,7 +15,7 @@ pub struct Lanes<'a> {
 
 struct Lane<'a> {
     changed: Changed<'a>,
-    set: Option<Set>,
+    set: Set,
     /// Which of the walks it goes: all that have the model's own parameters share one.
     walk: usize,
     from: Vec<f64>,
@@ -41,7 +41,7 @@ impl<'a> Lanes<'a> {
                 walks.push(model.walk(&changed.parameters, drive.start)?);
                 walks.len() - 1
             };
-            let set = model.beside.as_ref().map(|it| it.set(&changed.parameters[own..]));
+            let set = model.beside.set(&changed.parameters[own..]);
             let none = vec![0.0; changed.start.len()];
             let outputs = vec![0.0; model.fmu.outputs.len()];
             lanes.push(Lane {
@@ -67,9 +67,7 @@ impl<'a> Lanes<'a> {
         let Self { drive, walks, lanes } = self;
         for lane in lanes {
             let walk = &mut walks[lane.walk];
-            if let Some(set) = &lane.set {
-                walk.attach(set.clone());
-            }
+            walk.attach(&lane.set);
             let changes = state.iter().zip(&lane.changed.start);
             lane.from.iter_mut().zip(changes).for_each(|(from, (state, change))| *from = state + change);
             let input = |i: usize| lane.changed.input(drive, i, sample, 0.0);
@@ -86,9 +84,7 @@ impl<'a> Lanes<'a> {
         let steps = walks[first.walk].paced(least, drive, &first.outputs);
         for lane in lanes {
             let walk = &mut walks[lane.walk];
-            if let Some(set) = &lane.set {
-                walk.attach(set.clone());
-            }
+            walk.attach(&lane.set);
             lane.next.copy_from_slice(&lane.from);
             let input = |i: usize, share: f64| lane.changed.input(drive, i, sample, share);
             walk.advance((sample, steps), drive, &mut lane.next, &lane.rates, &input);

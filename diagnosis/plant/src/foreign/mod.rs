@@ -1,4 +1,4 @@
-//! Models of other makers: an FMU (FMI 2.0, model exchange) as a predictor, alone or with an element of the library
+//! Models of other makers: an FMU (FMI 2.0, model exchange) as a predictor, alone or with elements of the library
 //! beside it.
 //!
 //! The FMU is run in this process. Who fears that it crashes has to be another process.
@@ -8,6 +8,7 @@ mod differences;
 mod exchange;
 mod face;
 mod lanes;
+mod role;
 mod units;
 mod walk;
 
@@ -20,8 +21,9 @@ use beside::Beside;
 use differences::Differences;
 use exchange::Fmu;
 
-pub use beside::{Attachment, Own, Replaced, is_of_strut, needs_own};
+pub use beside::{Attachment, Own, Replaced, needs_own};
 pub use face::{Face, FaceVariable};
+pub use role::Role;
 pub use units::Conversion;
 
 /// What a predictor is made of.
@@ -33,27 +35,25 @@ pub struct Foreign {
     pub parameters: Vec<String>,
     /// Its local variables that count as outputs. What it does not have is left out.
     pub locals: Vec<String>,
-    /// A strut of the library that acts beside the model.
-    pub strut: Option<Attachment>,
+    /// Elements of the library that act beside the model, one of each role at most.
+    pub beside: Vec<Attachment>,
 }
 
 impl Foreign {
     /// The FMU as a plant: its real inputs, outputs and states, and the parameters that were named, in base units of the
-    /// SI; those of the element beside it come after the FMU's own.
+    /// SI; those of the elements beside it come after the FMU's own.
     ///
     /// # Errors
     /// If the FMU cannot be read or run here, or lacks what was named: all of it in one text, with what to do.
     pub fn plant(&self) -> Result<Plant, String> {
-        let replaced = self.strut.as_ref().and_then(|it| it.replaces.as_ref());
+        let replaced = self.beside.iter().find_map(|it| it.replaces.as_ref());
         let taken: Vec<&str> =
             replaced.iter().flat_map(|it| [it.stiffness.as_str(), it.damping.as_str()]).collect();
         let fmu = Fmu::load(self, &taken)?;
-        let beside = self.strut.as_ref().map(|strut| Beside::new(&fmu, strut)).transpose()?;
+        let beside = Beside::new(&fmu, &self.beside)?;
         let (mut parameters, mut states) = (fmu.parameters.clone(), fmu.states.clone());
-        if let Some(beside) = &beside {
-            parameters.extend(beside.parameters.iter().cloned());
-            states.extend(beside.states.iter().cloned());
-        }
+        parameters.extend(beside.parameters.iter().cloned());
+        states.extend(beside.states.iter().cloned());
         let (name, inputs, outputs) = (fmu.name.clone(), fmu.inputs.clone(), fmu.outputs.clone());
         let equations = Differences::new(fmu, beside, &parameters, &states);
         equations.refuse_loops()?;
@@ -85,6 +85,6 @@ impl Foreign {
             (name.clone(), conversion.own(*value))
         };
         let values: Vec<(String, f64)> = values.iter().map(own).collect();
-        Ok(Fmu::load(&Self { strut: None, ..self.clone() }, &[])?.started(&values))
+        Ok(Fmu::load(&Self { beside: Vec::new(), ..self.clone() }, &[])?.started(&values))
     }
 }

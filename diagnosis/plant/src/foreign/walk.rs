@@ -8,13 +8,13 @@ use crate::pace::{ACCURATE, LONGEST_STEP, MOST_STEPS};
 use super::beside::{Beside, Set};
 use super::exchange::Session;
 
-/// An instance with an element beside it.
+/// An instance with the elements beside it.
 pub struct Walk<'a> {
     session: Session,
-    beside: Option<(&'a Beside, Set)>,
+    beside: (&'a Beside, Set),
     /// How many states are the instance's.
     own: usize,
-    /// Time of the first sample for the element; the instance has a time of its own, as it begins anew.
+    /// Time of the first sample for the elements; the instance has a time of its own, as it begins anew.
     start: f64,
     inputs: Vec<f64>,
     /// Slopes of a step's stages.
@@ -24,17 +24,15 @@ pub struct Walk<'a> {
 
 impl<'a> Walk<'a> {
     /// Of an instance whose parameters are set.
-    pub fn new(session: Session, beside: Option<(&'a Beside, Set)>, states: usize, start: f64) -> Self {
-        let own = states - beside.as_ref().map_or(0, |(beside, _)| beside.states.len());
+    pub fn new(session: Session, beside: (&'a Beside, Set), states: usize, start: f64) -> Self {
+        let own = states - beside.0.states.len();
         let slopes = std::array::from_fn(|_| vec![0.0; states]);
         Self { session, beside, own, start, inputs: Vec::new(), slopes, middle: vec![0.0; states] }
     }
 
-    /// Other parameters of the element.
-    pub fn attach(&mut self, set: Set) {
-        if let Some((_, own)) = &mut self.beside {
-            *own = set;
-        }
+    /// Other parameters of the elements.
+    pub fn attach(&mut self, set: &Set) {
+        self.beside.1.clone_from(set);
     }
 
     /// Rates at a time with a number of inputs, and the outputs on request.
@@ -51,9 +49,8 @@ impl<'a> Walk<'a> {
         let (own, memory) = state.split_at(self.own);
         self.session.place(time, own, &self.inputs);
         let (rates, of_memory) = rates.split_at_mut(self.own);
-        if let Some((beside, set)) = &self.beside {
-            beside.act(set, self.start + time, &mut self.session, (&mut self.inputs, memory, of_memory));
-        }
+        let (beside, set) = &self.beside;
+        beside.act(set, self.start + time, &mut self.session, (&mut self.inputs, memory, of_memory));
         // Outputs first: after rates, OpenModelica's FMUs take outputs that follow from states for known, and give old ones.
         if let Some(outputs) = outputs {
             self.session.outputs(outputs);
@@ -107,10 +104,10 @@ impl<'a> Walk<'a> {
         self.session.settle(&mut state[..self.own])
     }
 
-    /// Number of steps to the next sample: `least`, or more where the element moves fast, as its memory then changes fast.
+    /// Number of steps to the next sample: `least`, or more where an element moves fast, as its memory then changes fast.
     pub fn paced(&self, least: usize, drive: &Drive, outputs: &[f64]) -> usize {
-        let of = |(beside, set): &(&Beside, Set)| beside.steps(set, drive.step, outputs);
-        self.beside.as_ref().map_or(0, of).max(least).min(MOST_STEPS as usize)
+        let (beside, set) = &self.beside;
+        beside.steps(set, drive.step, outputs).max(least).min(MOST_STEPS as usize)
     }
 
     /// Steps between two samples that the fastest mode about a state asks for.

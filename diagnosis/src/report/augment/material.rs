@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::plant::{Attachment, Face, FaceVariable, Own, is_of_strut, needs_own};
+use crate::plant::{Attachment, Face, FaceVariable, Own, needs_own};
 use crate::signal::distortion::Correction;
 
 /// Difference of two signals, as a share of how far they move, that is rounding.
@@ -15,13 +15,13 @@ pub struct Material<'a> {
     pub fmu: &'a Path,
     /// What it declares.
     pub face: &'a Face,
-    /// Where Strut's strut is attached to it.
-    pub strut: Option<&'a Attachment>,
+    /// Where Strut's elements are attached to it.
+    pub beside: &'a [Attachment],
     /// Whether the strut does just what it replaces, so that the FMU may keep it.
     pub stands_in: bool,
-    /// Parameters of the FMU and of the strut.
+    /// Parameters of the FMU and of the elements beside it.
     pub parameters: Vec<Value<'a>>,
-    /// What the strut remembers at the start.
+    /// What the elements remember at the start.
     pub memory: Vec<Value<'a>>,
     /// Start values of other variables that the FMU takes.
     pub starts: Vec<(String, f64)>,
@@ -70,32 +70,33 @@ impl Shown<'_> {
 }
 
 impl Material<'_> {
-    /// What the strut has of its own; none if there is no strut, since nothing was found in it.
-    pub fn own(&self) -> Option<Own> {
-        let at = self.strut?;
-        let of_strut = || self.parameters.iter().filter(|it| is_of_strut(it.name));
-        let own = match &at.replaces {
-            None => Own::default(),
-            Some(_) if !self.stands_in => Own { spring: true, damper: true },
-            // A force that passes between components is late, so that the FMU does itself what it can.
-            Some(_) => needs_own(of_strut().map(|it| (it.name, it.value))),
-        };
-        let rate = |name: &str| ["strut.stiffness", "strut.damping"].contains(&name);
-        let adds = of_strut().any(|it| !rate(it.name) && it.value != it.start);
+    /// What an element has of its own; none if the system does not need it, since nothing was found in it.
+    pub fn own(&self, at: &Attachment) -> Option<Own> {
+        let of_element = || self.parameters.iter().filter(|it| at.role.has(it.name));
+        let adds = of_element().any(|it| !at.role.rates().contains(&it.name) && it.value != it.start);
+        let all = Own { spring: true, damper: true };
+        if at.replaces.is_none() || !self.stands_in {
+            return (adds || at.replaces.is_some()).then_some(all);
+        }
+        // A force that passes between components is late, so that the FMU does itself what it can.
+        let own = needs_own(of_element().map(|it| (it.name, it.value)));
         (adds || own.spring || own.damper).then_some(own)
+    }
+
+    /// Whether a parameter is one of an element beside the FMU.
+    fn is_beside(&self, name: &str) -> bool {
+        self.beside.iter().any(|it| it.role.has(name))
     }
 
     /// The FMU's fitted parameters and its start values, in base units.
     pub fn given(&self) -> Vec<(String, f64)> {
-        let own = self.own().unwrap_or_default();
         let named = |name: &str| self.parameters.iter().find(|it| it.name == name).map(|it| it.value);
-        let fitted = self.parameters.iter().filter(|it| !is_of_strut(it.name) && it.value != it.start);
+        let fitted = self.parameters.iter().filter(|it| !self.is_beside(it.name) && it.value != it.start);
         let mut given: Vec<(String, f64)> = fitted.map(|it| (it.name.to_owned(), it.value)).collect();
-        if let Some(replaced) = self.strut.and_then(|it| it.replaces.as_ref()) {
-            let rates = [
-                (&replaced.stiffness, "strut.stiffness", own.spring),
-                (&replaced.damping, "strut.damping", own.damper),
-            ];
+        for (at, replaced) in self.beside.iter().filter_map(|it| Some((it, it.replaces.as_ref()?))) {
+            let own = self.own(at).unwrap_or_default();
+            let [spring, damper] = at.role.rates();
+            let rates = [(&replaced.stiffness, spring, own.spring), (&replaced.damping, damper, own.damper)];
             for (name, of, taken) in rates {
                 given.extend(named(of).map(|value| (name.clone(), if taken { 0.0 } else { value })));
             }

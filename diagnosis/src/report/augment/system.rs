@@ -5,19 +5,17 @@ use std::fmt::Write;
 
 use strut_check::import::Unit;
 
-use crate::plant::{Attachment, Conversion, FaceVariable, Own, is_of_strut, models};
+use crate::plant::{Attachment, Conversion, FaceVariable, Own, Role, models};
 use crate::report::words;
 use crate::signal::distortion::{Correction, Fault};
 
-use super::material::Material;
+use super::material::{Material, Value};
 
 /// The system's name, and the name of its file without the ending.
 pub const NAME: &str = "augmented";
 /// The component of the other maker's FMU.
 const MODEL: &str = "model";
-/// The component of Strut's strut.
-const STRUT: &str = "strut";
-/// The model that Strut's strut is.
+/// The model that each of Strut's elements is.
 const BENCH: &str = "ElementDyno";
 /// Where every value of a set comes from.
 const SOURCE: &str = "found by the diagnosis";
@@ -42,7 +40,7 @@ struct Draft<'m> {
     system: System,
 }
 
-/// The system: the FMU, what drives it, the strut beside it, and the sensors that change what they measure.
+/// The system: the FMU, what drives it, the elements beside it, and the sensors that change what they measure.
 ///
 /// # Errors
 /// Why there can be none, in a sentence.
@@ -53,14 +51,15 @@ pub fn system(material: &Material<'_>) -> Result<System, String> {
         connections: Vec::new(),
         parameters: String::new(),
         outputs: Vec::new(),
-        taken: BTreeSet::from([MODEL.to_owned(), STRUT.to_owned()]),
+        taken: Role::ALL.map(Role::name).into_iter().chain([MODEL]).map(str::to_owned).collect(),
         system: System::default(),
     };
-    let own = material.own();
-    draft.inputs(own.is_some())?;
+    let needed: Vec<(Own, &Attachment)> =
+        material.beside.iter().filter_map(|at| Some((material.own(at)?, at))).collect();
+    draft.inputs(&needed)?;
     draft.values();
-    if let (Some(own), Some(at)) = (own, material.strut) {
-        draft.strut(own, at)?;
+    for (own, at) in needed {
+        draft.element(own, at)?;
     }
     draft.sensors();
     Ok(draft.finished())
@@ -86,7 +85,7 @@ impl<'m> Draft<'m> {
     }
 
     /// What drives the FMU: a record for what moves, a value for what rests.
-    fn inputs(&mut self, has_strut: bool) -> Result<(), String> {
+    fn inputs(&mut self, beside: &[(Own, &Attachment)]) -> Result<(), String> {
         let material = self.material;
         for declared in material.face.variables.iter().filter(|it| it.causality == "input") {
             if declared.kind != "Real" {
@@ -98,8 +97,8 @@ impl<'m> Draft<'m> {
             };
             let own: Vec<f64> = values.iter().map(|value| declared.conversion.own(*value)).collect();
             let rests = own.iter().all(|value| Some(value) == own.first());
-            let strut = material.strut.filter(|_| has_strut);
-            let acted_on = strut.is_some_and(|at| at.acts_on.iter().any(|(input, _)| input == name));
+            let mut forces = beside.iter().flat_map(|(_, at)| &at.acts_on);
+            let acted_on = forces.any(|(input, _)| input == name);
             match own.first() {
                 Some(value) if rests && !acted_on => self.value(declared, *value),
                 _ => self.recorded(declared, &own),
@@ -171,9 +170,10 @@ impl<'m> Draft<'m> {
         }
     }
 
-    /// The strut beside the FMU. Its bench moves the lower end: motion and force are the negatives of deflection and force.
-    fn strut(&mut self, own: Own, at: &Attachment) -> Result<(), String> {
-        let material = self.material;
+    /// An element beside the FMU. Its bench moves the lower end: motion and force are the negatives of deflection and
+    /// force.
+    fn element(&mut self, own: Own, at: &Attachment) -> Result<(), String> {
+        let (material, name) = (self.material, at.role.name());
         let missing = |name: &str, what: &str| {
             format!(
                 "{what} {name} is no output of the FMU, and no output follows it; export the FMU with it as an output"
@@ -181,13 +181,13 @@ impl<'m> Draft<'m> {
         };
         let deflection = material
             .shown(&at.deflection)
-            .ok_or_else(|| missing(&at.deflection, "the strut's deflection"))?;
+            .ok_or_else(|| missing(&at.deflection, &format!("the deflection of the {name}")))?;
         // For a rate, the output's own offset does not count.
         let Conversion { factor, offset } = deflection.output.conversion;
         let zero = deflection.factor * offset + deflection.offset - at.rest;
         let to = |input: &str, from: &str, way: &str| {
             format!(
-                "{{ from = {}, to = \"{STRUT}.motion.{input}\"{way} }}",
+                "{{ from = {}, to = \"{name}.motion.{input}\"{way} }}",
                 quoted(&format!("{MODEL}.{from}"))
             )
         };
@@ -205,7 +205,7 @@ impl<'m> Draft<'m> {
             }
             None => {
                 self.system.notes.push(format!(
-                    "{} is no output of the FMU: the strut's velocity is the rate of change of {}",
+                    "{} is no output of the FMU: the velocity of the {name} is the rate of change of {}",
                     at.velocity, deflection.output.name
                 ));
                 let way = format!(", factor = {:?}, operation = \"derivative\"", -along);
@@ -217,43 +217,52 @@ impl<'m> Draft<'m> {
         for (input, factor) in &at.acts_on {
             let conversion = material.face.variable(input).map_or(Conversion::NONE, |it| it.conversion);
             let way = format!(", factor = {:?}", -factor / conversion.factor);
-            self.connect(&format!("{STRUT}.force"), input, &way);
+            self.connect(&format!("{name}.force"), input, &way);
         }
-        let mut set = format!(
-            "fmu = \"Augmented_strut\"\nmodel = \"{BENCH}\"\ntitle = \"The strut beside the model, with the effects \
-             found\"\nsource = \"diagnosis\"\n\n[values]\n",
-        );
-        let mut given = |name: &str, value: f64, unit: &str| {
-            let name = quoted(name);
-            let _ =
-                writeln!(set, "{name} = {{ value = {value:?}, unit = \"{unit}\", source = \"{SOURCE}\" }}");
-        };
-        let named = |name: &str| material.parameters.iter().find(|it| it.name == name).map(|it| it.value);
-        for (name, unit, has) in
-            [("strut.stiffness", "N/m", own.spring), ("strut.damping", "N.s/m", own.damper)]
-        {
-            given(name, named(name).filter(|_| has).unwrap_or(0.0), unit);
-        }
-        let others = material
-            .parameters
-            .iter()
-            .filter(|it| is_of_strut(it.name) && !["strut.stiffness", "strut.damping"].contains(&it.name));
-        for it in others.chain(&material.memory).filter(|it| it.value != it.start) {
-            given(it.name, it.value, it.unit);
-        }
-        self.component(STRUT, set);
+        let set = self.set(own, at.role);
+        self.component(name, set);
         // All but its motion rests: no coil sets its damper.
         let bench = models::named(BENCH).ok_or_else(|| format!("there is no {BENCH}"))?;
         for it in bench.inputs.iter().filter(|it| !it.name.starts_with("motion.")) {
-            let name = quoted(&format!("{STRUT}.{}", it.name));
+            let input = quoted(&format!("{name}.{}", it.name));
             let _ = writeln!(
                 self.parameters,
-                "{name} = {{ value = {:?}, unit = \"{}\" }}",
+                "{input} = {{ value = {:?}, unit = \"{}\" }}",
                 it.start, it.unit.symbol
             );
         }
-        self.outputs.push(format!("{STRUT}.force"));
+        self.outputs.push(format!("{name}.force"));
         Ok(())
+    }
+
+    /// The parameter set of an element's bench: what was found, under the bench's names.
+    fn set(&self, own: Own, role: Role) -> String {
+        let (material, name) = (self.material, role.name());
+        let mut set = format!(
+            "fmu = \"Augmented_{name}\"\nmodel = \"{BENCH}\"\ntitle = \"The {name} beside the model, with the effects \
+             found\"\nsource = \"diagnosis\"\n\n[values]\n",
+        );
+        let mut given = |name: &str, value: &str| {
+            let _ = writeln!(set, "{} = {{ value = {value}, source = \"{SOURCE}\" }}", quoted(name));
+        };
+        let quantity = |value: f64, unit: &str| format!("{value:?}, unit = \"{unit}\"");
+        let rates = role.rates();
+        if role.is_tire() {
+            given("element", "\"Tire\"");
+            given("tire.lift_off", "false");
+        }
+        let named = |bench: &str| {
+            let found = |it: &&Value<'_>| role.on_bench(it.name).as_deref() == Some(bench);
+            material.parameters.iter().find(found).map(|it| it.value)
+        };
+        for ((rate, unit), has) in rates.into_iter().zip(["N/m", "N.s/m"]).zip([own.spring, own.damper]) {
+            given(rate, &quantity(named(rate).filter(|_| has).unwrap_or(0.0), unit));
+        }
+        for it in material.parameters.iter().chain(&material.memory).filter(|it| it.value != it.start) {
+            let bench = role.on_bench(it.name).filter(|name| !rates.contains(&name.as_str()));
+            bench.iter().for_each(|name| given(name, &quantity(it.value, it.unit)));
+        }
+        set
     }
 
     /// The measured signals, as their sensors show them.

@@ -6,7 +6,7 @@ use toml::Table;
 use super::material::{Material, Value};
 use super::system::{System, system};
 use super::{obstacle, starts};
-use crate::plant::{Attachment, Conversion, Face, FaceVariable, Replaced};
+use crate::plant::{Attachment, Conversion, Face, FaceVariable, Replaced, Role};
 use crate::signal::distortion::{Correction, Fault};
 
 /// A mass on a spring of another maker: position in mm, force in kN, velocity as a local variable.
@@ -43,6 +43,7 @@ fn face() -> Face {
 
 fn attachment() -> Attachment {
     Attachment {
+        role: Role::Strut,
         deflection: "length".into(),
         rest: 0.3,
         velocity: "v".into(),
@@ -60,12 +61,12 @@ fn value(name: &'static str, value: f64, start: f64) -> Value<'static> {
 }
 
 /// What was found: the mass, the strut's rates, and these parameters of effects.
-fn material<'a>(face: &'a Face, strut: Option<&'a Attachment>, effects: &[Value<'static>]) -> Material<'a> {
+fn material<'a>(face: &'a Face, beside: &'a [Attachment], effects: &[Value<'static>]) -> Material<'a> {
     let rates = [value("strut.stiffness", 9000.0, 1e4), value("strut.damping", 12.0, 10.0)];
     Material {
         fmu: std::path::Path::new("/made by/others/Mass.fmu"),
         face,
-        strut,
+        beside,
         stands_in: true,
         parameters: [value("m", 1.1, 1.0)].into_iter().chain(rates).chain(effects.iter().copied()).collect(),
         memory: vec![value("hysteresis.presliding.friction", 0.5, 0.0)],
@@ -111,7 +112,7 @@ fn given(system: &System, name: &str) -> Option<f64> {
 #[test]
 fn the_strut_has_the_effect_and_the_fmu_the_rest() {
     let (face, at) = (face(), attachment());
-    let system = system(&material(&face, Some(&at), &[FRICTION])).unwrap();
+    let system = system(&material(&face, std::slice::from_ref(&at), &[FRICTION])).unwrap();
     let set = table(&system, "strut.toml");
     let values = |name: &str| set["values"].get(name).map(|it| it["value"].as_float().unwrap());
     assert_eq!(set["model"].as_str(), Some("ElementDyno"));
@@ -121,14 +122,57 @@ fn the_strut_has_the_effect_and_the_fmu_the_rest() {
     // Its spring and damper stay in the FMU, in its units, with the values found.
     let own = ["model.m", "model.k", "model.d", "model.z", "model.gravity"].map(|name| given(&system, name));
     assert_eq!(own, [1.1, 9.0, 12.0, 4.0, 9.81].map(Some));
-    assert_eq!(system.notes, ["v is no output of the FMU: the strut's velocity is the rate of change of z"]);
+    assert_eq!(
+        system.notes,
+        ["v is no output of the FMU: the velocity of the strut is the rate of change of z"]
+    );
+}
+
+#[test]
+fn a_guide_and_a_tyre_are_benches_too_and_stand_there_only_with_an_effect() {
+    let face = face();
+    let at = |role: Role| Attachment { role, replaces: None, ..attachment() };
+    let (all, found) = ([Role::Strut, Role::Guide, Role::Tire].map(at), |name, value| Value {
+        name,
+        value,
+        start: 0.0,
+        unit: "N",
+    });
+    let effects = [
+        found("ground_spring.stiffness", 40.0),
+        found("guide.coulomb.force", 8.0),
+        found("tire.quadratic", 4e6),
+    ];
+    let system = system(&Material { memory: Vec::new(), ..material(&face, &all, &effects) }).unwrap();
+    let values = |name: &str| {
+        let set = table(&system, &format!("{name}.toml"));
+        set["values"]
+            .as_table()
+            .unwrap()
+            .iter()
+            .map(|(name, it)| (name.clone(), it["value"].to_string()))
+            .collect::<Vec<_>>()
+    };
+    let expected = [("strut.stiffness", "40.0"), ("strut.damping", "0.0"), ("strut.coulomb.force", "8.0")];
+    assert_eq!(values("guide"), expected.map(|(name, value)| (name.to_owned(), value.to_owned())));
+    let expected = [
+        ("element", "\"Tire\""),
+        ("tire.lift_off", "false"),
+        ("tire.stiffness", "0.0"),
+        ("tire.damping", "0.0"),
+        ("tire.quadratic", "4000000.0"),
+    ];
+    assert_eq!(values("tire"), expected.map(|(name, value)| (name.to_owned(), value.to_owned())));
+    assert!(system.files.iter().all(|(name, _)| name != "strut.toml"));
+    let forces = connections(&system).into_iter().filter(|it| it.0 == "model.F").map(|it| it.1);
+    assert_eq!(forces.collect::<Vec<_>>(), ["record_F.signal", "guide.force", "tire.force"]);
 }
 
 #[test]
 fn an_effect_in_the_damper_takes_the_damper_along_and_a_linkage_the_spring_too() {
     let (face, at) = (face(), attachment());
     let rates = |effects: &[Value<'static>], stands_in: bool| {
-        let material = Material { stands_in, ..material(&face, Some(&at), effects) };
+        let material = Material { stands_in, ..material(&face, std::slice::from_ref(&at), effects) };
         let system = system(&material).unwrap();
         let strut = table(&system, "strut.toml");
         let of = |name: &str| strut["values"][name]["value"].as_float().unwrap();
@@ -148,7 +192,7 @@ fn an_effect_in_the_damper_takes_the_damper_along_and_a_linkage_the_spring_too()
 #[test]
 fn signs_units_and_zeros_are_those_of_the_bench_and_of_the_fmu() {
     let (face, at) = (face(), attachment());
-    let system = system(&material(&face, Some(&at), &[FRICTION])).unwrap();
+    let system = system(&material(&face, std::slice::from_ref(&at), &[FRICTION])).unwrap();
     let all = connections(&system);
     let to = |name: &str| all.iter().filter(|it| it.0 == name).collect::<Vec<_>>();
     // The length is z in m less 0.5 m, of which 0.3 m are the spring's: at z = 20 mm it is drawn out by -0.78 m.
@@ -167,7 +211,7 @@ fn signs_units_and_zeros_are_those_of_the_bench_and_of_the_fmu() {
 #[test]
 fn the_record_is_in_the_unit_of_its_input_and_what_rests_is_a_value() {
     let face = face();
-    let system = system(&material(&face, None, &[])).unwrap();
+    let system = system(&material(&face, &[], &[])).unwrap();
     let (_, csv) = system.files.iter().find(|(name, _)| name == "record_F.csv").unwrap();
     assert_eq!(csv, "time [s], signal [kN]\n0,0\n0.001,0.5\n0.002,1\n0.003,-0.02\n");
     let set = table(&system, "record_F.toml");
@@ -195,7 +239,7 @@ fn a_sensor_that_is_wrong_is_a_component_in_the_output_s_unit() {
         correction.set(fault, amount);
     }
     let material =
-        Material { measured: vec![("z", correction), ("v", correction)], ..material(&face, None, &[]) };
+        Material { measured: vec![("z", correction), ("v", correction)], ..material(&face, &[], &[]) };
     let system = system(&material).unwrap();
     let set = table(&system, "sensor_z.toml");
     let of = |name: &str| set["values"][name]["value"].as_float().unwrap();
@@ -215,7 +259,7 @@ fn a_sensor_that_is_wrong_is_a_component_in_the_output_s_unit() {
 fn a_local_variable_that_follows_an_output_is_looked_at_through_it() {
     let face = face();
     let measured = vec![("length", Correction::default())];
-    let system = system(&Material { measured, ..material(&face, None, &[]) }).unwrap();
+    let system = system(&Material { measured, ..material(&face, &[], &[]) }).unwrap();
     let set = table(&system, "sensor_length.toml");
     let of = |name: &str| set["values"][name]["value"].as_float().unwrap();
     // In mm, as the output is.
@@ -234,13 +278,13 @@ fn what_cannot_be_in_a_system_is_said() {
     let mut face = self::face();
     let gear = FaceVariable { kind: "Enumeration".into(), name: "gear".into(), ..face.variables[0].clone() };
     face.variables.push(gear);
-    let error = system(&material(&face, None, &[])).unwrap_err();
+    let error = system(&material(&face, &[], &[])).unwrap_err();
     assert_eq!(error, "nothing drives its input gear of type Enumeration");
     // A strut whose deflection no output follows.
     let face = self::face();
     let at = Attachment { deflection: "v".into(), ..attachment() };
-    let error = system(&material(&face, Some(&at), &[FRICTION])).unwrap_err();
-    assert!(error.starts_with("the strut's deflection v is no output of the FMU"), "{error}");
+    let error = system(&material(&face, std::slice::from_ref(&at), &[FRICTION])).unwrap_err();
+    assert!(error.starts_with("the deflection of the strut v is no output of the FMU"), "{error}");
 }
 
 #[test]

@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::catalogue::{self, Effect, Element, RESPONSE, Signal};
-use crate::plant::is_of_strut;
+use crate::plant::Role;
 use crate::report::words::list;
-use crate::rig::Rig;
+use crate::rig::{ElementSignals, Rig};
 
 /// Effects of one place: what it is called, and numbers with names.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -19,11 +19,11 @@ pub struct Possible {
 /// Why effects cannot be identified.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Obstacle {
-    /// Nothing stands beside the FMU that could have them.
-    NoStrut,
+    /// No element of this kind stands beside the FMU.
+    NotBeside,
     /// The strut beside the FMU has no spring and no damper of its own that they could change.
     NotReplaced,
-    /// Nothing but a strut can stand beside an FMU.
+    /// No element of the library that can stand beside an FMU has them.
     Elsewhere,
     /// The model has no effect of this element.
     NoElement,
@@ -35,9 +35,9 @@ impl Obstacle {
     /// What is to be said, with what to do if something can be done.
     pub fn sentence(&self, model: &str) -> String {
         match self {
-            Self::NoStrut => {
-                "No element has `acts_on`, the inputs that take the force of a strut of the library. Without \
-                              it, no strut stands beside the FMU."
+            Self::NotBeside => {
+                "No such element has `acts_on`, the inputs that take the force of one of the library. Without it, none stands \
+                 beside the FMU."
                     .into()
             }
             Self::NotReplaced => {
@@ -46,7 +46,7 @@ impl Obstacle {
                     .into()
             }
             Self::Elsewhere => {
-                "They act in other elements, and only a strut of the library can stand beside an FMU.".into()
+                "No element of the library that can stand beside an FMU has them.".into()
             }
             Self::NoElement => format!("{model} has no such element."),
             Self::Lacks(name) => format!("{model} has no `{name}`."),
@@ -62,14 +62,11 @@ pub fn obstacle(effect: &'static Effect, rig: &Rig) -> Option<Obstacle> {
         return None;
     }
     if rig.kind.is_foreign() {
-        let attached = rig.kind.elements.iter().find(|it| !it.acts_on.is_empty());
-        // A coil drives no strut beside another maker's model.
-        let beside = effect.parts.iter().all(|it| is_of_strut(it.parameter));
-        return Some(match (effect.element, attached) {
-            (Element::STRUT, _) if !beside => Obstacle::Elsewhere,
-            (Element::STRUT, None) => Obstacle::NoStrut,
-            (Element::STRUT, Some(it)) if it.replaces.is_none() => Obstacle::NotReplaced,
-            _ => Obstacle::Elsewhere,
+        let is_it = |it: &&ElementSignals| it.element == effect.element && !it.acts_on.is_empty();
+        return Some(match rig.kind.elements.iter().find(is_it) {
+            _ if !is_beside(effect) => Obstacle::Elsewhere,
+            None => Obstacle::NotBeside,
+            Some(_) => Obstacle::NotReplaced,
         });
     }
     if !catalogue::effects(plant).any(|it| it.element.kind() == effect.element.kind()) {
@@ -78,6 +75,12 @@ pub fn obstacle(effect: &'static Effect, rig: &Rig) -> Option<Obstacle> {
     let lacking = effect.parts.iter().map(|it| it.parameter).find(|it| plant.parameter(it).is_none());
     let lacking = lacking.or_else(|| effect.setting.filter(|it| plant.setting(it).is_none()));
     lacking.map(Obstacle::Lacks)
+}
+
+/// Whether an element beside another maker's model can have an effect: no coil drives it, and it leaves nothing by a setting.
+fn is_beside(effect: &Effect) -> bool {
+    let of_parts = |role: Role| effect.parts.iter().all(|it| role.has(it.parameter));
+    !effect.parts.is_empty() && Role::named(effect.element.name()).is_some_and(of_parts)
 }
 
 /// Effects that cannot be identified, with what keeps them.
@@ -164,13 +167,8 @@ mod tests {
         rig.plant.settings.clear();
         rig.plant
             .parameters
-            .retain(|it| is_of_strut(&it.name) && !remove.iter().any(|start| it.name.starts_with(start)));
+            .retain(|it| Role::Strut.has(&it.name) && !remove.iter().any(|start| it.name.starts_with(start)));
         rig
-    }
-
-    /// Whether an effect is one of a strut beside another maker's model.
-    fn is_beside(effect: &Effect) -> bool {
-        effect.element == Element::STRUT && effect.parts.iter().all(|it| is_of_strut(it.parameter))
     }
 
     fn numbers(effects: Option<&Vec<&Effect>>) -> Vec<&'static str> {
@@ -181,14 +179,14 @@ mod tests {
     fn without_a_strut_beside_it_an_fmu_has_no_effect_of_one() {
         let rig = foreign("force = { output = \"f\" }", &["strut.", "hysteresis."]);
         let impossible = impossible(&rig);
-        let strut = catalogue::all().filter(|it| is_beside(it)).count();
-        assert_eq!(impossible[&Obstacle::NoStrut].len(), strut);
+        let beside = catalogue::all().filter(|it| is_beside(it)).count();
+        assert_eq!(impossible[&Obstacle::NotBeside].len(), beside);
         assert_eq!(
-            impossible[&Obstacle::NoStrut].len() + impossible[&Obstacle::Elsewhere].len(),
+            impossible[&Obstacle::NotBeside].len() + impossible[&Obstacle::Elsewhere].len(),
             catalogue::all().count()
         );
         assert_eq!(in_elements(&rig), []);
-        assert!(Obstacle::NoStrut.sentence("").contains("`acts_on`"));
+        assert!(Obstacle::NotBeside.sentence("").contains("`acts_on`"));
     }
 
     #[test]
@@ -199,7 +197,8 @@ mod tests {
         let rig = foreign(element, &removed);
         let all = impossible(&rig);
         assert_eq!(numbers(all.get(&Obstacle::NotReplaced)), ["04", "05", "10", "12", "13", "14"]);
-        assert!(!all.contains_key(&Obstacle::NoStrut));
+        let of_strut = |it: &&Effect| it.element == Element::STRUT;
+        assert!(!all[&Obstacle::NotBeside].iter().any(of_strut));
         assert!(in_elements(&rig)[0].effects.contains(&"01 Coulomb friction".to_owned()));
     }
 
@@ -208,7 +207,8 @@ mod tests {
         let element = "force = { output = \"f\" }\nvelocity = \"v\"\nacts_on = [\"-F\"]\n\
                        replaces = { stiffness = \"k\", damping = \"d\" }";
         let all = impossible(&foreign(element, &[]));
-        assert_eq!(all.keys().collect::<Vec<_>>(), [&Obstacle::Elsewhere]);
+        assert_eq!(all.keys().collect::<Vec<_>>(), [&Obstacle::NotBeside, &Obstacle::Elsewhere]);
+        assert!(all[&Obstacle::NotBeside].iter().all(|it| it.element != Element::STRUT));
         assert!(all[&Obstacle::Elsewhere].iter().all(|it| !is_beside(it)));
     }
 

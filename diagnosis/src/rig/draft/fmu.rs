@@ -6,7 +6,7 @@ use std::path::Path;
 use strut_check::import::{Description, Package, Variable, description};
 use strut_model::unit;
 
-use crate::plant::{Between, Drive, Foreign, Plant, is_of_strut};
+use crate::plant::{Between, Drive, Foreign, Plant};
 
 use super::guess::Declared;
 use crate::rig::{Rig, fmu_of};
@@ -25,7 +25,8 @@ pub fn declared(file: &Path) -> Result<Declared, String> {
     let mut package = Package::open(file).map_err(failed)?;
     let (description, _) = description(&mut package).map_err(failed)?;
     let parameters = names(&description, "parameter");
-    let plant = Foreign { fmu: file.to_owned(), parameters, locals: Vec::new(), strut: None }.plant()?;
+    let plant =
+        Foreign { fmu: file.to_owned(), parameters, locals: Vec::new(), beside: Vec::new() }.plant()?;
     Ok(Declared {
         depends: names(&description, "output").iter().map(|name| dependencies(&description, name)).collect(),
         moved: moved(&plant)?,
@@ -49,8 +50,9 @@ impl Rig {
         let replaced = self.kind.elements.iter().filter_map(|it| it.replaces.as_ref());
         let replaced: Vec<&String> = replaced.flat_map(|it| [&it.stiffness, &it.damping]).collect();
         let mut all = names(&description, "parameter");
-        // A name of the library's strut means its parameter, not that of the FMU.
-        all.retain(|it| !replaced.contains(&it) && (is_of_strut(it) || self.plant.parameter(it).is_none()));
+        // A name of an element of the library means its parameter, not that of the FMU.
+        let is_beside = |name: &str| self.kind.is_beside(name);
+        all.retain(|it| !replaced.contains(&it) && (is_beside(it) || self.plant.parameter(it).is_none()));
         Ok(all)
     }
 }

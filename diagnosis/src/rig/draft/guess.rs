@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use strut_model::Declaration;
 use strut_model::unit::{self, Base, Unit};
 
-use crate::plant::is_of_strut;
+use crate::plant::Role;
 
 use super::names::{Place, Quantity, go_together, place};
 
@@ -109,7 +109,7 @@ impl Declared {
             let is_known = UNCERTAIN.iter().any(|it| it.base == declared.unit.base);
             // Zero switches something off: nobody knows whether the rig has it.
             let is_on = declared.start != 0.0;
-            is_on && (is_known || declared.unit.base == N_M_S) && !is_of_strut(&declared.name)
+            is_on && (is_known || declared.unit.base == N_M_S) && !Role::Strut.has(&declared.name)
         };
         let (nominal, others) = (0..self.parameters.len()).partition(uncertain);
         let motions = self.motions();

@@ -4,7 +4,7 @@ use strut_model::Declaration;
 use textwrap::{Options, WordSplitter};
 use unicode_width::UnicodeWidthStr;
 
-use crate::plant::is_of_strut;
+use crate::plant::Role;
 use crate::report::words::{columns, list, trimmed, unit};
 
 use super::guess::{Declared, Force, Guess, Motion, Strut};
@@ -133,7 +133,7 @@ fn nominal(page: &mut Page, declared: &Declared, guess: &Guess, strut: Option<&S
     }
     page.blank();
     let (reserved, others): (Vec<usize>, Vec<usize>) =
-        guess.others.iter().partition(|it| is_of_strut(&declared.parameters[**it].name));
+        guess.others.iter().partition(|it| Role::Strut.has(&declared.parameters[**it].name));
     let row = |index: &usize| {
         let it = &declared.parameters[*index];
         [
@@ -219,9 +219,9 @@ fn rates(page: &mut Page, declared: &Declared, guess: &Guess) {
 fn elements(page: &mut Page, declared: &Declared, guess: &Guess, strut: Option<&Strut>, notes: &[String]) {
     page.comment(
         "The element whose effects are looked for. Its deflection is positive in rebound, where its ends move apart. \
-         `acts_on` lists the inputs that take the force of a strut of the library. That force is positive where it pulls \
-         the ends together; `-name` takes the negative. `replaces` names the spring and the damper that the strut stands \
-         for. Without `acts_on`, only sensors and parameters can be wrong.",
+         `acts_on` lists the inputs that take the force of such an element of the library: strut, guide, wheel_guide, tire. \
+         That force is positive where it pulls the ends together; `-name` takes the negative. `replaces` names the spring \
+         and the damper that the strut stands for. Without `acts_on`, only sensors and parameters can be wrong.",
     );
     for note in notes {
         page.comment(note);

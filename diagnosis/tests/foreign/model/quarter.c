@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { M_S, M_U, K_S, D_S, K_T, D_T, Z_R, V_R, F_ACT, X, DX = X + 4, Z_REL = DX + 4, V_REL, A_S, A_U, F_T, COUNT };
+enum { M_S, M_U, K_S, D_S, K_T, D_T, Z_R, V_R, F_ACT, X, DX = X + 4, Z_REL = DX + 4, V_REL, A_S, A_U, F_T, F_S, F_U, Z_T,
+       V_T, COUNT };
 /* States: height and speed of the body, then of the wheel. */
 enum { STATES = 4 };
 
@@ -26,10 +27,12 @@ static void equations(Model *m) {
     double *r = m->r;
     double lift = r[X] - r[X + 2], speed = r[X + 1] - r[X + 3];
     double strut = r[K_S] * lift + r[D_S] * speed - r[F_ACT];
-    double tyre = r[K_T] * (r[Z_R] - r[X + 2]) + r[D_T] * (r[V_R] - r[X + 3]);
-    r[DX] = r[X + 1], r[DX + 1] = -strut / r[M_S];
+    /* Further forces, upwards: on the body, and on the wheel from the road. */
+    double tyre = r[K_T] * (r[Z_R] - r[X + 2]) + r[D_T] * (r[V_R] - r[X + 3]) + r[F_U];
+    r[DX] = r[X + 1], r[DX + 1] = (r[F_S] - strut) / r[M_S];
     r[DX + 2] = r[X + 3], r[DX + 3] = (strut + tyre) / r[M_U];
     r[Z_REL] = 1e3 * lift, r[V_REL] = speed, r[A_S] = r[DX + 1], r[A_U] = r[DX + 3], r[F_T] = tyre;
+    r[Z_T] = r[X + 2] - r[Z_R], r[V_T] = r[X + 3] - r[V_R];
 }
 
 const char *fmi2GetTypesPlatform(void) { return "default"; }

@@ -60,6 +60,8 @@ pub struct Parameters<R> {
     #[var(min(stiffness = 0.0))]
     pub strut: Strut<R>,
     /// Tyre
+    // Beside another maker's model, only what its own tyre lacks.
+    #[var(min(stiffness = 0.0))]
     pub tire: Tire<R>,
     /// Mass whose weight is on the tyre where its deflection is zero
     #[var(unit = KG, start = 390.0, min = 1e-3)]
@@ -229,6 +231,11 @@ impl Model for ElementDyno {
 }
 
 impl ElementDyno {
+    /// The bench with a tyre that cannot leave the plate.
+    pub fn of_a_tire() -> Self {
+        Self { element: Element::Tire, controlled_by: ControlledBy::Nothing, lift_off: false }
+    }
+
     /// Share of the rated current; none if nothing sets the damper.
     #[inline]
     fn share<R: Real>(&self, coil: Coil<R>, p: &Parameters<R>) -> Option<R> {
