@@ -10,6 +10,8 @@ A generator is a module with
     MEASURED  columns with noise: {name: unit}
     inputs(seed, time) -> {(name, unit): values}
     respond(p, hidden, time, u) -> {name: values}, u the inputs by their names
+    EVENTS    True where the FMU has events that matter to --agree
+    COLUMNS   names of columns that differ from the FMU's: {name: column}
 
     python NAME.py FOLDER             writes NAME-train.csv and NAME-test.csv
     python NAME.py --agree            compares with the FMU where nothing is hidden (needs FMPy)
@@ -68,7 +70,7 @@ def record(module, seed):
     for name, unit in module.MEASURED.items():
         y = outputs[name]
         columns.append(y + NOISE * np.std(y) * random.standard_normal(len(y)))
-        names.append(f"{name} [{unit}]")
+        names.append(f"{getattr(module, 'COLUMNS', {}).get(name, name)} [{unit}]")
     return [n.replace(" []", "") for n in names], np.column_stack(columns)
 
 
@@ -152,10 +154,31 @@ def agree(module, duration=3.0, parts=8):
         print(f"{module.FMU} {name}: std {np.std(y):.4g}, differs by {np.max(np.abs(y - other)) / np.std(y):.2e}, begins {y[0]:.4g}/{other[0]:.4g}")
 
 
+def agree_with_events(module, duration=3.0):
+    """The same by FMPy's own solver, which handles events."""
+    import fmpy
+
+    full = np.arange(0.0, module.DURATION, module.STEP)
+    u = {name: values for (name, _), values in module.inputs(1, full).items()}
+    time = full[full < duration]
+    ours = module.respond(module.NOMINAL, {}, time, {n: v[: len(time)] for n, v in u.items()})
+    signals = np.zeros(len(full), [("time", float), *((n, float) for n in u)])
+    signals["time"] = full
+    for n, values in u.items():
+        signals[n] = values
+    theirs = fmpy.simulate_fmu(
+        str(HERE / module.FMU), fmi_type="ModelExchange", stop_time=duration, output_interval=module.STEP, relative_tolerance=1e-6,
+        input=signals, output=list(ours),
+    )
+    for name, y in ours.items():
+        other = np.interp(time, theirs["time"], theirs[name])
+        print(f"{module.FMU} {name}: std {np.std(y):.4g}, differs by {np.max(np.abs(y - other)) / np.std(y):.2e}")
+
+
 def main(name):
     module = sys.modules[name]
     if sys.argv[1:] == ["--agree"]:
-        return agree(module)
+        return agree_with_events(module) if getattr(module, "EVENTS", False) else agree(module)
     folder = Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
     for seed, kind in [(1, "train"), (2, "test")]:
