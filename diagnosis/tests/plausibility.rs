@@ -133,7 +133,7 @@ fn nothing_in_the_blind_benchmark_is_taken_for_a_wrong_column() {
         let origins: Vec<&Origin> = origins.iter().collect();
         let mut records = load(&mut rig, &origins, &Map::default()).unwrap().records;
         let test = records.split_off(count);
-        assert_eq!(witness::notes(&records, &test), [], "{}", case.name);
+        assert_eq!(witness::notes(&records, &test, &rig.plant.inputs), [], "{}", case.name);
         let problems = problems(&rig, &Split::new(&records, test), &Options::default()).unwrap();
         assert!(problems.is_empty(), "{}: {problems:?}", case.name);
     }

@@ -129,7 +129,7 @@ impl Study {
             return Ok(outcome);
         }
         let test: Vec<Dataset> = records.split_off(self.train.len());
-        problems.extend(witness::notes(&records, &test));
+        problems.extend(witness::notes(&records, &test, &self.rig.plant.inputs));
         let (known, only) = (self.rig.known.clone(), self.effects.clone());
         let options = Options { known, only, without: self.without, deadline };
         progress("removing the noise of the inputs");

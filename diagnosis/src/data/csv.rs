@@ -141,14 +141,16 @@ fn header(file: &str, layout: &Layout) -> Result<Vec<Column>, DataError> {
     Ok(columns)
 }
 
-/// Name and unit of `name [unit]` or `name (unit)`.
+/// Name and unit of `name [unit]` or `name (unit)`. A number in brackets right behind a name is its index: `outputs[1] [rad/s]`.
 pub(super) fn title(cell: &str) -> (&str, &str) {
-    for (open, close) in [('[', ']'), ('(', ')')] {
-        if let Some((name, unit)) = cell.strip_suffix(close).and_then(|rest| rest.split_once(open)) {
-            return (name.trim(), unit.trim());
-        }
-    }
-    (cell, "")
+    let of_square = cell.strip_suffix(']').and_then(|rest| rest.rsplit_once('['));
+    let of_round = cell.strip_suffix(')').and_then(|rest| rest.split_once('('));
+    let is_index = |(name, unit): &(&str, &str)| {
+        let number = !unit.is_empty() && unit.bytes().all(|it| it.is_ascii_digit() || it == b',');
+        of_square.is_some() && number && name.ends_with(|it: char| it.is_alphanumeric() || it == '_')
+    };
+    let found = of_square.or(of_round).filter(|it| !is_index(it));
+    found.map_or((cell, ""), |(name, unit)| (name.trim(), unit.trim()))
 }
 
 /// A unit in a row of units, in brackets or without.

@@ -1,10 +1,12 @@
 //! Whether records are witnesses of their own: of different excitations, each long enough to say something.
 
+use strut_model::Declaration;
+
 use crate::data::check::noise_floor;
 use crate::dataset::recorded::{BLOCK, Dataset, Source};
 use crate::diagnosis::root_mean_square;
 use crate::report::findings::DataProblem;
-use crate::report::words::digits;
+use crate::report::words::{self, digits};
 use crate::screening::rms;
 
 /// Difference of two signals, over their magnitude, below which one is a repetition of the other.
@@ -13,6 +15,9 @@ const SAME: f64 = 0.05;
 const BUT_FOR_NOISE: f64 = 1.5;
 /// Magnitude of a signal over its noise below which it shows nothing but noise.
 const MOVES: f64 = 3.0;
+/// Share of an input's magnitude on the validation records below which the estimation records show too little of what it does: a
+/// hundredth of the power.
+const HARDLY: f64 = 0.1;
 /// Blocks of time that a record needs: over fewer, nobody can tell how much errors vary by chance.
 const BLOCKS: f64 = 4.0;
 
@@ -74,8 +79,9 @@ fn same_record(one: &Dataset, two: &Dataset) -> bool {
         && outputs.into_iter().all(|(one, two)| one.output == two.output && same(&one.values, &two.values))
 }
 
-/// Notes on records that do not validate: too short ones, and repetitions of an earlier one.
-pub fn notes(train: &[Dataset], test: &[Dataset]) -> Vec<DataProblem> {
+/// Notes on records that are no witnesses: too short ones, repetitions of an earlier one, and inputs that move in validation
+/// alone.
+pub fn notes(train: &[Dataset], test: &[Dataset], inputs: &[Declaration]) -> Vec<DataProblem> {
     let mut notes = Vec::new();
     let mut note = |record: &Dataset, signal: &str, text: String| {
         notes.push(DataProblem { record: record.name.clone(), signal: signal.into(), text, fatal: false });
@@ -120,7 +126,30 @@ pub fn notes(train: &[Dataset], test: &[Dataset]) -> Vec<DataProblem> {
             note(record, "all inputs", text);
         }
     }
+    for (index, input) in inputs.iter().enumerate() {
+        let size = |record: &Dataset| match &record.inputs[index] {
+            Source::Measured(values) => rms(values),
+            Source::DerivativeOf(_) | Source::RateOf(_) | Source::Constant(_) => 0.0,
+        };
+        let learned = train.iter().map(size).fold(0.0, f64::max);
+        let moves = test.iter().filter(|it| shows(it, index)).max_by(|a, b| size(a).total_cmp(&size(b)));
+        if let Some(record) = moves.filter(|it| learned < HARDLY * size(it)) {
+            let unit = words::unit(input.unit.symbol);
+            let text = format!(
+                "moves by {} {unit} (rms), and by {} {unit} in the estimation records: what depends on it cannot be \
+                 identified. Give this record, or a part of it, for estimation",
+                digits(size(record), 3),
+                digits(learned, 3)
+            );
+            note(record, &input.name, text);
+        }
+    }
     notes
+}
+
+/// Whether an input of a record shows more than noise.
+fn shows(record: &Dataset, input: usize) -> bool {
+    matches!(&record.inputs[input], Source::Measured(values) if rms(values) > MOVES * noise_floor(values))
 }
 
 #[cfg(test)]
@@ -151,7 +180,12 @@ mod tests {
     }
 
     fn texts(train: &[Dataset], test: &[Dataset]) -> Vec<String> {
-        notes(train, test).into_iter().map(|it| format!("{} {}: {}", it.record, it.signal, it.text)).collect()
+        let inputs = ["force", "current"].map(Declaration::named);
+        let inputs = &inputs[..train[0].inputs.len()];
+        notes(train, test, inputs)
+            .into_iter()
+            .map(|it| format!("{} {}: {}", it.record, it.signal, it.text))
+            .collect()
     }
 
     proptest! {
@@ -198,6 +232,19 @@ mod tests {
         assert!(again.len() == 1 && again[0].contains("the same excitation as the estimation record a.csv"));
         let twice = texts(&[a.clone(), a], &[b]);
         assert!(twice.len() == 1 && twice[0].contains("count twice"), "{twice:?}");
+    }
+
+    #[test]
+    fn an_input_that_moves_in_validation_alone_is_told() {
+        let of = |name: &str, current: f64, seed: u64| {
+            let current: Vec<f64> = multisine(seed + 9, 3000).iter().map(|it| current * it).collect();
+            record(name, vec![multisine(seed, 3000), noisy(&current, 1e-3, seed)], seed)
+        };
+        let (still, moved) = (of("a.csv", 1e-3, 1), of("b.csv", 1.0, 2));
+        let told = texts(std::slice::from_ref(&still), std::slice::from_ref(&moved));
+        assert!(told.len() == 1 && told[0].starts_with("b.csv current: moves by"), "{told:?}");
+        assert!(texts(std::slice::from_ref(&moved), std::slice::from_ref(&still)).is_empty());
+        assert!(texts(&[still, of("c.csv", 0.3, 3)], &[moved]).is_empty());
     }
 
     #[test]

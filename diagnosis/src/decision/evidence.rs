@@ -114,11 +114,12 @@ impl Evidence {
         if !variance_explained.is_finite() {
             Some("diverges on the validation data".to_owned())
         } else if delta_bic.is_nan() || delta_bic <= required.delta_bic {
-            let moves = if delta_bic < 0.0 { "rises" } else { "falls" };
-            Some(format!(
-                "explains too little for its parameters (the BIC {moves} by {:.0})",
-                delta_bic.abs()
-            ))
+            let moves = if delta_bic < 0.0 {
+                format!("rises by {:.0}", -delta_bic)
+            } else {
+                format!("falls by {delta_bic:.0} instead of {:.0}", required.delta_bic)
+            };
+            Some(format!("explains too little for its parameters (the BIC {moves})"))
         } else if !(estimation_t > required.estimation_t || self.is_steady_enough()) {
             Some(format!("no consistent improvement on the estimation data (t = {estimation_t:.1})"))
         } else if !(p_value < required.p_value || self.is_steady_enough()) {

@@ -130,6 +130,12 @@ fn an_fmu_that_cannot_be_used_by_several_threads_is_used_by_one() {
     }
     let Some((folder, rig)) = rig(&["-DALONE"], |text| text) else { return };
     let (train, test) = records("none", folder.path());
+    for record in [&train, &test] {
+        // A quarter of it is enough to be run by several threads.
+        let text = fs::read_to_string(record).unwrap();
+        let short: Vec<&str> = text.lines().take(5001).collect();
+        fs::write(record, short.join("\n")).unwrap();
+    }
     let output = diagnosed(&rig, (&train, &test), &folder.path().join("report"));
     let told = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && told.contains("once more with one thread"), "{told}");

@@ -1,4 +1,4 @@
-use crate::data::csv::write;
+use crate::data::csv::{title, write};
 use crate::data::{Channel, Reading, Record, TimeColumn, parse};
 use proptest::prelude::*;
 
@@ -8,6 +8,21 @@ fn read(text: &str) -> Record {
 
 fn error(text: &str) -> String {
     parse("run.csv", text.as_bytes(), &Reading::default()).unwrap_err().to_string()
+}
+
+#[test]
+fn an_index_is_part_of_a_name_and_a_number_behind_a_blank_is_a_unit() {
+    let titles =
+        ["outputs[1] [rad/s]", "outputs[1]", "slip [1]", "z[1,2](mm)", "force (N/(m))", "x[m]"].map(title);
+    let expected = [
+        ("outputs[1]", "rad/s"),
+        ("outputs[1]", ""),
+        ("slip", "1"),
+        ("z[1,2]", "mm"),
+        ("force", "N/(m)"),
+        ("x", "m"),
+    ];
+    assert_eq!(titles, expected);
 }
 
 #[test]

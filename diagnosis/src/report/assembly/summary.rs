@@ -376,7 +376,7 @@ mod tests {
             fitted: true,
             values: vec![FittedValue { name: "guide.coulomb.force".into(), value: 480.0, unit: "N".into() }],
             evidence: Some(shows),
-            outcome: "explains too little for its parameters (the BIC falls by 1)".into(),
+            outcome: "explains too little for its parameters (the BIC falls by 1 instead of 20)".into(),
         };
         let less = Candidate {
             evidence: Some(Evidence { validation_t: 2.0, variance_explained: 0.9, ..shows }),
@@ -386,7 +386,7 @@ mod tests {
             |verdict| of(&Findings { candidates: vec![less.clone(), friction.clone()], ..findings(verdict) });
         let wanted = "The effect that comes nearest is guide friction (guide.coulomb.force = 480.0 N): it would explain 38 % \
                       of the error power on the validation data. It is not identified: explains too little for its \
-                      parameters (the BIC falls by 1).";
+                      parameters (the BIC falls by 1 instead of 20).";
         assert_eq!(of(Verdict::Unmodelled), wanted);
         assert!(!of(Verdict::ParameterMismatch).contains("nearest"));
     }

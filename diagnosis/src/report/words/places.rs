@@ -2,7 +2,7 @@
 
 use super::value;
 use crate::catalogue::Element;
-use crate::report::findings::{AccountItem, Effect, Findings};
+use crate::report::findings::{AccountItem, Candidate, Effect, Findings};
 
 /// A part of the rig.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,7 +94,11 @@ pub fn element(key: &str) -> &str {
 pub fn effect_name(findings: &Findings, key: &str) -> String {
     let (id, element) = split(key);
     let known = findings.candidates.iter().filter(|candidate| candidate.id == id);
-    match known.max_by_key(|candidate| candidate.element == element) {
+    // Of a family with one number, what explains most is meant: a lag of an input, and not its gain.
+    let fall = |it: &Candidate| it.evidence.map_or(f64::NEG_INFINITY, |it| it.delta_bic);
+    let rank = |it: &Candidate| (it.element == element, it.fitted);
+    let known = known.max_by(|a, b| rank(a).cmp(&rank(b)).then(fall(a).total_cmp(&fall(b))));
+    match known {
         Some(known) if element.is_empty() => located(&known.name, &known.element),
         Some(known) => located(&known.name, element),
         None => key.to_owned(),
