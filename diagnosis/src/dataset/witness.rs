@@ -15,8 +15,8 @@ const SAME: f64 = 0.05;
 const BUT_FOR_NOISE: f64 = 1.5;
 /// Magnitude of a signal over its noise below which it shows nothing but noise.
 const MOVES: f64 = 3.0;
-/// Share of an input's magnitude on the validation records below which the estimation records show too little of what it does: a
-/// hundredth of the power.
+/// Share of an input's magnitude on the validation records below which the estimation records hardly excite it: a hundredth of
+/// the power.
 const HARDLY: f64 = 0.1;
 /// Blocks of time that a record needs: over fewer, nobody can tell how much errors vary by chance.
 const BLOCKS: f64 = 4.0;
@@ -136,8 +136,8 @@ pub fn notes(train: &[Dataset], test: &[Dataset], inputs: &[Declaration]) -> Vec
         if let Some(record) = moves.filter(|it| learned < HARDLY * size(it)) {
             let unit = words::unit(input.unit.symbol);
             let text = format!(
-                "moves by {} {unit} (rms), and by {} {unit} in the estimation records: what depends on it cannot be \
-                 identified. Give this record, or a part of it, for estimation",
+                "moves by {} {unit} (rms), and by {} {unit} in the estimation records: effects that depend on it cannot \
+                 be identified. Give this record, or a part of it, for estimation",
                 digits(size(record), 3),
                 digits(learned, 3)
             );

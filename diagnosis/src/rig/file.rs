@@ -206,7 +206,7 @@ impl Kind {
 }
 
 impl ElementSignals {
-    /// What it can be beside another maker's model.
+    /// Its role beside another maker's model, if it has one.
     fn role(&self) -> Option<Role> {
         Role::named(self.element.name())
     }

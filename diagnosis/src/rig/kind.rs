@@ -210,7 +210,7 @@ pub enum ForceOf {
         /// The parameter of the damping rate.
         damping: String,
     },
-    /// What the mass that it guides takes to be accelerated.
+    /// Mass times acceleration, of the mass that it guides.
     Inertia {
         /// The parameter of the mass.
         mass: String,

@@ -67,7 +67,7 @@ fn diagnosed(rig: &Path, (train, test): (&Path, &Path), out: &Path) -> Output {
     command.arg("--out").arg(out).output().unwrap()
 }
 
-/// What the diagnosis of a case says, with the rig file after a change; none where no test can have the FMU.
+/// The terminal's text of a case, with the rig file after a change; none where no test can have the FMU.
 fn found(name: &str, change: impl Fn(String) -> String) -> Option<String> {
     let (folder, rig) = rig(&[], change)?;
     let (train, test) = records(name, folder.path());
@@ -92,7 +92,7 @@ fn friction_that_another_program_has_hidden_is_found_beside_the_fmu() {
     assert!((value / 51.823 - 1.0).abs() < 0.05, "{value}");
 }
 
-/// The library's guide and tyre on top of what the FMU has there.
+/// The library's guide and tyre, in addition to the FMU's own.
 fn with_guide_and_tyre(text: String) -> String {
     text + r#"
 [[elements]]

@@ -23,7 +23,7 @@ fn plant(folder: &Path, beside: &[Attachment]) -> Plant {
     foreign.plant().unwrap()
 }
 
-/// An element on top of what the FMU has there.
+/// An element in addition to the FMU's own.
 fn on_top(role: Role, deflection: &str, velocity: &str, input: &str) -> Attachment {
     Attachment {
         role,
@@ -74,7 +74,7 @@ impl Ready {
         self
     }
 
-    /// A second and more of signals every millisecond; what is not named rests.
+    /// Signals with a sample every millisecond; inputs without a name here rest.
     fn drive(&self, signals: &[(&str, Vec<f64>)]) -> Drive {
         let samples = signals.first().map_or(0, |(_, values)| values.len());
         let mut inputs = vec![vec![0.0; samples]; self.plant.inputs.len()];
@@ -84,7 +84,7 @@ impl Ready {
         Drive { start: 0.0, step: 1e-3, inputs, finer: 1, between: Between::Lines }
     }
 
-    /// What one output does.
+    /// One output.
     fn output(&self, drive: &Drive, name: &str) -> Vec<f64> {
         let index = self.plant.output(name).expect(name);
         self.dynamics.outputs(&self.values, &self.start, drive).swap_remove(index)

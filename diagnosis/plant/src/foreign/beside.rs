@@ -11,7 +11,7 @@ use crate::{Between, Drive};
 /// Where an element is attached.
 #[derive(Clone, Debug)]
 pub struct Attachment {
-    /// What it is.
+    /// Its role.
     pub role: Role,
     /// Output with its deflection, positive in rebound.
     pub deflection: String,
@@ -78,7 +78,7 @@ pub struct Own {
 pub struct Beside {
     /// Their parameters that may be changed.
     pub parameters: Vec<Declaration>,
-    /// What they remember.
+    /// Their memory.
     pub states: Vec<Declaration>,
     all: Vec<Attached>,
 }
@@ -104,7 +104,7 @@ impl Beside {
     /// Elements at their places in a model.
     ///
     /// # Errors
-    /// If the model lacks what one is attached to.
+    /// If the model lacks a signal that an element is attached to.
     pub fn new(fmu: &Fmu, attachments: &[Attachment]) -> Result<Self, String> {
         let mut beside = Self { parameters: Vec::new(), states: Vec::new(), all: Vec::new() };
         for at in attachments {
@@ -173,7 +173,7 @@ impl Beside {
 }
 
 impl Role {
-    /// What it remembers.
+    /// Its memory.
     fn states(self) -> impl Iterator<Item = Declaration> {
         Declarations::of::<State>().into_iter().filter(move |it| self.has(&it.name))
     }
@@ -291,11 +291,11 @@ impl Attached {
     }
 }
 
-/// Parameters of all elements with what follows from them.
+/// Parameters of all elements with values derived from them.
 #[derive(Clone, Debug)]
 pub struct Set(Vec<Laws>);
 
-/// Parameters of an element with what follows from them.
+/// Parameters of an element with values derived from them.
 #[derive(Clone, Debug)]
 struct Laws {
     parameters: Parameters,

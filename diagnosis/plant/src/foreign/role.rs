@@ -69,12 +69,12 @@ impl Role {
         self.on_bench(name).is_some()
     }
 
-    /// What one of its parameters is called on the bench; none if it is not the element's.
+    /// The bench's name of one of its parameters; none if the parameter is another one's.
     pub fn on_bench(self, name: &str) -> Option<String> {
         self.laws().iter().find_map(|(own, bench)| renamed(name, own, bench))
     }
 
-    /// What a parameter of the bench is called in the element; none if it does not have it.
+    /// The element's name of a parameter of the bench; none if the element does not have it.
     pub fn beside(self, name: &str) -> Option<String> {
         self.laws().iter().find_map(|(own, bench)| renamed(name, bench, own))
     }
@@ -138,7 +138,7 @@ mod tests {
         }
     }
 
-    /// What a rig of the library calls it, the effects of the catalogue do, too.
+    /// The effects of the catalogue have the names of the library's rigs.
     #[test]
     fn guides_and_tyre_are_called_as_in_a_rig_of_the_library() {
         let own = [models::named("QuarterCar").unwrap(), models::named("LinearDrive").unwrap()];

@@ -21,7 +21,7 @@ pub struct Material<'a> {
     pub stands_in: bool,
     /// Parameters of the FMU and of the elements beside it.
     pub parameters: Vec<Value<'a>>,
-    /// What the elements remember at the start.
+    /// Memory of the elements at the start.
     pub memory: Vec<Value<'a>>,
     /// Start values of other variables that the FMU takes.
     pub starts: Vec<(String, f64)>,
@@ -70,7 +70,7 @@ impl Shown<'_> {
 }
 
 impl Material<'_> {
-    /// What an element has of its own; none if the system does not need it, since nothing was found in it.
+    /// Spring and damper of an element; none if the system does not need the element, since it has no effect.
     pub fn own(&self, at: &Attachment) -> Option<Own> {
         let of_element = || self.parameters.iter().filter(|it| at.role.has(it.name));
         let adds = of_element().any(|it| !at.role.rates().contains(&it.name) && it.value != it.start);

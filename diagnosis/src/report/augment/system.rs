@@ -235,7 +235,7 @@ impl<'m> Draft<'m> {
         Ok(())
     }
 
-    /// The parameter set of an element's bench: what was found, under the bench's names.
+    /// The parameter set of an element's bench, under the bench's names: the effects found.
     fn set(&self, own: Own, role: Role) -> String {
         let (material, name) = (self.material, role.name());
         let mut set = format!(

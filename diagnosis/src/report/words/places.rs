@@ -94,7 +94,7 @@ pub fn element(key: &str) -> &str {
 pub fn effect_name(findings: &Findings, key: &str) -> String {
     let (id, element) = split(key);
     let known = findings.candidates.iter().filter(|candidate| candidate.id == id);
-    // Of a family with one number, what explains most is meant: a lag of an input, and not its gain.
+    // A family shares one number: the member that explains most is meant, the lag of an input and not its gain.
     let fall = |it: &Candidate| it.evidence.map_or(f64::NEG_INFINITY, |it| it.delta_bic);
     let rank = |it: &Candidate| (it.element == element, it.fitted);
     let known = known.max_by(|a, b| rank(a).cmp(&rank(b)).then(fall(a).total_cmp(&fall(b))));

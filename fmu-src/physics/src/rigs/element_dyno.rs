@@ -60,7 +60,7 @@ pub struct Parameters<R> {
     #[var(min(stiffness = 0.0))]
     pub strut: Strut<R>,
     /// Tyre
-    // Beside another maker's model, only what its own tyre lacks.
+    // Beside another maker's model, the spring is that model's.
     #[var(min(stiffness = 0.0))]
     pub tire: Tire<R>,
     /// Mass whose weight is on the tyre where its deflection is zero
