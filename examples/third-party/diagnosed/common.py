@@ -11,7 +11,6 @@ A generator is a module with
     inputs(seed, time) -> {(name, unit): values}
     respond(p, hidden, time, u) -> {name: values}, u the inputs by their names
     EVENTS    True where the FMU has events that matter to --agree
-    COLUMNS   names of columns that differ from the FMU's: {name: column}
 
     python NAME.py FOLDER             writes NAME-train.csv and NAME-test.csv
     python NAME.py --agree            compares with the FMU where nothing is hidden (needs FMPy)
@@ -70,7 +69,7 @@ def record(module, seed):
     for name, unit in module.MEASURED.items():
         y = outputs[name]
         columns.append(y + NOISE * np.std(y) * random.standard_normal(len(y)))
-        names.append(f"{getattr(module, 'COLUMNS', {}).get(name, name)} [{unit}]")
+        names.append(f"{name} [{unit}]")
     return [n.replace(" []", "") for n in names], np.column_stack(columns)
 
 

@@ -18,8 +18,6 @@ HIDDEN = dict(lag=0.03)  # s
 STEP, DURATION = 0.005, 5.0
 EVENTS = True
 MEASURED = {f"outputs[{i}]": "rad/s" for i in range(1, 5)}
-# A column `outputs[1]` would be read as `outputs` with the unit 1.
-COLUMNS = {f"outputs[{i}]": f"w{i}" for i in range(1, 5)}
 
 
 def inputs(seed, time):
