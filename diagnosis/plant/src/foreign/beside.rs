@@ -118,13 +118,16 @@ impl Beside {
 
     /// Their parameters as the models have them.
     pub fn set(&self, parameters: &[f64]) -> Set {
-        let mut rest = parameters;
-        let one = |it: &Attached| {
+        Set(self.each(parameters).map(|(it, own)| it.set(own)).collect())
+    }
+
+    /// Each element with its own of the parameters.
+    fn each<'p>(&self, parameters: &'p [f64]) -> impl Iterator<Item = (&Attached, &'p [f64])> {
+        self.all.iter().scan(parameters, |rest, it| {
             let own;
-            (own, rest) = rest.split_at(it.indices.len());
-            it.set(own)
-        };
-        Set(self.all.iter().map(one).collect())
+            (own, *rest) = rest.split_at(it.indices.len());
+            Some((it, own))
+        })
     }
 
     /// Steps that their memory asks for over a time in s from where these are the model's outputs.
@@ -135,8 +138,10 @@ impl Beside {
 
     /// Refuses parameters that do not go together.
     pub fn check(&self, parameters: &[f64]) -> Result<(), String> {
-        let Set(all) = self.set(parameters);
-        self.all.iter().zip(&all).try_for_each(|(it, set)| it.model.check(&set.parameters, &set.derived))
+        self.each(parameters).try_for_each(|(it, own)| {
+            let parameters = it.on_bench(own);
+            it.model.check(&parameters, &it.model.derive(&parameters))
+        })
     }
 
     /// Adds their forces to the inputs of a placed model, and computes the rates of their memory.
@@ -235,12 +240,17 @@ impl Attached {
         Ok((attached, parameters))
     }
 
-    fn set(&self, parameters: &[f64]) -> Laws {
+    /// Its parameters among those of the bench.
+    fn on_bench(&self, parameters: &[f64]) -> Parameters {
         let mut all = self.plain.clone();
         for (index, value) in self.indices.iter().zip(parameters) {
             all[*index] = *value;
         }
-        let parameters = Bundle::from_fn(|i| all[i]);
+        Bundle::from_fn(|i| all[i])
+    }
+
+    fn set(&self, parameters: &[f64]) -> Laws {
+        let parameters = self.on_bench(parameters);
         let forgets = [0.0, FAST].map(|velocity| {
             if self.states == 0 {
                 return 0.0;

@@ -67,13 +67,14 @@ impl<'a> Lanes<'a> {
         let Self { drive, walks, lanes } = self;
         for lane in lanes {
             let walk = &mut walks[lane.walk];
-            walk.attach(&lane.set);
+            walk.exchange(&mut lane.set);
             let changes = state.iter().zip(&lane.changed.start);
             lane.from.iter_mut().zip(changes).for_each(|(from, (state, change))| *from = state + change);
             let input = |i: usize| lane.changed.input(drive, i, sample, 0.0);
             let time = sample as f64 * drive.step;
             let inputs = drive.inputs.len();
             walk.look(time, &lane.from, (&input, inputs), &mut lane.rates, Some(&mut lane.outputs));
+            walk.exchange(&mut lane.set);
         }
     }
 
@@ -84,10 +85,11 @@ impl<'a> Lanes<'a> {
         let steps = walks[first.walk].paced(least, drive, &first.outputs);
         for lane in lanes {
             let walk = &mut walks[lane.walk];
-            walk.attach(&lane.set);
+            walk.exchange(&mut lane.set);
             lane.next.copy_from_slice(&lane.from);
             let input = |i: usize, share: f64| lane.changed.input(drive, i, sample, share);
             walk.advance((sample, steps), drive, &mut lane.next, &lane.rates, &input);
+            walk.exchange(&mut lane.set);
         }
     }
 

@@ -30,9 +30,9 @@ impl<'a> Walk<'a> {
         Self { session, beside, own, start, inputs: Vec::new(), slopes, middle: vec![0.0; states] }
     }
 
-    /// Other parameters of the elements.
-    pub fn attach(&mut self, set: &Set) {
-        self.beside.1.clone_from(set);
+    /// Takes other parameters of the elements, and gives its own.
+    pub fn exchange(&mut self, set: &mut Set) {
+        std::mem::swap(&mut self.beside.1, set);
     }
 
     /// Rates at a time with a number of inputs, and the outputs on request.
