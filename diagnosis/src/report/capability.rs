@@ -294,7 +294,7 @@ fn said(rig: &Rig, foreign: &Foreign) -> Vec<String> {
                 _ => format!("{strut} makes a model that cannot be run. {check}"),
             });
         } else if !it.acts_on.is_empty() {
-            notes.push(format!("{name}: the library's element adds to the FMU's own."));
+            notes.push(format!("{name}: the library's element comes on top of the FMU's own."));
         }
     }
     match &foreign.augmented {

@@ -114,12 +114,36 @@ pub fn effect_rank(findings: &Findings, item: &AccountItem) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::decision::evidence::Evidence;
 
     #[test]
     fn a_place_is_named_once() {
         let names = [("viscous guide", "guide"), ("force offset", "guide"), ("soft mount", "strut")];
         let located = names.map(|(name, element)| located(name, element));
         assert_eq!(located, ["viscous guide", "force offset in the guide", "soft mount in the strut"]);
+    }
+
+    #[test]
+    fn of_a_family_the_member_that_explains_most_is_named() {
+        let member = |name: &str, delta_bic: Option<f64>| Candidate {
+            id: "42".into(),
+            element: "tau".into(),
+            name: name.into(),
+            share: 0.0,
+            validation_share: 0.0,
+            fitted: delta_bic.is_some(),
+            values: Vec::new(),
+            evidence: delta_bic.map(|delta_bic| Evidence { delta_bic, ..Evidence::default() }),
+            outcome: String::new(),
+        };
+        let candidates = vec![
+            member("lag of the sensor", Some(900.0)),
+            member("gain of the sensor", Some(4.0)),
+            member("drift", None),
+        ];
+        let findings = Findings { candidates, ..Findings::of_bad_data("rig", vec![], vec![], vec![]) };
+        assert_eq!(effect_name(&findings, "42 tau"), "lag of the sensor at tau");
+        assert_eq!(effect_name(&findings, "43 tau"), "43 tau");
     }
 
     #[test]
