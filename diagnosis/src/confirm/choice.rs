@@ -1,11 +1,14 @@
 //! Which of the terms that pass a round is told, and which others would do.
 
+use std::collections::BTreeSet;
+
 use rayon::prelude::*;
 
 use crate::decision::criteria::CRITERIA;
 use crate::decision::evidence::Evidence;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::lsq::Stop;
+use crate::estimation::unknowns::Unknown;
 
 use super::{Tried, contains, has_no_name, parts};
 
@@ -23,8 +26,8 @@ impl Baseline<'_> {
         for other in passing {
             if let (Ok(fitted), Ok(simpler)) = (&chosen.fitted, &other.fitted)
                 && (self.is_one_of(other.term, chosen.term)
-                    || contains(chosen.term, other.term, &parts(fitted), &parts(simpler))
-                        && simpler.coordinates.len() < fitted.coordinates.len())
+                    || contains(chosen.term, other.term, &self.claims(fitted), &self.claims(simpler))
+                        && self.claims(simpler).len() < self.claims(fitted).len())
             {
                 let added = self.evidence(chosen.term, base, simpler, fitted);
                 // Whether it is common does not matter beside a part of itself.
@@ -34,6 +37,15 @@ impl Baseline<'_> {
             }
         }
         chosen
+    }
+
+    /// What a fit has changed that is a claim about the rig: not the usual timing of a channel, which every fit has, and which
+    /// would make a delay a part of a lag.
+    fn claims(&self, fitted: &Fitted) -> BTreeSet<Unknown> {
+        let own = fitted.terms.iter().flat_map(|term| self.own_coordinates(*term)).map(|it| it.handle);
+        let mut claims: BTreeSet<Unknown> = own.collect();
+        claims.extend(parts(fitted).into_iter().filter(|it| self.usual(*it).is_none()));
+        claims
     }
 
     /// Whether a fit explains the data as well as the best one.
@@ -67,10 +79,10 @@ impl Baseline<'_> {
         passing: &[&Tried],
     ) -> Vec<Term> {
         let Ok(best) = &chosen.fitted else { return Vec::new() };
-        let own = parts(best);
+        let own = self.claims(best);
         let rival = |other: &&&Tried| {
             let Ok(fitted) = &other.fitted else { return false };
-            let more = contains(other.term, chosen.term, &parts(fitted), &own);
+            let more = contains(other.term, chosen.term, &self.claims(fitted), &own);
             let fewer = self.is_one_of(other.term, chosen.term);
             if other.term == chosen.term || has_no_name(other.term) || more || fewer {
                 return false;

@@ -274,7 +274,7 @@ impl Baseline<'_> {
         if found.unmodelled.len() == PLACES || is_small && !(alone && self.is_open(&found.extended.test)) {
             return Ok(false);
         }
-        let port = compared.feature(score.candidate).map(|(port, _)| &missing.setting.ports[port]);
+        let port = compared.feature(score.candidate).map(|(port, ..)| &missing.setting.ports[port]);
         let curve = compared.curve_for(score, port.and_then(|it| it.element));
         if let Some((term, own)) = curve.filter(|(term, _)| !found.retracted.contains(term))
             && let Some(confirmed) = self.drawn(found, compared, own)?
@@ -285,7 +285,7 @@ impl Baseline<'_> {
         }
         // Without a curve in the model that the data confirm, its place and its variable are known all the same.
         let curve = curve.map(|(term, own)| Unmodelled::curve(term, own, improvement, &self.rig.plant));
-        let unmodelled = Unmodelled::of(missing, compared, score, improvement);
+        let unmodelled = Unmodelled::of(missing, compared, score, (improvement, &self.rig.plant));
         let goes_on = unmodelled.is_some();
         found.unmodelled.extend(unmodelled.or(curve));
         Ok(goes_on)

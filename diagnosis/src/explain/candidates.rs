@@ -8,7 +8,7 @@ use crate::catalogue::{Element, Typical};
 use crate::estimation::hypothesis::{Baseline, Term};
 use crate::missing::Missing;
 use crate::missing::innovations::Column;
-use crate::missing::motion::{column, motions};
+use crate::missing::motion::{Mover, column, place};
 use crate::missing::ports::Entry;
 use crate::missing::trajectory::Window;
 use crate::plant::Signals;
@@ -29,6 +29,8 @@ pub enum Kind {
     Feature {
         /// Number of the port.
         port: usize,
+        /// Whose motion.
+        mover: Mover,
         /// The features.
         group: Group,
     },
@@ -134,20 +136,21 @@ impl Baseline<'_> {
             if setting.ties[number] != number {
                 continue;
             }
-            let Some((place, motions)) = motions(self.rig, (setting, windows), outputs, number) else {
-                continue;
-            };
-            for group in Group::all(&commands, others) {
-                let signals = features(group, &motions, (missing.records, windows));
-                let columns = windows.iter().enumerate().map(|(index, window)| {
-                    signals.iter().map(|signal| column(port, place, window, &signal[index])).collect()
-                });
-                let size = setting.sizes[number].max(f64::MIN_POSITIVE);
-                let peak = |signal: &Vec<Vec<f64>>| {
-                    signal.iter().flatten().fold(0.0_f64, |most, it| most.max(it.abs())) / size
-                };
-                let peaks = signals.iter().map(peak).collect();
-                all.add(Kind::Feature { port: number, group }, columns.collect(), peaks);
+            for mover in Mover::all(self.rig, port, &missing.records[0]) {
+                let Some(motions) = mover.motions(self.rig, (port, windows), outputs) else { continue };
+                for group in Group::all(&commands, others) {
+                    let signals = features(group, &motions, (missing.records, windows));
+                    let columns = windows.iter().enumerate().map(|(index, window)| {
+                        let place = place(setting, number);
+                        signals.iter().map(|signal| column(port, place, window, &signal[index])).collect()
+                    });
+                    let size = setting.sizes[number].max(f64::MIN_POSITIVE);
+                    let peak = |signal: &Vec<Vec<f64>>| {
+                        signal.iter().flatten().fold(0.0_f64, |most, it| most.max(it.abs())) / size
+                    };
+                    let peaks = signals.iter().map(peak).collect();
+                    all.add(Kind::Feature { port: number, mover, group }, columns.collect(), peaks);
+                }
             }
         }
     }

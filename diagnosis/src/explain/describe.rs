@@ -8,7 +8,8 @@ use crate::decision::choice::Score;
 use crate::estimation::hypothesis::{Baseline, Term};
 use crate::missing::Missing;
 use crate::missing::locate::Location;
-use crate::missing::motion::{Motion, column, motions};
+use crate::missing::motion::{Motion, Mover, column, place};
+use crate::missing::ports::{Entry, Port};
 use crate::missing::trajectory::Window;
 use crate::plant::{Plant, Signals};
 use crate::report::words::digits;
@@ -32,10 +33,10 @@ pub struct Unmodelled {
     pub place: String,
     /// Unit of the missing signal.
     pub unit: &'static str,
-    /// Whether it is missing in a measurement and not in the plant.
-    sensor: bool,
+    /// Whether that is an element, an input or a measurement, as it stands in a sentence.
+    at: &'static str,
     /// What explains it: features at a port.
-    features: Option<(usize, Group)>,
+    features: Option<(usize, Mover, Group)>,
     /// What it depends on, in the words of the report.
     pub depends_on: Vec<String>,
     /// Share of the missing signal's power that it explains, estimation records.
@@ -54,16 +55,21 @@ pub struct Unmodelled {
 
 impl Unmodelled {
     /// From a comparison.
-    pub fn of(missing: &Missing<'_>, compared: &Compared, score: Score, improvement: f64) -> Option<Self> {
-        let (port, group) = compared.feature(score.candidate)?;
+    pub fn of(
+        missing: &Missing<'_>,
+        compared: &Compared,
+        score: Score,
+        (improvement, plant): (f64, &Plant),
+    ) -> Option<Self> {
+        let (port, mover, group) = compared.feature(score.candidate)?;
         let own = &missing.setting.ports[port];
         let amounts = compared.amounts(score.candidate);
         Some(Self {
             place: own.place.clone(),
             unit: own.unit,
-            sensor: own.is_sensor(),
-            features: Some((port, group)),
-            depends_on: words(group, missing),
+            at: at(own),
+            features: Some((port, mover, group)),
+            depends_on: words(group, mover, (missing, plant)),
             share: score.share,
             validated: score.validated,
             improvement,
@@ -86,7 +92,7 @@ impl Unmodelled {
         Self {
             place: name(term, plant).element,
             unit,
-            sensor: matches!(term, Term::Response(_)),
+            at: if matches!(term, Term::Response(_)) { MEASURED } else { "at the" },
             features: None,
             depends_on,
             share: score.share,
@@ -115,7 +121,7 @@ impl Unmodelled {
         Self {
             place: own.place.clone(),
             unit: own.unit,
-            sensor: own.is_sensor(),
+            at: at(own),
             features: None,
             depends_on,
             share: 0.0,
@@ -149,17 +155,16 @@ impl Unmodelled {
             ([], _) => "a signal that follows no recorded signal".to_owned(),
             (words, _) => format!("a signal that follows the {}", words.join(" and the ")),
         };
-        let at = if self.sensor { "in the measurement of" } else { "at the" };
-        format!("{what} {at} {}", self.place)
+        format!("{what} {} {}", self.at, self.place)
     }
 
     /// Takes it as explained.
     pub fn explain(&self, missing: &mut Missing<'_>, baseline: &Baseline<'_>, signals: &[Signals]) {
-        let Some((number, group)) = self.features else { return };
-        let about = (&missing.setting, &missing.windows[..]);
-        let Some((place, motions)) = motions(baseline.rig, about, signals, number) else { return };
-        let own = features(group, &motions, (missing.records, &missing.windows));
+        let Some((number, mover, group)) = self.features else { return };
         let port = &missing.setting.ports[number];
+        let Some(motions) = mover.motions(baseline.rig, (port, &missing.windows), signals) else { return };
+        let own = features(group, &motions, (missing.records, &missing.windows));
+        let place = place(&missing.setting, number);
         let columns: Vec<_> = own
             .iter()
             .map(|feature| {
@@ -175,8 +180,31 @@ impl Unmodelled {
     }
 }
 
+/// What stands before the name of a sensor's signal.
+const MEASURED: &str = "in the measurement of";
+
+/// What stands before the name of a place.
+fn at(port: &Port) -> &'static str {
+    match port.entry {
+        Entry::Sensor(_) => MEASURED,
+        Entry::Input(_) => "at the input",
+        Entry::Constant(_) => "at the",
+    }
+}
+
 /// What a group of features depends on, in the words of the report.
-fn words(group: Group, missing: &Missing<'_>) -> Vec<String> {
+fn words(group: Group, mover: Mover, (missing, plant): (&Missing<'_>, &Plant)) -> Vec<String> {
+    if let Mover::Output(output) = mover {
+        let name = &plant.outputs[output].name;
+        let (output, rate) = (format!("output {name}"), format!("rate of {name}"));
+        match group {
+            Group::Deflection => return vec![output],
+            Group::Velocity => return vec![rate],
+            Group::DeflectionAndVelocity => return vec![output, rate],
+            Group::Acceleration => return vec![format!("second derivative of {name}")],
+            _ => {}
+        }
+    }
     let words: &[&str] = match group {
         Group::Deflection => &["deflection"],
         Group::Velocity => &["velocity"],
@@ -225,9 +253,8 @@ impl MissingSignal {
         let Some(best) = location.ranked.first() else { return Self::default() };
         let Some(window) = missing.windows.first() else { return Self::default() };
         let (value, deviation) = signal(missing, location, best.port, window);
-        let about = (&missing.setting, &missing.windows[..]);
-        let motion =
-            motions(baseline.rig, about, signals, best.port).and_then(|(_, all)| all.into_iter().next());
+        let motion = Mover::Element.motions(baseline.rig, (&ports[best.port], &missing.windows), signals);
+        let motion = motion.and_then(|all| all.into_iter().next());
         let Motion { deflection, velocity } =
             motion.unwrap_or(Motion { deflection: vec![], velocity: vec![] });
         let step = window.samples.len().div_ceil(SHOWN).max(1);

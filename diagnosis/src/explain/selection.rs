@@ -12,6 +12,7 @@ use crate::estimation::hypothesis::{Baseline, Term};
 use crate::estimation::unknowns::{Estimate, FreeParameter, Unknown};
 use crate::missing::Missing;
 use crate::missing::innovations::{Column, Columns, Noise, Stretch};
+use crate::missing::motion::Mover;
 use crate::screening::Probe;
 
 use super::candidates::{Candidates, Kind};
@@ -94,8 +95,8 @@ impl Baseline<'_> {
                     points[number] = Some(point);
                     if has_no_name(*term) { &mut features } else { &mut named }.push(score);
                 }
-                Kind::Feature { group, .. } => {
-                    if is_possible(*group, &amounts, &candidate.peaks) {
+                Kind::Feature { group, mover, .. } => {
+                    if is_possible((*group, *mover), &amounts, &candidate.peaks) {
                         features.push(score);
                     }
                 }
@@ -164,11 +165,11 @@ fn in_shares(scores: &mut [&mut Vec<Score>; 2], quiet: f64, [train, test]: [(f64
 
 /// Whether features may act: no body is lighter for what acts on it, and no force is far beyond what moves the rig. Where a
 /// trajectory is followed closely, "the body has no mass, and the command does nothing" would explain it, too.
-fn is_possible(group: Group, amounts: &[f64], peaks: &[f64]) -> bool {
-    let light = match group {
-        Group::Acceleration => amounts[0] < 0.0,
+fn is_possible((group, mover): (Group, Mover), amounts: &[f64], peaks: &[f64]) -> bool {
+    let light = match (group, mover) {
+        (Group::Acceleration, Mover::Element) => amounts[0] < 0.0,
         // An oscillator's pull is its mass times what drives it, against the motion.
-        Group::Resonance(_) => amounts[0] > 0.0,
+        (Group::Resonance(_), Mover::Element) => amounts[0] > 0.0,
         _ => false,
     };
     !light && amounts.iter().zip(peaks).all(|(amount, peak)| amount.abs() * peak < CRITERIA.largest)
@@ -264,10 +265,10 @@ impl Compared {
         self.term(score) == Some(term)
     }
 
-    /// Port and group of features.
-    pub fn feature(&self, candidate: usize) -> Option<(usize, Group)> {
+    /// Port and features.
+    pub fn feature(&self, candidate: usize) -> Option<(usize, Mover, Group)> {
         match self.candidates.list[candidate].kind {
-            Kind::Feature { port, group } => Some((port, group)),
+            Kind::Feature { port, mover, group } => Some((port, mover, group)),
             Kind::Named { .. } => None,
         }
     }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::dataset::recorded::derivative;
+use crate::dataset::recorded::{Dataset, derivative};
 use crate::plant::{Follower, Seen, Signals};
 use crate::rig::Rig;
 
@@ -55,26 +55,56 @@ impl Follower for All<'_> {
     fn advanced(&mut self, _: usize, _: &[f64], _: &[f64]) {}
 }
 
-/// The motion at a port of the plant, and its place among the slopes; none if the rig does not say what moves there.
-pub fn motions(
-    rig: &Rig,
-    (setting, windows): (&Setting<'_>, &[Window]),
-    outputs: &[Signals],
-    port: usize,
-) -> Option<(usize, Vec<Motion>)> {
-    let (ports, plant) = (setting.ports, &rig.plant);
-    let own = ports.get(port).filter(|it| !it.is_sensor())?;
-    let before = ports[..port].iter().filter(|it| !it.is_sensor()).count();
-    let element = rig.kind.elements.iter().find(|it| Some(it.element) == own.element)?;
-    let deflection = plant.output(&element.deflection)?;
-    let velocity = element.velocity.as_ref().and_then(|name| plant.output(name));
-    let motion = |(window, signals): (&Window, &Signals)| Motion {
-        deflection: element.deflected(&signals[deflection]),
-        velocity: velocity
-            .map_or_else(|| derivative(&signals[deflection], window.step), |it| signals[it].clone()),
-    };
-    let motions = windows.iter().zip(outputs).map(motion).collect();
-    Some((setting.active.len() + before, motions))
+/// What moves with the signal that is missing at a port of the plant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mover {
+    /// The element at the port.
+    Element,
+    /// An output, by its index: of a model without elements nothing else is known.
+    Output(usize),
+}
+
+impl Mover {
+    /// All at a port, of which none is known at a sensor.
+    pub fn all(rig: &Rig, port: &Port, record: &Dataset) -> Vec<Self> {
+        if port.is_sensor() {
+            Vec::new()
+        } else if rig.kind.elements.is_empty() {
+            record.measured.iter().map(|it| Self::Output(it.output)).collect()
+        } else {
+            vec![Self::Element]
+        }
+    }
+
+    /// Its motion over windows; none if the rig does not say what moves there.
+    pub fn motions(
+        self,
+        rig: &Rig,
+        (port, windows): (&Port, &[Window]),
+        outputs: &[Signals],
+    ) -> Option<Vec<Motion>> {
+        let element = match self {
+            Self::Element => Some(rig.kind.elements.iter().find(|it| Some(it.element) == port.element)?),
+            Self::Output(_) => None,
+        };
+        let deflection = match self {
+            Self::Output(output) => output,
+            Self::Element => rig.plant.output(&element?.deflection)?,
+        };
+        let velocity = element.and_then(|it| it.velocity.as_ref()).and_then(|name| rig.plant.output(name));
+        let motion = |(window, signals): (&Window, &Signals)| Motion {
+            deflection: element
+                .map_or_else(|| signals[deflection].clone(), |it| it.deflected(&signals[deflection])),
+            velocity: velocity
+                .map_or_else(|| derivative(&signals[deflection], window.step), |it| signals[it].clone()),
+        };
+        Some(windows.iter().zip(outputs).map(motion).collect())
+    }
+}
+
+/// The place of a port of the plant among the slopes.
+pub fn place(setting: &Setting<'_>, port: usize) -> usize {
+    setting.active.len() + setting.ports[..port].iter().filter(|it| !it.is_sensor()).count()
 }
 
 /// A feature's signal as a column at a port.

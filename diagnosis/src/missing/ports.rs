@@ -1,6 +1,8 @@
 //! Places where a signal may be missing: the additive constants that a model declares, its commands, and the offset of
 //! every sensor.
 
+use strut_model::Declaration;
+
 use crate::catalogue::Element;
 use crate::catalogue::naming::is_command;
 use crate::dataset::recorded::{Dataset, Source};
@@ -25,6 +27,15 @@ fn element_of(rig: &Rig, variable: &str) -> Option<Element> {
     let all = rig.kind.elements.iter().map(|it| it.element);
     let mut own = all.filter(|it| variable.strip_prefix(it.name()).is_some_and(|rest| rest.starts_with('.')));
     own.next()
+}
+
+/// Whether an input is a motion that the model is given: an error of it is a sensor's.
+fn is_motion(rig: &Rig, input: &Declaration) -> bool {
+    let rates = &rig.kind.rates;
+    let base = input.unit.base;
+    matches!((base.m, base.rad, base.kg), (1, 0, 0) | (0, 1, 0))
+        || rates.contains_key(&input.name)
+        || rates.values().any(|it| *it == input.name)
 }
 
 /// What adds a port's signal to the model.
@@ -55,7 +66,7 @@ impl Port {
     }
 
     /// The places that are no sensors: additive constants, and the commands among the inputs that were measured, by their
-    /// indices.
+    /// indices. A model without elements has all its inputs but motions: what else acts on it is not known.
     pub fn of_model(rig: &Rig, is_measured: impl Fn(usize) -> bool) -> Vec<Self> {
         let plant = &rig.plant;
         let mut ports: Vec<Self> = Vec::new();
@@ -73,7 +84,8 @@ impl Port {
             });
         }
         for (index, declared) in plant.inputs.iter().enumerate() {
-            if is_measured(index) && is_command(&declared.name) {
+            let acts = is_command(&declared.name) || rig.kind.elements.is_empty() && !is_motion(rig, declared);
+            if is_measured(index) && acts {
                 let only = || rig.kind.elements.iter().find(|it| it.element == Element::ACTUATOR);
                 let element = element_of(rig, &declared.name).or_else(|| only().map(|it| it.element));
                 ports.push(Self {

@@ -53,6 +53,17 @@ struct EventInfo {
     next_event: f64,
 }
 
+/// What an event left.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Discrete {
+    /// Whether it wants to be asked again.
+    pub again: bool,
+    /// Whether the simulation is to be ended.
+    pub terminate: bool,
+    /// Time of the next event, if it is known.
+    pub next_event: Option<f64>,
+}
+
 impl Library {
     /// `fmi2GetReal`.
     pub fn reals(&self, instance: Instance, references: &[u32], values: &mut [f64]) -> Status {
@@ -119,11 +130,12 @@ impl Library {
         )
     }
 
-    /// `fmi2NewDiscreteStates`: whether it wants to be called again, and whether to be ended.
-    pub fn new_discrete_states(&self, instance: Instance) -> (Status, bool, bool) {
+    /// `fmi2NewDiscreteStates`.
+    pub fn new_discrete_states(&self, instance: Instance) -> (Status, Discrete) {
         let mut info = EventInfo::default();
         let status = call!(self.library, "fmi2NewDiscreteStates", instance, (*mut EventInfo), &raw mut info);
-        (status, info.again != 0, info.terminate != 0)
+        let next_event = (info.next_event_defined != 0).then_some(info.next_event);
+        (status, Discrete { again: info.again != 0, terminate: info.terminate != 0, next_event })
     }
 
     /// `fmi2CompletedIntegratorStep`: whether events are to be handled.

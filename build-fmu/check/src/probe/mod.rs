@@ -278,8 +278,8 @@ impl Stage<'_> {
 /// Event iteration by the standard; a model that never comes to rest has failed.
 fn discrete_states(library: &Library, instance: Instance) -> i32 {
     for _ in 0..100 {
-        let (status, again, _) = library.new_discrete_states(instance);
-        if !again || !(0..=1).contains(&status) {
+        let (status, discrete) = library.new_discrete_states(instance);
+        if !discrete.again || !(0..=1).contains(&status) {
             return status;
         }
     }

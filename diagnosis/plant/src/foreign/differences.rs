@@ -11,7 +11,7 @@ use crate::{Drive, Dynamics, Follower, Linearised, Seed, Seen, Signals};
 use super::beside::Beside;
 use super::exchange::Fmu;
 use super::lanes::Lanes;
-use super::walk::Walk;
+use super::walk::{Walk, Way};
 
 /// Smallest change of a parameter, relative to its value or its typical magnitude, that a difference is made with.
 const SMALL: f64 = 1e-6;
@@ -70,7 +70,7 @@ impl Differences {
         let parameters: Vec<f64> = self.fmu.parameters.iter().map(|it| it.start).collect();
         let mut session = self
             .fmu
-            .open(&parameters)
+            .open(&parameters, 0.0)
             .ok_or_else(|| format!("{} refuses its own start values", self.fmu.name))?;
         let start: Vec<f64> = self.fmu.states.iter().map(|it| it.start).collect();
         let rest: Vec<f64> = self.fmu.inputs.iter().map(|it| it.start).collect();
@@ -98,7 +98,7 @@ impl Differences {
     pub(super) fn walk(&self, parameters: &[f64], start: f64) -> Option<Walk<'_>> {
         let (own, further) = parameters.split_at(self.fmu.parameters.len());
         let beside = (&self.beside, self.beside.set(further));
-        Some(Walk::new(self.fmu.open(own)?, beside, self.typical[1].len(), start))
+        Some(Walk::new(self.fmu.open(own, start)?, beside, self.typical[1].len(), start))
     }
 
     /// The outputs of a model that is changed; not a number from where it cannot be run.
@@ -119,14 +119,14 @@ impl Differences {
                 let input = |i: usize| changed.input(drive, i, sample, 0.0);
                 let (time, inputs) = (sample as f64 * drive.step, drive.inputs.len());
                 walk.look(time, &state, (&input, inputs), &mut rates, Some(&mut outputs));
-                if walk.settle(&mut state) {
+                if walk.settle(time, &mut state) {
                     walk.look(time, &state, (&input, inputs), &mut rates, None);
                 }
                 if sample + 1 < drive.len() {
                     let input = |i: usize, share: f64| changed.input(drive, i, sample, share);
                     let own = || walk.paced(least, drive, &outputs);
                     let steps = steps.and_then(|it| it.get(sample)).copied().unwrap_or_else(own);
-                    walk.advance((sample, steps), drive, &mut state, &rates, &input);
+                    walk.advance(&Way { sample, steps, drive, input: &input }, &mut state, &rates, true);
                     made.push(steps);
                 }
             }

@@ -1,5 +1,6 @@
 //! An FMU, loaded, and instances of it that compute rates and outputs.
 
+mod events;
 mod starts;
 
 use std::collections::BTreeMap;
@@ -16,6 +17,8 @@ use super::Foreign;
 use super::units::{Conversion, coherent};
 
 pub use starts::LEAST;
+
+use events::Events;
 
 /// A loaded FMU.
 pub struct Fmu {
@@ -56,9 +59,11 @@ struct Access {
 pub struct Session {
     fmu: Arc<Fmu>,
     instance: Instance,
+    /// Its time at the record's beginning.
+    start: f64,
     /// Values as the FMU has them.
     own: Vec<f64>,
-    indicators: [Vec<f64>; 2],
+    events: Events,
     failed: bool,
     /// Whether a state or an input where it was put is not a number.
     is_nowhere: bool,
@@ -157,27 +162,15 @@ impl Fmu {
     }
 
     /// Enters the initialisation.
-    fn begin(&self, instance: Instance) -> bool {
-        fine(self.library.set_up(instance, self.start, None, None))
+    fn begin(&self, instance: Instance, start: f64) -> bool {
+        fine(self.library.set_up(instance, start, None, None))
             && fine(self.library.plain("fmi2EnterInitializationMode", instance))
     }
 
-    /// Goes from the initialisation to where rates are computed.
-    fn finish(&self, instance: Instance) -> bool {
-        fine(self.library.plain("fmi2ExitInitializationMode", instance)) && self.leave_events(instance)
-    }
-
-    fn leave_events(&self, instance: Instance) -> bool {
-        for _ in 0..1000 {
-            let (status, again, terminate) = self.library.new_discrete_states(instance);
-            if !fine(status) || terminate {
-                return false;
-            }
-            if !again {
-                return fine(self.library.plain("fmi2EnterContinuousTimeMode", instance));
-            }
-        }
-        false
+    /// Goes from the initialisation to where rates are computed, and gives the time of the first event; none if it fails.
+    fn finish(&self, instance: Instance) -> Option<f64> {
+        let is_fine = fine(self.library.plain("fmi2ExitInitializationMode", instance));
+        is_fine.then(|| self.leave_events(instance)).flatten()
     }
 
     fn release(&self, instance: Instance) {
@@ -189,8 +182,9 @@ impl Fmu {
         }
     }
 
-    /// An instance with these parameters, in base units, ready to compute rates; none if the FMU refuses them.
-    pub fn open(self: &Arc<Self>, parameters: &[f64]) -> Option<Session> {
+    /// An instance with these parameters, in base units, ready to compute rates so many seconds after its own start; none if the
+    /// FMU refuses them.
+    pub fn open(self: &Arc<Self>, parameters: &[f64], later: f64) -> Option<Session> {
         let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
         let instance = idle.or_else(|| self.instantiate())?;
         let own = |access: &Access, values: &[f64]| -> Vec<f64> {
@@ -201,20 +195,21 @@ impl Fmu {
                 || fine(self.library.set_reals(instance, &access.references, &own(access, values)))
         };
         let nothing = vec![0.0; self.of_replaced.references.len()];
+        let start = self.start + later;
         let is_ready = set(&self.of_parameters, parameters)
             && set(&self.of_replaced, &nothing)
-            && self.begin(instance)
-            && self.finish(instance);
-        if !is_ready {
+            && self.begin(instance, start);
+        let Some(first_event) = is_ready.then(|| self.finish(instance)).flatten() else {
             self.release(instance);
             return None;
-        }
-        let indicators = [vec![0.0; self.indicators], Vec::new()];
+        };
+        let events = Events::new(self.indicators, first_event);
         Some(Session {
             fmu: self.clone(),
             instance,
+            start,
             own: Vec::new(),
-            indicators,
+            events,
             failed: false,
             is_nowhere: false,
         })
@@ -252,7 +247,7 @@ impl Session {
             return;
         }
         let (fmu, instance) = (&*self.fmu, self.instance);
-        self.failed |= !fine(fmu.library.set_time(instance, fmu.start + time));
+        self.failed |= !fine(fmu.library.set_time(instance, self.start + time));
         if !states.is_empty() {
             own(&mut self.own, &fmu.of_states, states);
             self.failed |= !fine(fmu.library.set_states(instance, &self.own));
@@ -300,39 +295,6 @@ impl Session {
             self.failed |= !fine(self.fmu.library.reals(self.instance, reference, &mut value));
         }
         if self.is_silent() { f64::NAN } else { access.conversions[index].si(value[0]) }
-    }
-
-    /// Completes a step and handles an event there; whether there was one, so that states and rates may have jumped.
-    pub fn settle(&mut self, states: &mut [f64]) -> bool {
-        let (fmu, instance) = (&*self.fmu, self.instance);
-        let mut event = false;
-        if self.is_silent() {
-            return false;
-        }
-        if !fmu.silent {
-            let (status, wanted) = fmu.library.completed_step(instance);
-            self.failed |= !fine(status);
-            event = wanted;
-        }
-        if fmu.indicators > 0 && !self.failed {
-            let [now, before] = &mut self.indicators;
-            self.failed |= !fine(fmu.library.array("fmi2GetEventIndicators", instance, now));
-            event |= before.iter().zip(&*now).any(|(before, now)| (*before > 0.0) != (*now > 0.0));
-            before.clone_from(now);
-        }
-        if event && !self.failed {
-            self.failed |=
-                !fine(fmu.library.plain("fmi2EnterEventMode", instance)) || !fmu.leave_events(instance);
-            let own = &mut self.own;
-            own.resize(states.len(), 0.0);
-            if !own.is_empty() {
-                self.failed |= !fine(fmu.library.array("fmi2GetContinuousStates", instance, own));
-            }
-            for ((state, value), conversion) in states.iter_mut().zip(own).zip(&fmu.of_states) {
-                *state = conversion.si(*value);
-            }
-        }
-        event
     }
 }
 

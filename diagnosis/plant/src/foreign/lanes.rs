@@ -4,7 +4,7 @@ use crate::Drive;
 
 use super::beside::Set;
 use super::differences::{Changed, Differences};
-use super::walk::Walk;
+use super::walk::{Walk, Way};
 
 /// The model as it is, then its changed versions.
 pub struct Lanes<'a> {
@@ -65,6 +65,7 @@ impl<'a> Lanes<'a> {
     /// Puts all of them in a state at a sample, each with its own change, and computes rates and outputs there.
     pub fn look(&mut self, sample: usize, state: &[f64]) {
         let Self { drive, walks, lanes } = self;
+        let mut seen = 0;
         for lane in lanes {
             let walk = &mut walks[lane.walk];
             walk.exchange(&mut lane.set);
@@ -74,6 +75,11 @@ impl<'a> Lanes<'a> {
             let time = sample as f64 * drive.step;
             let inputs = drive.inputs.len();
             walk.look(time, &lane.from, (&input, inputs), &mut lane.rates, Some(&mut lane.outputs));
+            let is_first = lane.walk == seen;
+            if is_first && walk.settle(time, &mut lane.from.clone()) {
+                walk.look(time, &lane.from, (&input, inputs), &mut lane.rates, Some(&mut lane.outputs));
+            }
+            seen += usize::from(is_first);
             walk.exchange(&mut lane.set);
         }
     }
@@ -88,7 +94,8 @@ impl<'a> Lanes<'a> {
             walk.exchange(&mut lane.set);
             lane.next.copy_from_slice(&lane.from);
             let input = |i: usize, share: f64| lane.changed.input(drive, i, sample, share);
-            walk.advance((sample, steps), drive, &mut lane.next, &lane.rates, &input);
+            // Lanes that share a walk share its events, which are those of the model as it is at the samples.
+            walk.advance(&Way { sample, steps, drive, input: &input }, &mut lane.next, &lane.rates, false);
             walk.exchange(&mut lane.set);
         }
     }

@@ -8,6 +8,11 @@ use crate::pace::{ACCURATE, LONGEST_STEP, MOST_STEPS};
 use super::beside::{Beside, Set};
 use super::exchange::Session;
 
+/// Events in a step beyond which the rest of it is made in one go.
+const MOST_EVENTS: usize = 30;
+/// Share of a step to which an event's place is found: a change of a parameter that a difference is made with moves it by more.
+const SHARP: f64 = 1e-13;
+
 /// An instance with the elements beside it.
 pub struct Walk<'a> {
     session: Session,
@@ -17,9 +22,37 @@ pub struct Walk<'a> {
     /// Time of the first sample for the elements; the instance has a time of its own, as it begins anew.
     start: f64,
     inputs: Vec<f64>,
-    /// Slopes of a step's stages.
-    slopes: [Vec<f64>; 4],
+    /// Slopes of a step's stages, and at its end.
+    slopes: [Vec<f64>; 5],
     middle: Vec<f64>,
+    /// Memory of states and rates that is used again.
+    next: Vec<f64>,
+    unused: Vec<f64>,
+}
+
+/// The way between two samples; positions on it are counted in steps.
+pub struct Way<'w> {
+    pub sample: usize,
+    pub steps: usize,
+    pub drive: &'w Drive,
+    /// An input at a share of the way.
+    pub input: &'w dyn Fn(usize, f64) -> f64,
+}
+
+impl Way<'_> {
+    /// Time of a position since the first sample.
+    fn time(&self, position: f64) -> f64 {
+        (self.sample as f64 + position / self.steps as f64) * self.drive.step
+    }
+
+    fn position(&self, time: f64) -> f64 {
+        (time / self.drive.step - self.sample as f64) * self.steps as f64
+    }
+
+    /// Time that a step takes.
+    fn size(&self) -> f64 {
+        self.drive.step / self.steps as f64
+    }
 }
 
 impl<'a> Walk<'a> {
@@ -27,7 +60,17 @@ impl<'a> Walk<'a> {
     pub fn new(session: Session, beside: (&'a Beside, Set), states: usize, start: f64) -> Self {
         let own = states - beside.0.states.len();
         let slopes = std::array::from_fn(|_| vec![0.0; states]);
-        Self { session, beside, own, start, inputs: Vec::new(), slopes, middle: vec![0.0; states] }
+        Self {
+            session,
+            beside,
+            own,
+            start,
+            inputs: Vec::new(),
+            slopes,
+            middle: vec![0.0; states],
+            next: vec![0.0; states],
+            unused: vec![0.0; states],
+        }
     }
 
     /// Takes other parameters of the elements, and gives its own.
@@ -44,13 +87,8 @@ impl<'a> Walk<'a> {
         rates: &mut [f64],
         outputs: Option<&mut [f64]>,
     ) {
-        self.inputs.clear();
-        self.inputs.extend((0..inputs).map(input));
-        let (own, memory) = state.split_at(self.own);
-        self.session.place(time, own, &self.inputs);
-        let (rates, of_memory) = rates.split_at_mut(self.own);
-        let (beside, set) = &self.beside;
-        beside.act(set, self.start + time, &mut self.session, (&mut self.inputs, memory, of_memory));
+        self.place(time, state, (input, inputs), rates);
+        let (rates, _) = rates.split_at_mut(self.own);
         // Outputs first: after rates, OpenModelica's FMUs take outputs that follow from states for known, and give old ones.
         if let Some(outputs) = outputs {
             self.session.outputs(outputs);
@@ -58,50 +96,142 @@ impl<'a> Walk<'a> {
         self.session.rates(rates);
     }
 
-    /// Goes from a sample to the next in a number of steps; `first` are the rates there, `input` an input at a share of the way.
-    pub fn advance(
+    /// Puts it at a time, and computes the rates of the elements' memory there.
+    fn place(
         &mut self,
-        (sample, steps): (usize, usize),
-        drive: &Drive,
-        state: &mut [f64],
-        first: &[f64],
-        input: &dyn Fn(usize, f64) -> f64,
+        time: f64,
+        state: &[f64],
+        (input, inputs): (&dyn Fn(usize) -> f64, usize),
+        rates: &mut [f64],
     ) {
-        let (count, h) = (drive.inputs.len(), drive.step / steps as f64);
-        let mut slopes = std::mem::take(&mut self.slopes);
-        let mut middle = std::mem::take(&mut self.middle);
-        for part in 0..steps {
-            let share = |offset: f64| (part as f64 + offset) / steps as f64;
-            let time = |offset: f64| (sample as f64 + share(offset)) * drive.step;
-            if part == 0 {
-                slopes[0].copy_from_slice(first);
-            } else {
-                self.look(time(0.0), state, (&|i| input(i, share(0.0)), count), &mut slopes[0], None);
-            }
-            for (stage, offset) in [(1, 0.5), (2, 0.5), (3, 1.0)] {
-                for ((middle, state), slope) in middle.iter_mut().zip(&*state).zip(&slopes[stage - 1]) {
-                    *middle = state + offset * h * slope;
-                }
-                self.look(
-                    time(offset),
-                    &middle,
-                    (&|i| input(i, share(offset)), count),
-                    &mut slopes[stage],
-                    None,
-                );
-            }
-            for (index, state) in state.iter_mut().enumerate() {
-                let [k1, k2, k3, k4] = [0, 1, 2, 3].map(|stage: usize| slopes[stage][index]);
-                *state += h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
-            }
-        }
-        (self.slopes, self.middle) = (slopes, middle);
+        self.inputs.clear();
+        self.inputs.extend((0..inputs).map(input));
+        let (own, memory) = state.split_at(self.own);
+        self.session.place(time, own, &self.inputs);
+        let (_, of_memory) = rates.split_at_mut(self.own);
+        let (beside, set) = &self.beside;
+        beside.act(set, self.start + time, &mut self.session, (&mut self.inputs, memory, of_memory));
     }
 
-    /// Takes a sample that was reached as the end of a step; whether there was an event, so that states and rates may have
+    /// The slopes of a stage, at a position between two samples.
+    fn look_on(&mut self, way: &Way<'_>, position: f64, state: &[f64], stage: usize) {
+        let mut slopes = std::mem::take(&mut self.slopes[stage]);
+        let input = |i: usize| (way.input)(i, position / way.steps as f64);
+        self.look(way.time(position), state, (&input, way.drive.inputs.len()), &mut slopes, None);
+        self.slopes[stage] = slopes;
+    }
+
+    /// Puts it at a position between two samples.
+    fn put(&mut self, way: &Way<'_>, position: f64, state: &[f64]) {
+        let mut unused = std::mem::take(&mut self.unused);
+        let input = |i: usize| (way.input)(i, position / way.steps as f64);
+        self.place(way.time(position), state, (&input, way.drive.inputs.len()), &mut unused);
+        self.unused = unused;
+    }
+
+    /// Goes from a sample to the next; `first` are the rates there. Events on the way are handled where they are, `to_events`, or
+    /// not at all.
+    pub fn advance(&mut self, way: &Way<'_>, state: &mut [f64], first: &[f64], to_events: bool) {
+        let to_events = to_events && (self.session.indicates() || self.session.next_event().is_finite());
+        self.slopes[0].copy_from_slice(first);
+        for part in 0..way.steps {
+            let from = part as f64;
+            if to_events {
+                self.through_events(way, from, state);
+            } else {
+                if part > 0 {
+                    self.look_on(way, from, state, 0);
+                }
+                let next = self.step(way, (from, from + 1.0), state);
+                state.copy_from_slice(&next);
+                self.next = next;
+            }
+        }
+    }
+
+    /// A step of the classical method between two positions, from the slopes at the first.
+    fn step(&mut self, way: &Way<'_>, (from, to): (f64, f64), state: &[f64]) -> Vec<f64> {
+        let h = (to - from) * way.size();
+        let mut middle = std::mem::take(&mut self.middle);
+        for (stage, offset) in [(1, 0.5), (2, 0.5), (3, 1.0)] {
+            for ((middle, state), slope) in middle.iter_mut().zip(state).zip(&self.slopes[stage - 1]) {
+                *middle = state + offset * h * slope;
+            }
+            self.look_on(way, from + offset * (to - from), &middle, stage);
+        }
+        self.middle = middle;
+        let mut next = std::mem::take(&mut self.next);
+        next.clear();
+        next.extend(state.iter().enumerate().map(|(index, state)| {
+            let [k1, k2, k3, k4] = [0, 1, 2, 3].map(|stage: usize| self.slopes[stage][index]);
+            state + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4)
+        }));
+        next
+    }
+
+    /// A step that ends at each event within it, and goes on behind.
+    fn through_events(&mut self, way: &Way<'_>, from: f64, state: &mut [f64]) {
+        let (mut at, end) = (from, from + 1.0);
+        for event in 0.. {
+            let may = event < MOST_EVENTS;
+            let due = Some(way.position(self.session.next_event())).filter(|it| may && *it > at && *it < end);
+            let mut to = due.unwrap_or(end);
+            let mut next = self.step(way, (at, to), state);
+            self.look_on(way, to, &next, 4);
+            if let Some(index) = self.session.crossed().filter(|_| may) {
+                to = self.located(way, (at, to), (state, &mut next), index);
+            }
+            state.copy_from_slice(&next);
+            self.next = next;
+            if self.session.settle(way.time(to), &mut state[..self.own]) {
+                self.look_on(way, to, state, 0);
+            } else {
+                self.slopes.swap(0, 4);
+            }
+            if to >= end {
+                return;
+            }
+            at = to;
+        }
+    }
+
+    /// Where the first indicator of those crosses zero that do so on a step; the state there takes the place of that at the step's end.
+    fn located(
+        &mut self,
+        way: &Way<'_>,
+        (from, to): (f64, f64),
+        (state, next): (&[f64], &mut [f64]),
+        mut index: usize,
+    ) -> f64 {
+        let mut middle = std::mem::take(&mut self.middle);
+        let end = std::mem::take(&mut self.slopes[4]);
+        let (h, mut last) = ((to - from) * way.size(), 1.0);
+        // One is behind another at most once.
+        loop {
+            last = root(self.session.indicator(index), last, |share| {
+                for (row, middle) in middle.iter_mut().enumerate() {
+                    let ends = [state[row], next[row]];
+                    *middle = between(share, ends, [h * self.slopes[0][row], h * end[row]]);
+                }
+                self.put(way, from + share * (to - from), &middle);
+                self.session.crossed();
+                self.session.indicator(index).1
+            });
+            match self.session.crossed() {
+                Some(earlier) if earlier != index => index = earlier,
+                _ => break,
+            }
+        }
+        next.copy_from_slice(&middle);
+        self.middle = middle;
+        self.slopes[4] = end;
+        from + last * (to - from)
+    }
+
+    /// Takes a sample where it was looked at as the end of a step; whether there was an event, so that states and rates may have
     /// jumped.
-    pub fn settle(&mut self, state: &mut [f64]) -> bool {
-        self.session.settle(&mut state[..self.own])
+    pub fn settle(&mut self, time: f64, state: &mut [f64]) -> bool {
+        self.session.settle(time, &mut state[..self.own])
     }
 
     /// Number of steps to the next sample: `least`, or more where an element moves fast, as its memory then changes fast.
@@ -131,5 +261,74 @@ impl<'a> Walk<'a> {
         let eigenvalues = (finite && states > 0).then(|| jacobian.complex_eigenvalues());
         let fastest = eigenvalues.map_or(0.0, |all| all.iter().map(|it| it.norm()).fold(0.0, f64::max));
         (drive.step * (fastest / ACCURATE).max(1.0 / LONGEST_STEP)).ceil().clamp(1.0, MOST_STEPS) as usize
+    }
+}
+
+/// Hermite's cubic at a share of a step, from the values at both ends and the rates there times the step.
+fn between(share: f64, [from, to]: [f64; 2], [rate, last]: [f64; 2]) -> f64 {
+    let rest = 1.0 - share;
+    let values = from * (1.0 + 2.0 * share) * rest * rest + to * share * share * (1.0 + 2.0 * rest);
+    values + rate * share * rest * rest - last * share * share * rest
+}
+
+/// The least share known, below a last one, at which a function has the sign that it has at the last; it is asked there at last.
+/// The Illinois method (M. Dowell, P. Jarratt, A modified regula falsi method, BIT 11, 1971).
+fn root((first, last): (f64, f64), most: f64, mut of: impl FnMut(f64) -> f64) -> f64 {
+    let (mut low, mut below, mut high, mut above) = (0.0, first, most, last);
+    let mut kept = 0;
+    while high - low > SHARP {
+        let line = (low * above - high * below) / (above - below);
+        let share = if line > low && line < high { line } else { 0.5 * (low + high) };
+        let value = of(share);
+        if (value > 0.0) == (first > 0.0) {
+            (low, below) = (share, value);
+            if kept < 0 {
+                above *= 0.5;
+            }
+            kept = -1;
+        } else {
+            (high, above) = (share, value);
+            if kept > 0 {
+                below *= 0.5;
+            }
+            kept = 1;
+        }
+    }
+    of(high);
+    high
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn a_cubic_is_met_between_its_ends(c in prop::array::uniform4(-3.0..3.0_f64), share in 0.0..1.0_f64) {
+            let value = |x: f64| c[0] + x * (c[1] + x * (c[2] + x * c[3]));
+            let rate = |x: f64| c[1] + x * (2.0 * c[2] + x * 3.0 * c[3]);
+            let found = between(share, [value(0.0), value(1.0)], [rate(0.0), rate(1.0)]);
+            prop_assert!((found - value(share)).abs() < 1e-12, "{found} {}", value(share));
+        }
+
+        #[test]
+        fn an_event_is_behind_its_root_by_next_to_nothing(root_at in 0.001..0.999_f64, bend in 0.0..5.0_f64, up: bool) {
+            let sign = if up { 1.0 } else { -1.0 };
+            let of = |share: f64| sign * (share - root_at) * (1.0 + bend * share * share);
+            let (mut asked, mut last) = (0, 0.0);
+            let found = root((of(0.0), of(1.0)), 1.0, |share| {
+                (asked, last) = (asked + 1, share);
+                of(share)
+            });
+            prop_assert!((found - root_at).abs() < 1e-12 && (of(found) > 0.0) != (of(0.0) > 0.0));
+            prop_assert!(asked < 60 && last == found, "{asked}");
+        }
+    }
+
+    #[test]
+    fn what_crosses_at_once_is_found_at_the_beginning() {
+        assert!(root((0.0, 1.0), 1.0, |share| share) < 1e-12);
     }
 }

@@ -15,9 +15,9 @@ impl Fmu {
         let refused = "it does not start: see what it says with `build-fmu check`";
         let instance = self.instantiate().ok_or(refused)?;
         let mut values = vec![0.0; self.of_parameters.references.len()];
-        let is_fine = self.begin(instance) && {
+        let is_fine = self.begin(instance, self.start) && {
             let known = self.library.reals(instance, &self.of_parameters.references, &mut values);
-            fine(known) && self.finish(instance)
+            fine(known) && self.finish(instance).is_some()
         };
         let mut states = vec![0.0; self.states.len()];
         let is_fine = is_fine
@@ -50,8 +50,8 @@ impl Fmu {
         let instance = self.instantiate()?;
         let mut states = vec![0.0; self.states.len()];
         let is_fine = (references.is_empty() || fine(self.library.set_reals(instance, &references, &values)))
-            && self.begin(instance)
-            && self.finish(instance)
+            && self.begin(instance, self.start)
+            && self.finish(instance).is_some()
             && (states.is_empty()
                 || fine(self.library.array("fmi2GetContinuousStates", instance, &mut states)));
         self.release(instance);
