@@ -195,11 +195,13 @@ impl Baseline<'_> {
         })
     }
 
-    /// The same as a term tells it: a sensor's response of its own signal. How much it makes of that is no matter of how the
-    /// small effects around it show in the others.
+    /// The same as a term tells it: a sensor's fault or response of its own signal. How much it makes of that is no matter of how
+    /// many other signals there are, and of how the small effects around it show in them.
     fn shares_of(&self, term: Term, unit: &Fitted, fitted: &Fitted) -> [f64; 2] {
         match term {
-            Term::Response(output) => self.shares_at(output, unit, fitted),
+            Term::Response(output) | Term::Fault(Unknown::Output(output, _)) => {
+                self.shares_at(output, unit, fitted)
+            }
             _ => self.shares(unit, fitted),
         }
     }
@@ -212,13 +214,9 @@ impl Baseline<'_> {
             .map(|(unit, fitted)| row.map_or(1.0, |row| self.each(unit, fitted)[row]))
     }
 
-    /// Share that a term explains of the errors at its place, as features there do: of a sensor's fault in its own signal.
+    /// Share that a term explains of the errors at its place, as features there do.
     pub(crate) fn explained_there(&self, term: Term, null: &Fitted, fitted: &Fitted) -> f64 {
-        let left = match term {
-            Term::Fault(Unknown::Output(output, _)) => self.shares_at(output, null, fitted),
-            _ => self.shares_of(term, null, fitted),
-        };
-        everywhere(term, left.map(|share| 1.0 - share))
+        everywhere(term, self.shares_of(term, null, fitted).map(|share| 1.0 - share))
     }
 
     /// Share of each signal's error's power.

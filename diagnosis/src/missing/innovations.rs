@@ -355,7 +355,7 @@ mod tests {
             point: Estimate { parameters: vec![], inputs: vec![], outputs: vec![], starts: vec![] },
             ports: &[],
             parameters: &[],
-            nominal: &[1e-9],
+            nominal: vec![1e-9],
             active: vec![0],
             ties: vec![],
             sizes: vec![],

@@ -50,17 +50,25 @@ impl Look {
         aa > 0.0 && bb > 0.0 && ab * ab > (1.0 - TIED) * aa * bb
     }
 
+    /// The size of a state that moves what some sensor shows at once as far as it moves; zero if none shows it.
+    pub fn shown(&self, state: usize, magnitudes: &[f64]) -> f64 {
+        let least = self.least(magnitudes, |row| row[state]);
+        if least.is_finite() { least } else { 0.0 }
+    }
+
+    /// The least size of what shows in outputs with some slopes, so that one of them moves as far as it does.
+    fn least(&self, magnitudes: &[f64], slope: impl Fn(&[f64]) -> f64) -> f64 {
+        let shown = self.outputs.chunks_exact(self.width).zip(magnitudes);
+        let shown = shown.map(|(row, size)| (slope(row), size)).filter(|(slope, _)| *slope > 0.0);
+        shown.map(|(slope, size)| size / slope).fold(f64::INFINITY, f64::min)
+    }
+
     /// The size of a port's signal that moves what the sensors show as far as it moves; where a port shows more by what it
     /// does to the states within a sample than at once, the size that moves the states as far as the inputs do.
     pub fn size(&self, port: usize, magnitudes: &[f64], inputs: &Range<usize>) -> f64 {
-        let least = |slope: &dyn Fn(&[f64]) -> f64| {
-            let shown = self.outputs.chunks_exact(self.width).zip(magnitudes);
-            let shown = shown.map(|(row, size)| (slope(row), size)).filter(|(slope, _)| *slope > 0.0);
-            shown.map(|(slope, size)| size / slope).fold(f64::INFINITY, f64::min)
-        };
         let next = || self.next.chunks_exact(self.width).map(|row| row[port]);
-        let at_once = least(&|row| row[port]);
-        let by_states = least(&|row| row.iter().zip(next()).map(|(h, next)| h * next).sum());
+        let at_once = self.least(magnitudes, |row| row[port]);
+        let by_states = self.least(magnitudes, |row| row.iter().zip(next()).map(|(h, next)| h * next).sum());
         if at_once.is_finite() && at_once <= by_states {
             return at_once;
         }

@@ -33,8 +33,8 @@ pub struct Setting<'a> {
     pub ports: &'a [Port],
     /// Parameters of which derivatives are wanted, by their indices.
     pub parameters: &'a [usize],
-    /// Nominal value of each state.
-    pub nominal: &'a [f64],
+    /// Size of each state: its nominal value, or more where sensors show more.
+    pub nominal: Vec<f64>,
     /// States that show in some measured output, directly or by others.
     pub active: Vec<usize>,
     /// For each port: the first one that does the same to every state and output.
@@ -109,7 +109,7 @@ impl<'a> Setting<'a> {
         (point, start): (&Estimate, &[f64]),
         ports: &'a [Port],
         parameters: &'a [usize],
-        nominal: &'a [f64],
+        nominal: &[f64],
         records: &[Dataset],
     ) -> Self {
         let record = &records[0];
@@ -127,6 +127,9 @@ impl<'a> Setting<'a> {
         dynamics.followed(&point.parameters, start, &drive, (&seeds, &wanted), &mut look);
         let active = look.active(states);
         let magnitudes: Vec<f64> = (0..wanted.len()).map(|row| magnitude(records, row)).collect();
+        // A declared size may be of what a state does elsewhere: Modelica's angles have a nominal value of 1e-4 rad.
+        let seen = |(state, declared): (usize, &f64)| declared.max(look.shown(state, &magnitudes));
+        let states_seen = nominal.iter().enumerate().map(seen).collect();
         let floor = |row: usize| records.iter().map(|it| it.measured[row].noise_floor).fold(0.0, f64::max);
         let floors: Vec<f64> = (0..wanted.len()).map(|row| floor(row).powi(2)).collect();
         let noise = floors.iter().zip(&magnitudes);
@@ -159,7 +162,7 @@ impl<'a> Setting<'a> {
             point,
             ports,
             parameters,
-            nominal,
+            nominal: states_seen,
             active,
             ties,
             sizes,
