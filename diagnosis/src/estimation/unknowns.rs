@@ -23,6 +23,11 @@ impl Unknown {
         }
     }
 
+    /// Whether it is a distortion of an input's signal.
+    pub fn is_of_input(self) -> bool {
+        matches!(self, Self::Input(..))
+    }
+
     /// Another distortion of the same signal; a parameter stays what it is.
     #[must_use]
     pub fn with_fault(self, fault: Fault) -> Self {

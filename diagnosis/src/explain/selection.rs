@@ -13,6 +13,7 @@ use crate::estimation::unknowns::{Estimate, FreeParameter, Unknown};
 use crate::missing::Missing;
 use crate::missing::innovations::{Column, Columns, Noise, Stretch};
 use crate::missing::motion::Mover;
+use crate::missing::trajectory::Setting;
 use crate::screening::Probe;
 
 use super::candidates::{Candidates, Kind};
@@ -92,7 +93,8 @@ impl Baseline<'_> {
                     // What would have to be negative is not there, and what would have to be too large is held back.
                     let within = self.within(*term, probe, &amounts, (&point, at));
                     score.share *= if possible > 0.0 { within * (2.0 - within) } else { 0.0 };
-                    points[number] = Some(point);
+                    points[number] =
+                        Some(self.estimated_along(*term, &missing.setting, point, &fitted.values));
                     if has_no_name(*term) { &mut features } else { &mut named }.push(score);
                 }
                 Kind::Feature { group, mover, .. } => {
@@ -120,6 +122,25 @@ impl Baseline<'_> {
 }
 
 impl Baseline<'_> {
+    /// A term's start with the nominal parameters that were estimated along with it: those without it are bent to make up for
+    /// it. As it was if the model refuses them.
+    fn estimated_along(
+        &self,
+        term: Term,
+        setting: &Setting<'_>,
+        start: Estimate,
+        estimated: &DVector<f64>,
+    ) -> Estimate {
+        let own = self.own_coordinates(term);
+        let is_own = |index: usize| own.iter().any(|it| it.handle == Unknown::Parameter(index));
+        let mut moved = start.clone();
+        let steps = setting.parameters.iter().zip(estimated.iter());
+        for (index, step) in steps.filter(|(index, _)| !is_own(**index)) {
+            moved.parameters[*index] = self.moved(*index, moved.parameters[*index], *step);
+        }
+        if setting.dynamics.check(&moved.parameters).is_ok() { moved } else { start }
+    }
+
     /// Share of the best amount of a single column that a start within bounds has; of several columns, whether all are
     /// within bounds.
     fn within(
@@ -242,14 +263,30 @@ impl Compared {
             .copied()
     }
 
-    /// Scores, and behind the first those of distortions that look like it.
+    /// Scores, and behind the first those of distortions that look like it: of the same signal, or the same one at the other end of a
+    /// model with one measured input or one measured output. What is late before such a model is late behind it.
     pub fn with_alike(&self, mut scores: Vec<Score>) -> Vec<Score> {
         let Some(Term::Fault(best)) = scores.first().and_then(|it| self.term(it)) else { return scores };
         let alike = best.fault().map_or(&[][..], |it| distortion(it).alike).iter();
-        let alike: Vec<Score> =
-            alike.filter_map(|it| self.shape(Term::Fault(best.with_fault(*it)))).collect();
+        let alike = alike.map(|it| best.with_fault(*it)).chain(self.at_the_other_end(best));
+        let alike: Vec<Score> = alike.filter_map(|it| self.shape(Term::Fault(it))).collect();
         scores.splice(1..1, alike);
         scores
+    }
+
+    /// The same distortion at the only signal of the other end; none if there are several, or if it cannot be there.
+    fn at_the_other_end(&self, of: Unknown) -> Option<Unknown> {
+        let mut others: Vec<Unknown> = Vec::new();
+        for score in &self.named {
+            if let Some(Term::Fault(it)) = self.term(score)
+                && it.is_of_input() != of.is_of_input()
+                && it.fault() == of.fault()
+                && !others.contains(&it)
+            {
+                others.push(it);
+            }
+        }
+        others.pop().filter(|_| others.is_empty())
     }
 
     /// The term of a score; none of features.

@@ -84,7 +84,8 @@ impl Port {
             });
         }
         for (index, declared) in plant.inputs.iter().enumerate() {
-            let acts = is_command(&declared.name) || rig.kind.elements.is_empty() && !is_motion(rig, declared);
+            let acts =
+                is_command(&declared.name) || rig.kind.elements.is_empty() && !is_motion(rig, declared);
             if is_measured(index) && acts {
                 let only = || rig.kind.elements.iter().find(|it| it.element == Element::ACTUATOR);
                 let element = element_of(rig, &declared.name).or_else(|| only().map(|it| it.element));
@@ -132,5 +133,25 @@ mod tests {
         let quarter = Rig::published("quarter-car").unwrap();
         let force = Port::of_model(&quarter, |_| true).pop().unwrap();
         assert_eq!((force.place.as_str(), force.element), ("actuator.force", Some(Element::ACTUATOR)));
+    }
+    #[test]
+    fn a_model_without_elements_has_places_at_its_inputs_but_not_at_motions() {
+        let mut rig = Rig::published("quarter-car").unwrap();
+        let inputs = |rig: &Rig| -> Vec<String> {
+            let all = Port::of_model(rig, |_| true).into_iter();
+            all.filter(|it| matches!(it.entry, Entry::Input(_))).map(|it| it.place).collect()
+        };
+        assert_eq!(inputs(&rig), ["actuator.force"]);
+        let mut kind = (*rig.kind).clone();
+        kind.elements.clear();
+        rig.kind = kind.into();
+        rig.plant.inputs.push(Declaration { unit: strut_model::unit::N, ..Declaration::named("push") });
+        rig.plant.inputs.push(Declaration { unit: strut_model::unit::M, ..Declaration::named("lift") });
+        rig.plant.inputs.push(Declaration::named("rate"));
+        assert_eq!(inputs(&rig), ["actuator.force", "push", "rate"]);
+        let mut kind = (*rig.kind).clone();
+        kind.rates.insert("rate".into(), "lift".into());
+        rig.kind = kind.into();
+        assert_eq!(inputs(&rig), ["actuator.force", "push"]);
     }
 }

@@ -1,5 +1,6 @@
 //! The FMU of another maker: hidden effects are found beside it, and its failures become messages.
 
+mod events;
 mod predicts;
 
 use std::fs::{self, File};
@@ -13,44 +14,51 @@ use tempfile::TempDir;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
-const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/foreign/model");
+const MODELS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/foreign");
 
-/// Where a platform's library is in an FMU; none where no C compiler makes it as here.
-const LIBRARY: Option<&str> = if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
-    Some("binaries/linux64/quarter.so")
+/// Where a platform's libraries are in an FMU; none where no C compiler makes them as here.
+const LIBRARIES: Option<&str> = if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
+    Some("binaries/linux64")
 } else if cfg!(all(target_os = "linux", target_arch = "aarch64")) {
-    Some("binaries/aarch64-linux/quarter.so")
+    Some("binaries/aarch64-linux")
 } else {
     None
 };
 
-/// A folder with the FMU, compiled with these definitions, and its rig file after a change; none, and a word of it, where no test
-/// can have it.
-fn rig(definitions: &[&str], change: impl Fn(String) -> String) -> Option<(TempDir, PathBuf)> {
-    let Some(name) = LIBRARY else {
+/// A folder with an FMU, compiled with these definitions; none, and a word of it, where no test can have it.
+fn packed(model: &str, definitions: &[&str]) -> Option<TempDir> {
+    let Some(libraries) = LIBRARIES else {
         println!("skipped: FMI 2.0 has no name for this platform that this test knows");
         return None;
     };
     let folder = tempfile::tempdir().unwrap();
-    let library = folder.path().join("quarter.so");
+    let library = folder.path().join(format!("{model}.so"));
     let compiled = Command::new("cc")
         .args(["-O2", "-shared", "-fPIC", "-o"])
         .arg(&library)
         .args(definitions)
-        .arg(format!("{MODEL}/quarter.c"))
+        .arg(format!("{MODELS}/{model}/{model}.c"))
         .arg("-lm")
         .status()
         .expect("a C compiler, cc");
     assert!(compiled.success());
-    let mut archive = ZipWriter::new(File::create(folder.path().join("quarter.fmu")).unwrap());
-    let description = fs::read(format!("{MODEL}/modelDescription.xml")).unwrap();
-    for (name, contents) in [("modelDescription.xml", description), (name, fs::read(&library).unwrap())] {
+    let file = File::create(folder.path().join(format!("{model}.fmu"))).unwrap();
+    let mut archive = ZipWriter::new(file);
+    let description = fs::read(format!("{MODELS}/{model}/modelDescription.xml")).unwrap();
+    let library = (format!("{libraries}/{model}.so"), fs::read(&library).unwrap());
+    for (name, contents) in [("modelDescription.xml".into(), description), library] {
         archive.start_file(name, SimpleFileOptions::default()).unwrap();
         archive.write_all(&contents).unwrap();
     }
     archive.finish().unwrap();
+    Some(folder)
+}
+
+/// A folder with the quarter car, compiled with these definitions, and its rig file after a change; none where no test can have it.
+fn rig(definitions: &[&str], change: impl Fn(String) -> String) -> Option<(TempDir, PathBuf)> {
+    let folder = packed("quarter", definitions)?;
     let path = folder.path().join("rig.toml");
-    fs::write(&path, change(fs::read_to_string(format!("{MODEL}/rig.toml")).unwrap())).unwrap();
+    fs::write(&path, change(fs::read_to_string(format!("{MODELS}/quarter/rig.toml")).unwrap())).unwrap();
     Some((folder, path))
 }
 

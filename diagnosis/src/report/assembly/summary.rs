@@ -6,7 +6,7 @@ use crate::report::findings::{
 };
 use crate::report::words::{
     count, digits, effect_name, fit, interval, list, located, none_beyond, open_signals, percent, sized,
-    unit, value,
+    small_rest, unit, value,
 };
 
 /// Fit that the noise of the inputs costs, to be worth a sentence.
@@ -30,6 +30,7 @@ pub(super) fn of(findings: &Findings) -> String {
         improvement(findings),
         worse(findings),
         noisy(findings),
+        small_rest(findings),
     ];
     parts.into_iter().flatten().filter(|it| !it.is_empty()).collect::<Vec<_>>().join(" ")
 }
@@ -278,8 +279,12 @@ mod tests {
             "40 % of body.acceleration is still unexplained on the validation data (20 × sensor noise).";
         assert!(text.starts_with(first), "{text}");
         assert!(text.contains("Part of wheel.acceleration is unexplained, too."), "{text}");
+        // Below a tenth of the signal it comes last, and what no plot shows is not told.
         found.account.iter_mut().for_each(|it| it.open = false);
-        assert!(!of(&found).contains("unexplained"), "{}", of(&found));
+        let with = |fit: f64| of(&Findings { signals: vec![signal(0.1, fit)], ..found.clone() });
+        let last = "The rest is small. 6.0 % of body.acceleration is still unexplained on the validation data (20 × sensor noise).";
+        assert!(with(0.94).ends_with(last), "{}", with(0.94));
+        assert!(!with(0.99).contains("unexplained"), "{}", with(0.99));
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! Signals with errors that no known effect explains.
 
 use super::{digits, percent};
-use crate::report::findings::{Findings, SignalAccount};
+use crate::decision::criteria::CRITERIA;
+use crate::report::findings::{Findings, SignalAccount, Verdict};
 
 /// A ratio to the noise above which its digits mean nothing.
 const FAR: f64 = 1000.0;
@@ -32,6 +33,25 @@ pub fn open_signals(findings: &Findings) -> Vec<OpenSignal> {
 
 /// The unexplained error of one account, if it is open.
 pub fn open_signal(findings: &Findings, account: &SignalAccount) -> Option<OpenSignal> {
+    account.open.then(|| unexplained(findings, account))
+}
+
+/// Where all accounts are closed, the largest rest that shows in a plot and is beyond the noise.
+pub fn small_rest(findings: &Findings) -> Option<String> {
+    if findings.account.iter().any(|it| it.open) {
+        return None;
+    }
+    let all = findings.account.iter().map(|it| unexplained(findings, it));
+    let shown = all.filter(|it| it.share > CRITERIA.improvement && it.noise > CRITERIA.above_noise);
+    let largest = shown.max_by(|a, b| a.share.total_cmp(&b.share))?.sentence();
+    Some(if findings.verdict == Verdict::Unmodelled {
+        largest
+    } else {
+        format!("The rest is small. {largest}")
+    })
+}
+
+fn unexplained(findings: &Findings, account: &SignalAccount) -> OpenSignal {
     let left = account.unmodelled.max(0.0) + account.unexplained.max(0.0);
     let noise = account.noise.max(0.0);
     let fit = findings
@@ -39,14 +59,14 @@ pub fn open_signal(findings: &Findings, account: &SignalAccount) -> Option<OpenS
         .iter()
         .find(|it| it.name == account.signal)
         .map_or(f64::NAN, |it| it.fit_without_input_noise);
-    account.open.then(|| OpenSignal {
+    OpenSignal {
         signal: account.signal.clone(),
         // The remaining error is noise and the rest, which add up in power.
         share: (1.0 - fit) * (left / (left + noise)).sqrt(),
         noise: (left / noise).sqrt(),
         fit,
         described: account.unmodelled > 0.0,
-    })
+    }
 }
 
 impl OpenSignal {
@@ -97,7 +117,7 @@ impl OpenSignal {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::findings::{Signal, Verdict};
+    use crate::report::findings::Signal;
 
     fn findings(noise: f64, unmodelled: f64, unexplained: f64, phi: f64) -> Findings {
         let account = SignalAccount {
