@@ -21,8 +21,6 @@ use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::explain::selection::Proposal;
 use crate::signal::distortion::Fault;
 
-use weighing::is_in_time;
-
 /// Share of what may matter that any fit that is compared has to promise.
 const HINT: f64 = 0.2;
 
@@ -97,7 +95,7 @@ impl Baseline<'_> {
         let fitted = fitted.and_then(|it| match self.driven_off(null, &it).filter(|_| !has_no_name(term)) {
             Some(parameter) => Err(format!("drives {parameter} to its bound")),
             None if self.is_straight(term, &it) => Err("ends where its law is another one".into()),
-            None if is_in_time(term, &it) => Err("no later than the timing of any measurement".into()),
+            None if self.is_in_time(term, &it) => Err("no later than the timing of any measurement".into()),
             None => Ok(it),
         });
         let (evidence, score) = match &fitted {
@@ -113,7 +111,7 @@ impl Baseline<'_> {
         let half = |index: usize| CRITERIA.certain * covariance[(index, index)].max(0.0).sqrt();
         let of = |handle: Unknown| {
             let index = fitted.coordinates.iter().position(|it| it.handle == handle)?;
-            let value = fitted.point.get(handle) - base.point.get(handle);
+            let value = self.amount(handle, fitted.point.get(handle), base);
             let (low, high) = fitted.coordinates[index].bounds;
             // The end of a parameter's meaning is a possible value: a sharp limit has a ratio of one.
             let end = match handle {
@@ -124,6 +122,12 @@ impl Baseline<'_> {
             Some(Amount { value, bounds: (low, high), half: half(index) })
         };
         self.sizes(term).into_iter().filter_map(of).collect()
+    }
+
+    /// How much of an effect a value is: beyond the model without it. The timing of a channel, which every fit has, is none of the
+    /// model.
+    pub fn amount(&self, handle: Unknown, value: f64, base: &Fitted) -> f64 {
+        if self.usual(handle).is_some() { value } else { value - base.point.get(handle) }
     }
 
     /// What of a term says how much of it there is; of a curve and of a limit nothing does.

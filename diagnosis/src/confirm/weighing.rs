@@ -104,6 +104,17 @@ impl Baseline<'_> {
         })
     }
 
+    /// Whether a delay or lag is within the timing of any measurement: no effect then.
+    pub(crate) fn is_in_time(&self, term: Term, fitted: &Fitted) -> bool {
+        let of_output = match term {
+            Term::Fault(handle @ Unknown::Output(..)) => {
+                self.usual(handle).map(|deviation| fitted.point.get(handle).abs() / deviation)
+            }
+            _ => None,
+        };
+        late_by(term, fitted).or(of_output).is_some_and(|it| it < IN_TIME)
+    }
+
     /// Whether every rig has a little of it. Wrong timing of an input counts, too: any of a measured input, and of a command
     /// what signals usually have.
     fn is_usual(&self, term: Term, fitted: &Fitted) -> bool {
@@ -224,11 +235,6 @@ impl Baseline<'_> {
         let (unit, squares) = (self.errors(unit).mean_squares(), self.errors(residuals).mean_squares());
         unit.iter().zip(&squares).map(|(unit, square)| square / unit).collect()
     }
-}
-
-/// Whether a delay or lag of an input is within the timing of any measurement: no effect then. Outputs are fitted with such timing.
-pub(super) fn is_in_time(term: Term, fitted: &Fitted) -> bool {
-    late_by(term, fitted).is_some_and(|it| it < IN_TIME)
 }
 
 /// Delay or lag of an input in standard deviations of a channel's timing; none for other terms.

@@ -17,17 +17,18 @@ use crate::signal::distortion::Fault;
 use super::{Found, phi};
 
 impl Baseline<'_> {
-    /// The last effect whose interval holds zero.
+    /// The last effect whose interval holds zero, or that is within the timing of any measurement by now: beside others, less of it
+    /// may be left.
     pub(super) fn doubtful(&self, found: &Found, intervals: &[Interval]) -> Option<usize> {
         let amount = |handle: Unknown| {
             let it = intervals.iter().find(|it| it.handle == handle)?;
-            let value = it.value - found.base.point.get(handle);
+            let value = self.amount(handle, it.value, &found.base);
             // A common scale that only the parameter set knows makes no amount zero.
             Some(Amount { value, bounds: (f64::NEG_INFINITY, f64::INFINITY), half: it.half_of_data })
         };
         found.accepted.iter().rposition(|it| {
             let amounts: Vec<Amount> = self.sizes(it.term).into_iter().filter_map(amount).collect();
-            !is_determined(&amounts)
+            !is_determined(&amounts) || self.is_in_time(it.term, &found.extended)
         })
     }
 

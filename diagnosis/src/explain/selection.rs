@@ -13,7 +13,6 @@ use crate::estimation::unknowns::{Estimate, FreeParameter, Unknown};
 use crate::missing::Missing;
 use crate::missing::innovations::{Column, Columns, Noise, Stretch};
 use crate::missing::motion::Mover;
-use crate::missing::trajectory::Setting;
 use crate::screening::Probe;
 
 use super::candidates::{Candidates, Kind};
@@ -93,8 +92,7 @@ impl Baseline<'_> {
                     // What would have to be negative is not there, and what would have to be too large is held back.
                     let within = self.within(*term, probe, &amounts, (&point, at));
                     score.share *= if possible > 0.0 { within * (2.0 - within) } else { 0.0 };
-                    points[number] =
-                        Some(self.estimated_along(*term, &missing.setting, point, &fitted.values));
+                    points[number] = Some(point);
                     if has_no_name(*term) { &mut features } else { &mut named }.push(score);
                 }
                 Kind::Feature { group, mover, .. } => {
@@ -122,25 +120,6 @@ impl Baseline<'_> {
 }
 
 impl Baseline<'_> {
-    /// A term's start with the nominal parameters that were estimated along with it: those without it are bent to make up for
-    /// it. As it was if the model refuses them.
-    fn estimated_along(
-        &self,
-        term: Term,
-        setting: &Setting<'_>,
-        start: Estimate,
-        estimated: &DVector<f64>,
-    ) -> Estimate {
-        let own = self.own_coordinates(term);
-        let is_own = |index: usize| own.iter().any(|it| it.handle == Unknown::Parameter(index));
-        let mut moved = start.clone();
-        let steps = setting.parameters.iter().zip(estimated.iter());
-        for (index, step) in steps.filter(|(index, _)| !is_own(**index)) {
-            moved.parameters[*index] = self.moved(*index, moved.parameters[*index], *step);
-        }
-        if setting.dynamics.check(&moved.parameters).is_ok() { moved } else { start }
-    }
-
     /// Share of the best amount of a single column that a start within bounds has; of several columns, whether all are
     /// within bounds.
     fn within(

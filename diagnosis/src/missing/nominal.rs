@@ -158,7 +158,7 @@ impl Baseline<'_> {
     }
 
     /// A nominal parameter after a step. What has no value and must not be zero may be off by much: its logarithm moves.
-    pub(crate) fn moved(&self, index: usize, before: f64, step: f64) -> f64 {
+    fn moved(&self, index: usize, before: f64, step: f64) -> f64 {
         let least = self.least(index);
         let most = self.rig.plant.parameters[index].max.unwrap_or(f64::INFINITY);
         if self.is_unstated(index) {
