@@ -97,7 +97,7 @@ pub fn diagnose<'a>(
         progress("comparing what each excitation says");
         let intervals = baseline.intervals(&found.extended)?;
         match baseline.doubtful(&found, &intervals).filter(|_| judged) {
-            Some(doubtful) => baseline.retract(&mut found, doubtful),
+            Some(doubtful) => baseline.explained_away(&mut found, doubtful),
             None => break intervals,
         }
     };

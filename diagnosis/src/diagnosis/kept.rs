@@ -121,6 +121,34 @@ impl Baseline<'_> {
         self.fitted(&terms, &[start], Stop::NOISY)
     }
 
+    /// Takes an effect back that others found later have left nothing of: they stay, if the model without it is as good.
+    pub(super) fn explained_away(&self, found: &mut Found, index: usize) {
+        if self.without(found, index).is_none() {
+            self.retract(found, index);
+        }
+    }
+
+    fn without(&self, found: &mut Found, index: usize) -> Option<()> {
+        let term = found.accepted[index].term;
+        let mut stages = found.stages[..index].to_vec();
+        for later in &found.stages[index + 1..] {
+            let terms: Vec<Term> = later.terms.iter().copied().filter(|it| *it != term).collect();
+            let mut start = later.point.clone();
+            for own in self.own_coordinates(term) {
+                start.set(own.handle, found.base.point.get(own.handle));
+            }
+            stages.push(self.fitted(&terms, &[start], Stop::NOISY).ok()?);
+        }
+        let last = stages.get(index..).and_then(<[Fitted]>::last)?.clone();
+        if !self.as_good(&found.base, &found.extended, &last) {
+            return None;
+        }
+        found.retracted.push(term);
+        found.accepted.remove(index);
+        (found.stages, found.extended) = (stages, last);
+        Some(())
+    }
+
     /// Takes an effect back, and with it what was found beside it later: that is to be found again without it.
     pub(super) fn retract(&self, found: &mut Found, index: usize) {
         found.retracted.push(found.accepted[index].term);
