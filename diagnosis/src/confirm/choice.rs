@@ -42,10 +42,13 @@ impl Baseline<'_> {
     /// What a fit has changed that is a claim about the rig: not the usual timing of a channel, which every fit has, and which
     /// would make a delay a part of a lag.
     fn claims(&self, fitted: &Fitted) -> BTreeSet<Unknown> {
-        let own = fitted.terms.iter().flat_map(|term| self.own_coordinates(*term)).map(|it| it.handle);
-        let mut claims: BTreeSet<Unknown> = own.collect();
-        claims.extend(parts(fitted).into_iter().filter(|it| self.usual(*it).is_none()));
-        claims
+        self.claimed(&fitted.terms, parts(fitted))
+    }
+
+    fn claimed(&self, terms: &[Term], mut changed: BTreeSet<Unknown>) -> BTreeSet<Unknown> {
+        changed.retain(|it| self.usual(*it).is_none());
+        changed.extend(terms.iter().flat_map(|term| self.own_coordinates(*term)).map(|it| it.handle));
+        changed
     }
 
     /// Whether a fit explains the data as well as the best one.
@@ -91,5 +94,28 @@ impl Baseline<'_> {
             self.as_good(base, best, fitted) || closer().is_ok_and(|it| self.as_good(base, close, &it))
         };
         passing.par_iter().filter(rival).map(|it| it.term).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dataset::split::Split;
+    use crate::diagnosis::Options;
+    use crate::rig::Rig;
+    use crate::signal::distortion::Fault;
+
+    #[test]
+    fn a_delay_is_no_part_of_a_lag_though_every_fit_has_the_usual_one() {
+        let rig = Rig::published("quarter-car").unwrap();
+        let records = Split { train: vec![], test: vec![], measured: vec![], whole: vec![] };
+        let baseline = Baseline::new(&rig, &records, Options::default());
+        let [delay, lag] = [Fault::Delay, Fault::Lag].map(|fault| Unknown::Output(0, fault));
+        let mass = Unknown::Parameter(0);
+        let with = |term: Unknown, changed: &[Unknown]| {
+            baseline.claimed(&[Term::Fault(term)], changed.iter().copied().collect())
+        };
+        let (of_lag, of_delay) = (with(lag, &[mass, delay, lag]), with(delay, &[mass, delay]));
+        assert_eq!((of_lag, of_delay), ([mass, lag].into(), [mass, delay].into()));
     }
 }
