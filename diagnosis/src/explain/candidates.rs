@@ -136,9 +136,10 @@ impl Baseline<'_> {
             if setting.ties[number] != number {
                 continue;
             }
-            for mover in Mover::all(self.rig, port, &missing.records[0]) {
+            for (further, mover) in Mover::all(self.rig, port, &missing.records[0]).into_iter().enumerate() {
                 let Some(motions) = mover.motions(self.rig, (port, windows), outputs) else { continue };
-                for group in Group::all(&commands, others) {
+                let groups = if further > 0 { Group::CURVES.to_vec() } else { Group::all(&commands, others) };
+                for group in groups {
                     let signals = features(group, &motions, (missing.records, windows));
                     let columns = windows.iter().enumerate().map(|(index, window)| {
                         let place = place(setting, number);

@@ -53,6 +53,9 @@ impl Group {
             .collect()
     }
 
+    /// Curves over a motion. Of a further output nothing else is tried: all features of all outputs would not fit into memory.
+    pub const CURVES: [Self; 3] = [Self::Deflection, Self::Velocity, Self::DeflectionAndVelocity];
+
     /// Those of a port's own motion and of time.
     const OF_MOTION: [Self; 6] = [
         Self::Deflection,

@@ -65,7 +65,7 @@ pub enum Mover {
 }
 
 impl Mover {
-    /// All at a port, of which none is known at a sensor.
+    /// All that are known at a port: none at a sensor.
     pub fn all(rig: &Rig, port: &Port, record: &Dataset) -> Vec<Self> {
         if port.is_sensor() {
             Vec::new()

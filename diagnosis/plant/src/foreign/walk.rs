@@ -206,7 +206,7 @@ impl<'a> Walk<'a> {
         let mut middle = std::mem::take(&mut self.middle);
         let end = std::mem::take(&mut self.slopes[4]);
         let (h, mut last) = ((to - from) * way.size(), 1.0);
-        // One is behind another at most once.
+        // Each place is before the last one, so that this ends.
         loop {
             last = root(self.session.indicator(index), last, |share| {
                 for (row, middle) in middle.iter_mut().enumerate() {
