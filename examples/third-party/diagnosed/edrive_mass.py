@@ -2,7 +2,7 @@
 
     J w' = M_A + M_B - d w          outputs: wA = wB = w, phiA = phiB
 
-Hidden: dry friction in the bearing.
+Hidden: dry friction in the bearing; in `edrive_mass_drag.py` the drag of a fan.
 """
 
 import numpy as np
@@ -22,7 +22,9 @@ def inputs(seed, time):
 
 def respond(p, hidden, time, u):
     torque, friction = drive(time, u["M_A"] + u["M_B"]), hidden.get("friction", 0.0)
-    rate = lambda t, y: [y[1], (torque(t) - p["d"] * y[1] - friction * np.tanh(y[1] / 0.1)) / p["J"]]
+    drag = hidden.get("drag", 0.0)
+    loss = lambda w: p["d"] * w + friction * np.tanh(w / 0.1) + drag * w * np.abs(w)
+    rate = lambda t, y: [y[1], (torque(t) - loss(y[1])) / p["J"]]
     phi, w = solve(rate, [0.0, 0.0], time, 0.002)
     return {"wA": w, "phiA": phi}
 

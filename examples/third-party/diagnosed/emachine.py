@@ -2,7 +2,7 @@
 
     L i' = U - R i - k w          outputs: I = i, M = torque on the shaft = k i
 
-Hidden: a lag of the current's sensor; the torque's sensor is right.
+Hidden: a lag of the current's sensor; the torque's sensor is right. In `emachine_hot.py` a resistance that grows with the current.
 """
 
 from common import drive, lagged, main, multisine, solve
@@ -21,7 +21,8 @@ def inputs(seed, time):
 
 def respond(p, hidden, time, u):
     voltage, speed = drive(time, u["U"]), drive(time, u["w"])
-    (i,) = solve(lambda t, y: [(voltage(t) - p["R"] * y[0] - p["k"] * speed(t)) / p["L"]], [0.0], time)
+    drop = lambda i: p["R"] * i + hidden.get("cubic", 0.0) * i**3
+    (i,) = solve(lambda t, y: [(voltage(t) - drop(y[0]) - p["k"] * speed(t)) / p["L"]], [0.0], time)
     return {"I": lagged(time, i, hidden["lag"]) if "lag" in hidden else i, "M": p["k"] * i}
 
 

@@ -3,7 +3,7 @@
     m s'' = F - c (s - 1.1) - f(v),  f = (v + sign(v) (5 + 10 exp(-2 |v|))) / fricScale
 
 with stiction by events (MassWithStopAndFriction of the Modelica library). Here the sign is tanh(v / 0.5 mm/s).
-Hidden: nothing.
+Hidden: nothing; in `friction_pendulum_spring.py` a spring that hardens.
 """
 
 import numpy as np
@@ -26,7 +26,8 @@ def respond(p, hidden, time, u):
 
     def acceleration(t, s, v):
         dry = (5.0 + 10.0 * np.exp(-2.0 * np.abs(v))) * np.tanh(v / 5e-4)
-        return (force(t) - p["c"] * (s - 1.1) - (v + dry) / p["scale"]) / p["m"]
+        spring = p["c"] * (s - 1.1) + hidden.get("cubic", 0.0) * (s - 1.1) ** 3
+        return (force(t) - spring - (v + dry) / p["scale"]) / p["m"]
 
     s, v = solve(lambda t, y: [y[1], acceleration(t, *y)], [0.5, 0.0], time, 0.002, "LSODA")
     return {"v": v, "a": acceleration(time, s, v)}

@@ -5,7 +5,7 @@
 Hidden, and in no list: a third power, -b x3. The FMU has no output; x is a local variable.
 """
 
-from common import drive, main, multisine, solve
+from common import drive, lagged, main, multisine, solve
 
 FMU = "HelloWorldWithInput.fmu"
 NOMINAL = dict(a=-1.0)
@@ -22,7 +22,7 @@ def inputs(seed, time):
 def respond(p, hidden, time, u):
     u, cubic = drive(time, u["u"]), hidden.get("cubic", 0.0)
     (x,) = solve(lambda t, y: [p["a"] * y[0] + u(t) - cubic * y[0] ** 3], [1.0], time)
-    return {"x": x}
+    return {"x": lagged(time, x, hidden["lag"]) if "lag" in hidden else x}
 
 
 if __name__ == "__main__":
