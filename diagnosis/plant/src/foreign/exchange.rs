@@ -15,10 +15,9 @@ use tempfile::TempDir;
 
 use super::Foreign;
 use super::units::{Conversion, coherent};
+use events::Events;
 
 pub use starts::LEAST;
-
-use events::Events;
 
 /// A loaded FMU.
 pub struct Fmu {
@@ -182,8 +181,8 @@ impl Fmu {
         }
     }
 
-    /// An instance with these parameters, in base units, ready to compute rates so many seconds after its own start; none if the
-    /// FMU refuses them.
+    /// An instance with these parameters, in base units, ready to compute rates `later` than its own start, in seconds; none if
+    /// the FMU refuses them.
     pub fn open(self: &Arc<Self>, parameters: &[f64], later: f64) -> Option<Session> {
         let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
         let instance = idle.or_else(|| self.instantiate())?;

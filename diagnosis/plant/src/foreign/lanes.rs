@@ -76,7 +76,9 @@ impl<'a> Lanes<'a> {
             let inputs = drive.inputs.len();
             walk.look(time, &lane.from, (&input, inputs), &mut lane.rates, Some(&mut lane.outputs));
             let is_first = lane.walk == seen;
-            if is_first && walk.settle(time, &mut lane.from.clone()) {
+            // States that jump are the follower's to set.
+            lane.next.copy_from_slice(&lane.from);
+            if is_first && walk.settle(time, &mut lane.next) {
                 walk.look(time, &lane.from, (&input, inputs), &mut lane.rates, Some(&mut lane.outputs));
             }
             seen += usize::from(is_first);

@@ -19,7 +19,7 @@ pub struct Walk<'a> {
     beside: (&'a Beside, Set),
     /// How many states are the instance's.
     own: usize,
-    /// Time of the first sample for the elements; the instance has a time of its own, as it begins anew.
+    /// Time of the first sample in the record, for the elements.
     start: f64,
     inputs: Vec<f64>,
     /// Slopes of a step's stages, and at its end.
@@ -133,24 +133,25 @@ impl<'a> Walk<'a> {
     /// not at all.
     pub fn advance(&mut self, way: &Way<'_>, state: &mut [f64], first: &[f64], to_events: bool) {
         let to_events = to_events && (self.session.indicates() || self.session.next_event().is_finite());
+        let mut next = std::mem::take(&mut self.next);
         self.slopes[0].copy_from_slice(first);
         for part in 0..way.steps {
             let from = part as f64;
             if to_events {
-                self.through_events(way, from, state);
-            } else {
-                if part > 0 {
-                    self.look_on(way, from, state, 0);
-                }
-                let next = self.step(way, (from, from + 1.0), state);
-                state.copy_from_slice(&next);
-                self.next = next;
+                self.through_events(way, from, state, &mut next);
+                continue;
             }
+            if part > 0 {
+                self.look_on(way, from, state, 0);
+            }
+            self.step(way, (from, from + 1.0), state, &mut next);
+            state.copy_from_slice(&next);
         }
+        self.next = next;
     }
 
     /// A step of the classical method between two positions, from the slopes at the first.
-    fn step(&mut self, way: &Way<'_>, (from, to): (f64, f64), state: &[f64]) -> Vec<f64> {
+    fn step(&mut self, way: &Way<'_>, (from, to): (f64, f64), state: &[f64], next: &mut [f64]) {
         let h = (to - from) * way.size();
         let mut middle = std::mem::take(&mut self.middle);
         for (stage, offset) in [(1, 0.5), (2, 0.5), (3, 1.0)] {
@@ -160,29 +161,26 @@ impl<'a> Walk<'a> {
             self.look_on(way, from + offset * (to - from), &middle, stage);
         }
         self.middle = middle;
-        let mut next = std::mem::take(&mut self.next);
-        next.clear();
-        next.extend(state.iter().enumerate().map(|(index, state)| {
+        for (index, (next, state)) in next.iter_mut().zip(state).enumerate() {
             let [k1, k2, k3, k4] = [0, 1, 2, 3].map(|stage: usize| self.slopes[stage][index]);
-            state + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4)
-        }));
-        next
+            *next = state + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
+        }
     }
 
-    /// A step that ends at each event within it, and goes on behind.
-    fn through_events(&mut self, way: &Way<'_>, from: f64, state: &mut [f64]) {
+    /// A step that ends at each event within it, and goes on behind; `next` is memory for its ends.
+    fn through_events(&mut self, way: &Way<'_>, from: f64, state: &mut [f64], next: &mut [f64]) {
         let (mut at, end) = (from, from + 1.0);
         for event in 0.. {
             let may = event < MOST_EVENTS;
             let due = Some(way.position(self.session.next_event())).filter(|it| may && *it > at && *it < end);
             let mut to = due.unwrap_or(end);
-            let mut next = self.step(way, (at, to), state);
-            self.look_on(way, to, &next, 4);
+            self.step(way, (at, to), state, next);
+            self.look_on(way, to, next, 4);
+            self.session.sense();
             if let Some(index) = self.session.crossed().filter(|_| may) {
-                to = self.located(way, (at, to), (state, &mut next), index);
+                to = self.located(way, (at, to), (state, next), index);
             }
-            state.copy_from_slice(&next);
-            self.next = next;
+            state.copy_from_slice(next);
             if self.session.settle(way.time(to), &mut state[..self.own]) {
                 self.look_on(way, to, state, 0);
             } else {
@@ -195,7 +193,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Where the first indicator of those crosses zero that do so on a step; the state there takes the place of that at the step's end.
+    /// The place on a step where the first indicator crosses zero; `next` becomes the state there instead of at the step's end.
     fn located(
         &mut self,
         way: &Way<'_>,
@@ -214,7 +212,7 @@ impl<'a> Walk<'a> {
                     *middle = between(share, ends, [h * self.slopes[0][row], h * end[row]]);
                 }
                 self.put(way, from + share * (to - from), &middle);
-                self.session.crossed();
+                self.session.sense();
                 self.session.indicator(index).1
             });
             match self.session.crossed() {
@@ -231,6 +229,7 @@ impl<'a> Walk<'a> {
     /// Takes a sample where it was looked at as the end of a step; whether there was an event, so that states and rates may have
     /// jumped.
     pub fn settle(&mut self, time: f64, state: &mut [f64]) -> bool {
+        self.session.sense();
         self.session.settle(time, &mut state[..self.own])
     }
 

@@ -21,7 +21,7 @@ pub(super) struct Events {
 }
 
 impl Events {
-    /// Of an instance with so many indicators, and the time of its first event.
+    /// Of an instance, from the number of its indicators and the time of its first event.
     pub fn new(indicators: usize, first: f64) -> Self {
         Self { before: Vec::new(), now: vec![0.0; indicators], next: first }
     }
@@ -46,7 +46,7 @@ impl Fmu {
 }
 
 impl Session {
-    /// Whether an indicator can tell of an event.
+    /// Whether it has indicators.
     pub fn indicates(&self) -> bool {
         !self.events.now.is_empty()
     }
@@ -56,27 +56,27 @@ impl Session {
         self.events.next - self.start
     }
 
-    /// Looks at the indicators where the instance is; one that has changed its sign, if any.
-    pub fn crossed(&mut self) -> Option<usize> {
-        self.look();
-        let both = self.events.before.iter().zip(&self.events.now);
-        both.enumerate().find(|(_, (before, now))| (**before > 0.0) != (**now > 0.0)).map(|(index, _)| index)
-    }
-
-    /// An indicator at the last event or the end of the last step, and where the instance was looked at.
-    pub fn indicator(&self, index: usize) -> (f64, f64) {
-        (self.events.before[index], self.events.now[index])
-    }
-
-    fn look(&mut self) {
+    /// Reads the indicators where the instance is.
+    pub fn sense(&mut self) {
         if self.indicates() && !self.is_silent() {
             let (fmu, now) = (&*self.fmu, &mut self.events.now);
             self.failed |= !fine(fmu.library.array("fmi2GetEventIndicators", self.instance, now));
         }
     }
 
-    /// Completes a step where the instance is, at a time after the start, and handles an event there; whether there was one,
-    /// so that states and rates may have jumped.
+    /// The first indicator that had another sign at the last event or the end of the last step, if any.
+    pub fn crossed(&self) -> Option<usize> {
+        let both = self.events.before.iter().zip(&self.events.now);
+        both.enumerate().find(|(_, (before, now))| (**before > 0.0) != (**now > 0.0)).map(|(index, _)| index)
+    }
+
+    /// An indicator at the last event or the end of the last step, and where it was read last.
+    pub fn indicator(&self, index: usize) -> (f64, f64) {
+        (self.events.before[index], self.events.now[index])
+    }
+
+    /// Completes a step where the instance is and its indicators were read, at a time after the start, and handles an event there;
+    /// whether there was one, so that states and rates may have jumped.
     pub fn settle(&mut self, time: f64, states: &mut [f64]) -> bool {
         if self.is_silent() {
             return false;
@@ -110,6 +110,6 @@ impl Session {
         for ((state, value), conversion) in states.iter_mut().zip(own).zip(&fmu.of_states) {
             *state = conversion.si(*value);
         }
-        self.look();
+        self.sense();
     }
 }
