@@ -124,8 +124,8 @@ impl Baseline<'_> {
         self.sizes(term).into_iter().filter_map(of).collect()
     }
 
-    /// How much of an effect a value is: beyond the model without it. The timing of a channel, which every fit has, is none of the
-    /// model.
+    /// How much of an effect a value is: beyond the model without it. Every fit has the usual timing of a channel, which is not the
+    /// model's: a delay or lag counts from zero.
     pub fn amount(&self, handle: Unknown, value: f64, base: &Fitted) -> f64 {
         if self.usual(handle).is_some() { value } else { value - base.point.get(handle) }
     }
@@ -270,7 +270,7 @@ mod tests {
     #[test]
     fn a_law_takes_the_place_of_its_limits_only() {
         let rig = Rig::published("quarter-car").unwrap();
-        let records = Split { train: vec![], test: vec![], measured: vec![], whole: vec![] };
+        let records = Split::of_nothing();
         let baseline = Baseline::new(&rig, &records, Options::default());
         let effects: Vec<_> = catalogue::effects(&rig.plant).collect();
         let of_strut = |id: &str| effects.iter().find(|it| it.id == id && it.element == Element::STRUT);

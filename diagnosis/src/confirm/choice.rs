@@ -24,11 +24,10 @@ impl Baseline<'_> {
     fn simplest<'b>(&self, base: &Fitted, best: &'b Tried, passing: &[&'b Tried]) -> &'b Tried {
         let mut chosen = best;
         for other in passing {
-            if let (Ok(fitted), Ok(simpler)) = (&chosen.fitted, &other.fitted)
-                && (self.is_one_of(other.term, chosen.term)
-                    || contains(chosen.term, other.term, &self.claims(fitted), &self.claims(simpler))
-                        && self.claims(simpler).len() < self.claims(fitted).len())
-            {
+            let (Ok(fitted), Ok(simpler)) = (&chosen.fitted, &other.fitted) else { continue };
+            let (more, fewer) = (self.claims(fitted), self.claims(simpler));
+            let is_part = contains(chosen.term, other.term, &more, &fewer) && fewer.len() < more.len();
+            if is_part || self.is_one_of(other.term, chosen.term) {
                 let added = self.evidence(chosen.term, base, simpler, fitted);
                 // Whether it is common does not matter beside a part of itself.
                 if (Evidence { background: false, ..added }).refusal().is_some() {
@@ -39,8 +38,8 @@ impl Baseline<'_> {
         chosen
     }
 
-    /// What a fit has changed that is a claim about the rig: not the usual timing of a channel, which every fit has, and which
-    /// would make a delay a part of a lag.
+    /// Unknowns of a fit that are claims about the rig. The usual timing of a channel is not: every fit has it, and with it a delay
+    /// would be a part of a lag.
     fn claims(&self, fitted: &Fitted) -> BTreeSet<Unknown> {
         self.claimed(&fitted.terms, parts(fitted))
     }
@@ -108,7 +107,7 @@ mod tests {
     #[test]
     fn a_delay_is_no_part_of_a_lag_though_every_fit_has_the_usual_one() {
         let rig = Rig::published("quarter-car").unwrap();
-        let records = Split { train: vec![], test: vec![], measured: vec![], whole: vec![] };
+        let records = Split::of_nothing();
         let baseline = Baseline::new(&rig, &records, Options::default());
         let [delay, lag] = [Fault::Delay, Fault::Lag].map(|fault| Unknown::Output(0, fault));
         let mass = Unknown::Parameter(0);

@@ -104,7 +104,7 @@ impl Baseline<'_> {
         })
     }
 
-    /// Whether a delay or lag is within the timing of any measurement: no effect then.
+    /// Whether a delay or lag is within the usual timing of a channel, so that it is not an effect.
     pub(crate) fn is_in_time(&self, term: Term, fitted: &Fitted) -> bool {
         let of_output = match term {
             Term::Fault(handle @ Unknown::Output(..)) => {
@@ -206,8 +206,8 @@ impl Baseline<'_> {
         })
     }
 
-    /// The same as a term tells it: a sensor's fault or response of its own signal. How much it makes of that is no matter of how
-    /// many other signals there are, and of how the small effects around it show in them.
+    /// The same at a term's place: of a sensor's fault or response in its own signal. Other signals, however many, and small effects
+    /// in them do not count there.
     fn shares_of(&self, term: Term, unit: &Fitted, fitted: &Fitted) -> [f64; 2] {
         match term {
             Term::Response(output) | Term::Fault(Unknown::Output(output, _)) => {

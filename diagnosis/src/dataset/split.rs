@@ -26,6 +26,12 @@ pub struct Split {
 }
 
 impl Split {
+    /// Without a record, for what needs none.
+    #[cfg(test)]
+    pub fn of_nothing() -> Self {
+        Self { train: Vec::new(), test: Vec::new(), measured: Vec::new(), whole: Vec::new() }
+    }
+
     /// Records as they were measured.
     pub fn new(train: &[Dataset], measured: Vec<Dataset>) -> Self {
         let conditioned = |records: &[Dataset]| records.iter().map(Dataset::conditioned).collect::<Vec<_>>();

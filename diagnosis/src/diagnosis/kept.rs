@@ -17,8 +17,8 @@ use crate::signal::distortion::Fault;
 use super::{Found, phi};
 
 impl Baseline<'_> {
-    /// The last effect whose interval holds zero, or that is within the timing of any measurement by now: beside others, less of it
-    /// may be left.
+    /// The last effect whose interval holds zero, or that is within the usual timing of a channel: effects found later may have
+    /// taken its place.
     pub(super) fn doubtful(&self, found: &Found, intervals: &[Interval]) -> Option<usize> {
         let amount = |handle: Unknown| {
             let it = intervals.iter().find(|it| it.handle == handle)?;
@@ -108,10 +108,7 @@ impl Baseline<'_> {
         let start = match tried {
             Some(tried) if tried.terms == terms => tried.point.clone(),
             _ => {
-                let mut point = found.extended.point.clone();
-                for own in self.own_coordinates(effect) {
-                    point.set(own.handle, found.base.point.get(own.handle));
-                }
+                let mut point = self.point_without(effect, &found.extended, &found.base);
                 let of = tried.map_or(&found.base.point, |it| &it.point);
                 let own = if there { Vec::new() } else { self.own_coordinates(rival) };
                 own.iter().for_each(|it| point.set(it.handle, of.get(it.handle)));
@@ -121,7 +118,15 @@ impl Baseline<'_> {
         self.fitted(&terms, &[start], Stop::NOISY)
     }
 
-    /// Takes an effect back that others found later have left nothing of: they stay, if the model without it is as good.
+    /// A fit's point with an effect as the starting model has it.
+    fn point_without(&self, effect: Term, fitted: &Fitted, base: &Fitted) -> Estimate {
+        let mut point = fitted.point.clone();
+        self.own_coordinates(effect).iter().for_each(|it| point.set(it.handle, base.point.get(it.handle)));
+        point
+    }
+
+    /// Takes an effect back. Effects that were found later stay if they explain it: if the model without it is as good, and each
+    /// of them passes on its own.
     pub(super) fn explained_away(&self, found: &mut Found, index: usize) {
         if self.without(found, index).is_none() {
             self.retract(found, index);
@@ -130,22 +135,25 @@ impl Baseline<'_> {
 
     fn without(&self, found: &mut Found, index: usize) -> Option<()> {
         let term = found.accepted[index].term;
-        let mut stages = found.stages[..index].to_vec();
-        for later in &found.stages[index + 1..] {
+        let (mut accepted, mut stages) = (found.accepted[..index].to_vec(), found.stages[..index].to_vec());
+        for (effect, later) in found.accepted.iter().zip(&found.stages).skip(index + 1) {
             let terms: Vec<Term> = later.terms.iter().copied().filter(|it| *it != term).collect();
-            let mut start = later.point.clone();
-            for own in self.own_coordinates(term) {
-                start.set(own.handle, found.base.point.get(own.handle));
+            let start = self.point_without(term, later, &found.base);
+            let fitted = self.fitted(&terms, &[start], Stop::NOISY).ok()?;
+            let before = stages.last().unwrap_or(&found.base);
+            let evidence = self.evidence(effect.term, &found.base, before, &fitted);
+            if evidence.refusal().is_some() {
+                return None;
             }
-            stages.push(self.fitted(&terms, &[start], Stop::NOISY).ok()?);
+            accepted.push(Accepted { evidence, ..effect.clone() });
+            stages.push(fitted);
         }
-        let last = stages.get(index..).and_then(<[Fitted]>::last)?.clone();
+        let last = stages.get(index..)?.last()?.clone();
         if !self.as_good(&found.base, &found.extended, &last) {
             return None;
         }
         found.retracted.push(term);
-        found.accepted.remove(index);
-        (found.stages, found.extended) = (stages, last);
+        (found.accepted, found.stages, found.extended) = (accepted, stages, last);
         Some(())
     }
 
