@@ -25,11 +25,11 @@ pub enum Kind {
         /// The shape.
         probe: Probe,
     },
-    /// Features of a port's motion.
+    /// Features of a motion at a port.
     Feature {
         /// Number of the port.
         port: usize,
-        /// Whose motion.
+        /// The motion that they are of.
         mover: Mover,
         /// The features.
         group: Group,
@@ -136,13 +136,13 @@ impl Baseline<'_> {
             if setting.ties[number] != number {
                 continue;
             }
+            let place = place(setting, number);
             for (further, mover) in Mover::all(self.rig, port, &missing.records[0]).into_iter().enumerate() {
                 let Some(motions) = mover.motions(self.rig, (port, windows), outputs) else { continue };
                 let groups = if further > 0 { Group::CURVES.to_vec() } else { Group::all(&commands, others) };
                 for group in groups {
                     let signals = features(group, &motions, (missing.records, windows));
                     let columns = windows.iter().enumerate().map(|(index, window)| {
-                        let place = place(setting, number);
                         signals.iter().map(|signal| column(port, place, window, &signal[index])).collect()
                     });
                     let size = setting.sizes[number].max(f64::MIN_POSITIVE);

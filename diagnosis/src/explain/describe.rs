@@ -33,7 +33,7 @@ pub struct Unmodelled {
     pub place: String,
     /// Unit of the missing signal.
     pub unit: &'static str,
-    /// Whether that is an element, an input or a measurement, as it stands in a sentence.
+    /// The words before the place in a sentence.
     at: &'static str,
     /// What explains it: features at a port.
     features: Option<(usize, Mover, Group)>,
@@ -92,7 +92,7 @@ impl Unmodelled {
         Self {
             place: name(term, plant).element,
             unit,
-            at: if matches!(term, Term::Response(_)) { MEASURED } else { "at the" },
+            at: if matches!(term, Term::Response(_)) { MEASURED } else { AT },
             features: None,
             depends_on,
             share: score.share,
@@ -180,15 +180,17 @@ impl Unmodelled {
     }
 }
 
-/// What stands before the name of a sensor's signal.
+/// The words before the name of a sensor's signal.
 const MEASURED: &str = "in the measurement of";
+/// The words before the name of an element.
+const AT: &str = "at the";
 
-/// What stands before the name of a place.
+/// The words before the name of a port's place.
 fn at(port: &Port) -> &'static str {
     match port.entry {
         Entry::Sensor(_) => MEASURED,
         Entry::Input(_) => "at the input",
-        Entry::Constant(_) => "at the",
+        Entry::Constant(_) => AT,
     }
 }
 

@@ -53,7 +53,7 @@ impl Group {
             .collect()
     }
 
-    /// Curves over a motion. Of a further output nothing else is tried: all features of all outputs would not fit into memory.
+    /// Curves over a motion, all that is tried of a further output: all features of all outputs would not fit into memory.
     pub const CURVES: [Self; 3] = [Self::Deflection, Self::Velocity, Self::DeflectionAndVelocity];
 
     /// Those of a port's own motion and of time.

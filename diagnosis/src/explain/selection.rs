@@ -243,7 +243,7 @@ impl Compared {
     }
 
     /// Scores, and behind the first those of distortions that look like it: of the same signal, or the same one at the other end of a
-    /// model with one measured input or one measured output. What is late before such a model is late behind it.
+    /// model with one measured input or one measured output, as a delay before such a model is a delay behind it.
     pub fn with_alike(&self, mut scores: Vec<Score>) -> Vec<Score> {
         let Some(Term::Fault(best)) = scores.first().and_then(|it| self.term(it)) else { return scores };
         let alike = best.fault().map_or(&[][..], |it| distortion(it).alike).iter();
@@ -253,7 +253,7 @@ impl Compared {
         scores
     }
 
-    /// The same distortion at the only signal of the other end; none if there are several, or if it cannot be there.
+    /// The same distortion at the only signal of the other end where it is looked for; none if there are none or several.
     fn at_the_other_end(&self, of: Unknown) -> Option<Unknown> {
         let mut others: Vec<Unknown> = Vec::new();
         for score in &self.named {

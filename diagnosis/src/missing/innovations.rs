@@ -154,13 +154,13 @@ impl<'a> Entered<'a> {
 impl Setting<'_> {
     /// Variances of the states at a window's start, then of the active ports.
     fn variances(&self, entered: &Entered<'_>) -> Vec<f64> {
-        let states = self.active.iter().map(|it| self.nominal[*it].powi(2));
+        let states = self.active.iter().map(|it| self.state_sizes[*it].powi(2));
         states.chain(entered.ports.iter().map(|(_, deviation)| deviation * deviation)).collect()
     }
 
     fn driven(&self, entered: &Entered<'_>, noise: &Noise, decay: f64) -> Vec<f64> {
         let rounding = if noise.simulated.is_some() { 0.0 } else { ROUNDING };
-        let states = self.active.iter().map(|it| (rounding * self.nominal[*it]).powi(2));
+        let states = self.active.iter().map(|it| (rounding * self.state_sizes[*it]).powi(2));
         let ports = entered.ports.iter().map(|(_, deviation)| deviation * deviation * (1.0 - decay * decay));
         states.chain(ports).collect()
     }
@@ -355,7 +355,7 @@ mod tests {
             point: Estimate { parameters: vec![], inputs: vec![], outputs: vec![], starts: vec![] },
             ports: &[],
             parameters: &[],
-            nominal: vec![1e-9],
+            state_sizes: vec![1e-9],
             active: vec![0],
             ties: vec![],
             sizes: vec![],

@@ -50,13 +50,13 @@ impl Look {
         aa > 0.0 && bb > 0.0 && ab * ab > (1.0 - TIED) * aa * bb
     }
 
-    /// The size of a state that moves what some sensor shows at once as far as it moves; zero if none shows it.
+    /// The least size of a state that moves a sensor's signal at once as far as it moves; zero if no sensor shows it at once.
     pub fn shown(&self, state: usize, magnitudes: &[f64]) -> f64 {
         let least = self.least(magnitudes, |row| row[state]);
         if least.is_finite() { least } else { 0.0 }
     }
 
-    /// The least size of what shows in outputs with some slopes, so that one of them moves as far as it does.
+    /// The least size of a signal with these slopes in the outputs that moves one of them as far as it moves.
     fn least(&self, magnitudes: &[f64], slope: impl Fn(&[f64]) -> f64) -> f64 {
         let shown = self.outputs.chunks_exact(self.width).zip(magnitudes);
         let shown = shown.map(|(row, size)| (slope(row), size)).filter(|(slope, _)| *slope > 0.0);

@@ -55,12 +55,12 @@ impl Follower for All<'_> {
     fn advanced(&mut self, _: usize, _: &[f64], _: &[f64]) {}
 }
 
-/// What moves with the signal that is missing at a port of the plant.
+/// A motion that the missing signal at a port of the plant may follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mover {
     /// The element at the port.
     Element,
-    /// An output, by its index: of a model without elements nothing else is known.
+    /// An output, by its index, of a model without elements.
     Output(usize),
 }
 
@@ -76,29 +76,30 @@ impl Mover {
         }
     }
 
-    /// Its motion over windows; none if the rig does not say what moves there.
+    /// The motion over windows; none if the rig file names no output for it.
     pub fn motions(
         self,
         rig: &Rig,
         (port, windows): (&Port, &[Window]),
         outputs: &[Signals],
     ) -> Option<Vec<Motion>> {
-        let element = match self {
-            Self::Element => Some(rig.kind.elements.iter().find(|it| Some(it.element) == port.element)?),
-            Self::Output(_) => None,
+        let motions = |output: usize, deflected: &dyn Fn(&[f64]) -> Vec<f64>, velocity: Option<usize>| {
+            let motion = |(window, signals): (&Window, &Signals)| Motion {
+                deflection: deflected(&signals[output]),
+                velocity: velocity
+                    .map_or_else(|| derivative(&signals[output], window.step), |it| signals[it].clone()),
+            };
+            windows.iter().zip(outputs).map(motion).collect()
         };
-        let deflection = match self {
-            Self::Output(output) => output,
-            Self::Element => rig.plant.output(&element?.deflection)?,
-        };
-        let velocity = element.and_then(|it| it.velocity.as_ref()).and_then(|name| rig.plant.output(name));
-        let motion = |(window, signals): (&Window, &Signals)| Motion {
-            deflection: element
-                .map_or_else(|| signals[deflection].clone(), |it| it.deflected(&signals[deflection])),
-            velocity: velocity
-                .map_or_else(|| derivative(&signals[deflection], window.step), |it| signals[it].clone()),
-        };
-        Some(windows.iter().zip(outputs).map(motion).collect())
+        match self {
+            Self::Output(output) => Some(motions(output, &<[f64]>::to_vec, None)),
+            Self::Element => {
+                let element = rig.kind.elements.iter().find(|it| Some(it.element) == port.element)?;
+                let output = rig.plant.output(&element.deflection)?;
+                let velocity = element.velocity.as_ref().and_then(|name| rig.plant.output(name));
+                Some(motions(output, &|signal| element.deflected(signal), velocity))
+            }
+        }
     }
 }
 

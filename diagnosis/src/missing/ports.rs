@@ -29,7 +29,7 @@ fn element_of(rig: &Rig, variable: &str) -> Option<Element> {
     own.next()
 }
 
-/// Whether an input is a motion that the model is given: an error of it is a sensor's.
+/// Whether an input is a prescribed motion: its errors are a sensor's.
 fn is_motion(rig: &Rig, input: &Declaration) -> bool {
     let rates = &rig.kind.rates;
     let base = input.unit.base;
@@ -66,7 +66,7 @@ impl Port {
     }
 
     /// The places that are no sensors: additive constants, and the commands among the inputs that were measured, by their
-    /// indices. A model without elements has all its inputs but motions: what else acts on it is not known.
+    /// indices. A model without elements has all its measured inputs but prescribed motions.
     pub fn of_model(rig: &Rig, is_measured: impl Fn(usize) -> bool) -> Vec<Self> {
         let plant = &rig.plant;
         let mut ports: Vec<Self> = Vec::new();

@@ -39,7 +39,7 @@ impl Setting<'_> {
         }
         let mut last = Last { halfway: steps / 2, ..Last::default() };
         self.dynamics.followed(&self.point.parameters, start, &drive, (&[], &[]), &mut last);
-        let scale = |state: usize| self.nominal[state].abs().max(f64::MIN_POSITIVE);
+        let scale = |state: usize| self.state_sizes[state].abs().max(f64::MIN_POSITIVE);
         let apart = |a: &[f64], b: &[f64]| {
             a.iter().zip(b).enumerate().map(|(it, (a, b))| (a - b).abs() / scale(it)).fold(0.0, f64::max)
         };

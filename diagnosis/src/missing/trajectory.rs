@@ -34,7 +34,7 @@ pub struct Setting<'a> {
     /// Parameters of which derivatives are wanted, by their indices.
     pub parameters: &'a [usize],
     /// Size of each state: its nominal value, or more where sensors show more.
-    pub nominal: Vec<f64>,
+    pub state_sizes: Vec<f64>,
     /// States that show in some measured output, directly or by others.
     pub active: Vec<usize>,
     /// For each port: the first one that does the same to every state and output.
@@ -127,9 +127,9 @@ impl<'a> Setting<'a> {
         dynamics.followed(&point.parameters, start, &drive, (&seeds, &wanted), &mut look);
         let active = look.active(states);
         let magnitudes: Vec<f64> = (0..wanted.len()).map(|row| magnitude(records, row)).collect();
-        // A declared size may be of what a state does elsewhere: Modelica's angles have a nominal value of 1e-4 rad.
+        // A nominal value may be of another use of the same state: Modelica's angles have one of 1e-4 rad.
         let seen = |(state, declared): (usize, &f64)| declared.max(look.shown(state, &magnitudes));
-        let states_seen = nominal.iter().enumerate().map(seen).collect();
+        let state_sizes = nominal.iter().enumerate().map(seen).collect();
         let floor = |row: usize| records.iter().map(|it| it.measured[row].noise_floor).fold(0.0, f64::max);
         let floors: Vec<f64> = (0..wanted.len()).map(|row| floor(row).powi(2)).collect();
         let noise = floors.iter().zip(&magnitudes);
@@ -162,7 +162,7 @@ impl<'a> Setting<'a> {
             point,
             ports,
             parameters,
-            nominal: states_seen,
+            state_sizes,
             active,
             ties,
             sizes,
@@ -258,11 +258,11 @@ impl<'a> Setting<'a> {
         let (n, moving) = (self.active.len(), self.moving().count());
         let ports: Vec<f64> = self.moving().map(|(port, _)| self.free[port]).collect();
         let variances =
-            self.active.iter().map(|it| self.nominal[*it].powi(2)).chain(ports.iter().map(|it| it * it));
+            self.active.iter().map(|it| self.state_sizes[*it].powi(2)).chain(ports.iter().map(|it| it * it));
         let variances: Vec<f64> = variances.collect();
         let decay = (-own.step / MEMORY).exp();
         let driven = (0..n)
-            .map(|it| (ROUNDING * self.nominal[self.active[it]]).powi(2))
+            .map(|it| (ROUNDING * self.state_sizes[self.active[it]]).powi(2))
             .chain(ports.iter().map(|it| it * it * (1.0 - decay * decay)));
         let mut filter = Filter::new(&variances, 1);
         for (x, state) in filter.x.iter_mut().zip(&self.active) {
