@@ -1,4 +1,4 @@
-//! Events of an FMU are where they are, between samples and between the steps of the integration.
+//! Events of an FMU between samples, and between the steps of the integration.
 
 use strut_diagnosis::plant::{Between, Drive, Foreign, Seed};
 
@@ -7,12 +7,12 @@ use super::packed;
 /// The FMU's values.
 const SLOPE: f64 = 1.3;
 const WIDTH: f64 = 0.3;
-/// From here on it is twice as fast.
+/// Time in s from which it is twice as fast.
 const FASTER: f64 = 0.7;
 const SAMPLES: usize = 60;
 const STEP: f64 = 0.05;
 
-/// How far the relay has come in all.
+/// Length of the relay's way since the start.
 fn way(slope: f64, time: f64) -> f64 {
     slope * (time + (time - FASTER).max(0.0))
 }
@@ -63,9 +63,9 @@ fn a_relay_turns_and_changes_its_speed_between_samples_and_its_derivatives_are_t
     }
 }
 
-/// A record that begins later finds the model as it is then.
+/// A segment that begins later has the model of its own time.
 #[test]
-fn an_event_before_the_beginning_of_a_record_has_happened() {
+fn an_event_before_the_beginning_of_a_segment_has_happened() {
     let Some(folder) = packed("relay", &[]) else { return };
     let (parameters, locals, beside) = (vec!["c".into()], Vec::new(), Vec::new());
     let plant = Foreign { fmu: folder.path().join("relay.fmu"), parameters, locals, beside }.plant().unwrap();

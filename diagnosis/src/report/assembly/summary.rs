@@ -279,10 +279,10 @@ mod tests {
             "40 % of body.acceleration is still unexplained on the validation data (20 × sensor noise).";
         assert!(text.starts_with(first), "{text}");
         assert!(text.contains("Part of wheel.acceleration is unexplained, too."), "{text}");
-        // Below a tenth of the signal it comes last, and what no plot shows is not told.
+        // Below a tenth of the signal it comes last, and below the smallest improvement of interest not at all.
         found.account.iter_mut().for_each(|it| it.open = false);
         let with = |fit: f64| of(&Findings { signals: vec![signal(0.1, fit)], ..found.clone() });
-        let last = "The rest is small. 6.0 % of body.acceleration is still unexplained on the validation data (20 × sensor noise).";
+        let last = "The remaining errors are small. 6.0 % of body.acceleration is still unexplained on the validation data (20 × sensor noise).";
         assert!(with(0.94).ends_with(last), "{}", with(0.94));
         assert!(!with(0.99).contains("unexplained"), "{}", with(0.99));
     }

@@ -36,7 +36,7 @@ pub fn open_signal(findings: &Findings, account: &SignalAccount) -> Option<OpenS
     account.open.then(|| unexplained(findings, account))
 }
 
-/// Where all accounts are closed, the largest rest that shows in a plot and is beyond the noise.
+/// The largest remaining error that shows in a plot and exceeds the noise, if all accounts are closed.
 pub fn small_rest(findings: &Findings) -> Option<String> {
     if findings.account.iter().any(|it| it.open) {
         return None;
@@ -47,7 +47,7 @@ pub fn small_rest(findings: &Findings) -> Option<String> {
     Some(if findings.verdict == Verdict::Unmodelled {
         largest
     } else {
-        format!("The rest is small. {largest}")
+        format!("The remaining errors are small. {largest}")
     })
 }
 
