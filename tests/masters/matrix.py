@@ -1,7 +1,7 @@
 """Every FMU and every system in every master: a table of how far each result is from the reference.
 
-    python matrix.py FOLDER [--short] [--page FILE] [--cofmupy PYTHON] [--fmi-sim PROGRAM] [--fmi-crate PROGRAM]
-        [--fmusim PROGRAM] [--omsimulator PROGRAM] [--pyfmi PYTHON]
+    python matrix.py FOLDER [--short] [--masters NAMES] [--page FILE] [--cofmupy PYTHON] [--fmi-sim PROGRAM]
+        [--fmi-crate PROGRAM] [--fmusim PROGRAM] [--omsimulator PROGRAM] [--pyfmi PYTHON]
 
 The reference is our own master (examples/jacobi.py), which calls the FMUs through FMPy's bare functions; where a master
 exchanges values at other instants than it, the same scheme is written down in ten lines, so that what is compared is
@@ -58,6 +58,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="where the FMUs and systems are")
     parser.add_argument("--short", action="store_true", help="not every FMU in every master")
+    parser.add_argument("--masters", metavar="NAMES", help="these only, such as FMPy,ecos")
     parser.add_argument("--page", type=Path, help="file to write the table to")
     parser.add_argument("--cofmupy", metavar="PYTHON", help="a Python that has cofmupy")
     parser.add_argument("--fmi-sim", metavar="PROGRAM", help="the program fmi-sim")
@@ -68,6 +69,10 @@ def main():
     arguments = parser.parse_args()
     begin = time.monotonic()
     masters = [master for make in matrix_masters.ALL if (master := make(arguments))]
+    if arguments.masters:
+        wanted = arguments.masters.split(",")
+        masters = [master for master in masters if master.name in wanted]
+        assert len(masters) == len(wanted), f"of {wanted} only {[master.name for master in masters]} are here"
     table, failures = {}, []
     with tempfile.TemporaryDirectory() as unpacked:
         for kind, path, job in jobs(arguments.folder, arguments.short, unpacked):
@@ -100,6 +105,7 @@ def main():
             print(title, *(f"{name}: {cell:.0e}" if isinstance(cell, float) else f"{name}: -"
                            for name, cell in row.items()), flush=True)
     assert table, f"no FMUs in {arguments.folder}"
+    print(f"{sum(isinstance(cell, float) for row in table.values() for cell in row.values())} runs")
     if arguments.page:
         ecco = subprocess.run([sys.executable, Path(__file__).with_name("connected_ecco.py"), arguments.folder],
                               check=True, capture_output=True, text=True).stdout
