@@ -4,12 +4,14 @@
 //! regularisation within one sample in fifty. So a model has two numbers of steps, one that is enough where nothing holds
 //! and one that is enough at rest, and goes between them by what the stages of each step tell.
 
-use num_dual::Dual64;
-use strut_model::unit::{M_PER_S, N, RAD_PER_S};
-use strut_model::{Bundle, Declaration, Declarations, Instant, Model, Real};
+mod rates;
 
-use super::Drive;
+use strut_model::{Bundle, Declaration, Declarations, Model};
+
 use super::jet::Scalar;
+use super::{DIRECTIONS, Drive};
+
+pub(super) use rates::{FAST, rates};
 
 /// Longest step of the integration in seconds, whatever the record's sampling.
 pub(super) const LONGEST_STEP: f64 = 4e-3;
@@ -20,14 +22,6 @@ const STABLE: f64 = 1.2;
 pub(super) const ACCURATE: f64 = 0.6;
 /// The same of the step and the largest slope of a delay's states, 12 over the delay: a sixteenth of the delay is a step.
 const WELL_BELOW: f64 = 0.75;
-/// How far what friction and bushes remember is displaced to look for contact, SI: beyond any backlash.
-const DISPLACED: f64 = 0.1;
-/// The same of what follows behind a backlash, whatever its unit: beyond the band its rate has one slope.
-const BEYOND_BANDS: f64 = 1e9;
-/// How often a newton is doubled to look for the force at which a backlash is gone.
-const DOUBLED: usize = 24;
-/// A velocity in m/s or rad/s that suspensions seldom exceed: friction before it slides forgets the faster the faster it is moved.
-pub(super) const FAST: f64 = 1.0;
 /// Steps between two samples beyond which a model is too stiff for this method.
 pub(super) const MOST_STEPS: f64 = 60.0;
 
@@ -49,6 +43,32 @@ pub(super) struct Pace {
     pub steps: usize,
     /// One over the largest value of each state so far, in shares of which an error is taken.
     scales: Vec<f64>,
+}
+
+/// How the derivatives in one direction answer to a step: sums of squares over the states.
+#[derive(Clone, Copy, Default)]
+struct Response {
+    /// Of the first slope.
+    size: f64,
+    /// Of what half a step changes in it.
+    change: f64,
+    /// Of what that changes in turn.
+    answer: f64,
+}
+
+impl Response {
+    #[inline(always)]
+    fn add(&mut self, [first, second, third]: [f64; 3], scale: f64) {
+        self.size += (first * scale).powi(2);
+        self.change += ((second - first) * scale).powi(2);
+        self.answer += ((third - second) * scale).powi(2);
+    }
+
+    /// Half of the step times the fastest rate, over what is stable; zero where nothing but rounding changes.
+    fn stiffness(&self) -> f64 {
+        let moves = self.change > self.size * NEGLIGIBLE.powi(2);
+        if moves { 2.0 * (self.answer / self.change).sqrt() / STABLE } else { 0.0 }
+    }
 }
 
 impl Pace {
@@ -75,16 +95,22 @@ impl Pace {
         }
     }
 
-    /// How many times as many steps a step from its four slopes asks for: by the stiffness that it met and by its error.
+    /// How many times as many steps a step from its four slopes asks for: by the stiffness that it met and by its error. Friction that
+    /// slides is at its limit, and no slope tells how fast it would come back to it. Its derivatives are not there, and would grow.
     #[inline]
     pub fn need<R: Scalar, S: Bundle<R>>(&self, h: f64, [k1, k2, k3, k4]: [&S; 4]) -> f64 {
         if !self.varies() {
             return 1.0;
         }
         let (mut change, mut answer, mut error, mut index) = (0.0, 0.0, 0.0_f64, 0);
+        let mut derivatives = [Response::default(); DIRECTIONS];
         k1.combine([k2, k3, k4], &mut |k1, [k2, k3, k4]| {
             let [first, second, third, fourth] = [k1, k2, k3, k4].map(Scalar::number);
             let scale = h * self.scales[index];
+            let slopes = k1.slopes().iter().zip(k2.slopes()).zip(k3.slopes());
+            for (own, ((first, second), third)) in derivatives.iter_mut().zip(slopes) {
+                own.add([*first, *second, *third], scale);
+            }
             change += ((second - first) * scale).powi(2);
             answer += ((third - second) * scale).powi(2);
             error = error.max(((first - second - third + fourth) * scale).abs());
@@ -97,6 +123,7 @@ impl Pace {
         // The second slope's change by half a step is answered by the third's: half of the step times the fastest rate.
         let stiffness =
             if answer.sqrt() > NEGLIGIBLE { 2.0 * (answer / change).sqrt() / STABLE } else { 0.0 };
+        let stiffness = derivatives.iter().map(Response::stiffness).fold(stiffness, f64::max);
         // The larger of the stiffness and the root of the error. That costs much and seldom asks for more than the fewest steps.
         let error = error / TOLERATED;
         let least = stiffness.max(self.loose as f64 / self.steps as f64);
@@ -130,114 +157,6 @@ fn range<M: Model>(
     (steps(loose), steps(loose.max(fastest / ACCURATE)))
 }
 
-/// The fastest rate of change at rest, in fast motion, and in contact behind a backlash, and the largest slope of a delay's states,
-/// per second.
-pub(super) fn rates<M: Model>(
-    model: &M,
-    parameters: &M::Parameters<f64>,
-    drive: &Drive,
-    declared: &[Declaration],
-) -> [f64; 2] {
-    let states = declared.len();
-    let lifted: M::Parameters<Dual64> = lift(parameters);
-    let derived = model.derive(&lifted);
-    let memory = Declarations::of::<M::Memory<f64>>();
-    let memory = Bundle::from_fn(|i| Dual64::from(memory[i].start));
-    let jacobian_at = |at: &[f64], inputs: &[f64]| {
-        let input = Bundle::from_fn(|i| Dual64::from(inputs[i]));
-        let mut jacobian = nalgebra::DMatrix::<f64>::zeros(states, states);
-        let mut moves = vec![false; states];
-        for column in 0..states {
-            let state = Bundle::from_fn(|i| Dual64::new(at[i], f64::from(i == column)));
-            let now = Instant {
-                time: Dual64::from(0.0),
-                state: &state,
-                input: &input,
-                parameters: &lifted,
-                derived: &derived,
-                memory: &memory,
-                tick: 0,
-            };
-            let (rates, _) = model.equations(now);
-            rates.for_each(|row, rate| {
-                jacobian[(row, column)] = rate.eps;
-                moves[row] |= rate.re != 0.0 || rate.eps != 0.0;
-            });
-        }
-        (jacobian, moves)
-    };
-    let fastest_of = |jacobian: &nalgebra::DMatrix<f64>| -> f64 {
-        if !jacobian.iter().all(|entry| entry.is_finite()) {
-            return f64::INFINITY;
-        }
-        jacobian.complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max)
-    };
-    let rest: Vec<f64> = declared.iter().map(|state| state.start).collect();
-    let first: Vec<f64> = drive.inputs.iter().map(|it| it.first().copied().unwrap_or(0.0)).collect();
-    let (resting, _) = jacobian_at(&rest, &first);
-    let [moved, moving] = moved(declared, &Declarations::of::<M::Input<f64>>(), (&rest, &first), drive);
-    let (when_moved, moves) = jacobian_at(&moved, &moving);
-    let mut fastest = fastest_of(&resting).max(fastest_of(&when_moved));
-    // What has backlash is loose at rest: it is looked at where it is in contact, too. What is off does not move.
-    for (index, state) in declared.iter().enumerate().filter(|(index, _)| moves[*index]) {
-        let displaced = |at: &[f64], by: f64| {
-            let mut displaced = at.to_vec();
-            displaced[index] += by;
-            displaced
-        };
-        match &state.name {
-            name if name.starts_with("hysteresis.") && state.unit == N => {
-                // Not much beyond it, where some laws grow without end.
-                let doubled = std::iter::successors(Some(1.0), |by| Some(2.0 * by)).take(DOUBLED);
-                let mut jacobians = std::iter::once(0.0)
-                    .chain(doubled)
-                    .map(|by| jacobian_at(&displaced(&moved, by), &moving).0);
-                let in_contact = jacobians.find(|it| it[(index, index)] != 0.0);
-                fastest = in_contact.map_or(fastest, |it| fastest.max(fastest_of(&it)));
-            }
-            name if name.starts_with("hysteresis.") || name.ends_with(".follower") => {
-                let by = if name.ends_with(".follower") { BEYOND_BANDS } else { DISPLACED };
-                for (at, inputs) in [(&rest, &first), (&moved, &moving)] {
-                    fastest = fastest.max(fastest_of(&jacobian_at(&displaced(at, by), inputs).0));
-                }
-            }
-            _ => {}
-        }
-    }
-    // The rational function of a delay is one only in steps well below it.
-    let late = declared.iter().enumerate().filter(|(_, state)| state.name.contains(".delay."));
-    [fastest, late.map(|(row, _)| resting.row(row).amax()).fold(0.0, f64::max)]
-}
-
-/// States and inputs where everything moves fast, one thing against the next, so that no two of them go together; an input as fast
-/// as it becomes.
-fn moved(
-    states: &[Declaration],
-    inputs: &[Declaration],
-    (rest, first): (&[f64], &[f64]),
-    drive: &Drive,
-) -> [Vec<f64>; 2] {
-    let (mut moved, mut moving, mut sign) = (rest.to_vec(), first.to_vec(), 1.0);
-    let mut next = || {
-        sign = -sign;
-        -sign
-    };
-    let is_velocity = |declared: &Declaration| [M_PER_S, RAD_PER_S].contains(&declared.unit);
-    for (value, _) in moved.iter_mut().zip(states).filter(|(_, it)| is_velocity(it)) {
-        *value += FAST * next();
-    }
-    for (index, _) in inputs.iter().enumerate().filter(|(_, it)| is_velocity(it)) {
-        moving[index] = drive.inputs[index].iter().fold(0.0, |most: f64, it| most.max(it.abs())) * next();
-    }
-    [moved, moving]
-}
-
-fn lift<R: Real, A: Bundle<f64>, B: Bundle<R>>(bundle: &A) -> B {
-    let mut numbers = Vec::with_capacity(A::LEN);
-    bundle.for_each(|_, value| numbers.push(value));
-    B::from_fn(|i| R::from(numbers[i]))
-}
-
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
@@ -245,7 +164,7 @@ mod tests {
 
     use super::*;
     use crate::integrate::Run;
-    use crate::{Between, models};
+    use crate::{Between, Seed, models};
 
     const SAMPLES: usize = 3000;
     const STEP: f64 = 1e-3;
@@ -325,6 +244,44 @@ mod tests {
             let difference = rms(soft.iter().zip(stiff).map(|(soft, stiff)| soft - stiff));
             assert!(difference <= 0.1 * rms(soft.iter().copied()), "{difference}");
         }
+    }
+
+    /// While it slides, it is at its limit: what changes there is gone within a hundredth of a sample, and no derivative may grow.
+    #[test]
+    fn derivatives_of_friction_that_slides_are_those_of_differences() {
+        let plant = models::named("ElementDyno").unwrap();
+        let mut parameters: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
+        let at = |name: &str| plant.parameter(name).unwrap();
+        for (name, value) in [
+            ("hysteresis.presliding.force", 22.0),
+            ("hysteresis.presliding.stiffness", 1.6e5),
+            ("hysteresis.presliding.exponent", 0.65),
+        ] {
+            parameters[at(name)] = value;
+        }
+        let (step, position, velocity) =
+            (2e-3, plant.input("motion.position").unwrap(), plant.input("motion.velocity").unwrap());
+        let mut inputs = vec![vec![0.0; 2000]; plant.inputs.len()];
+        for k in 0..2000 {
+            let phase = std::f64::consts::TAU * 3.0 * k as f64 * step;
+            (inputs[position][k], inputs[velocity][k]) =
+                (0.015 * phase.sin(), 0.015 * std::f64::consts::TAU * 3.0 * phase.cos());
+        }
+        let drive = Drive { start: 0.0, step, inputs, finer: 1, between: Between::Lines };
+        let dynamics = plant.prepare(&plant.choices).unwrap();
+        let start = vec![0.0; plant.states.len()];
+        let force = plant.output("force").unwrap();
+        let seed = at("hysteresis.presliding.force");
+        let exact = dynamics.linearised(&parameters, &start, &drive, &[Seed::Parameter(seed)], &[force]);
+        let moved = |by: f64| {
+            let mut parameters = parameters.clone();
+            parameters[seed] += by;
+            dynamics.outputs(&parameters, &start, &drive)[force].clone()
+        };
+        let (more, less) = (moved(0.1), moved(-0.1));
+        let differences: Vec<f64> = more.iter().zip(&less).map(|(more, less)| (more - less) / 0.2).collect();
+        let apart = rms(differences.iter().zip(&exact.slopes[0][0]).map(|(a, b)| a - b));
+        assert!(apart < 0.02 * rms(differences.iter().copied()), "{apart}");
     }
 
     #[test]
