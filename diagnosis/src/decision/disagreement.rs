@@ -11,14 +11,17 @@ pub struct Wish {
     pub value: f64,
     /// Its standard deviation.
     pub deviation: f64,
+    /// Share of the power of the record's errors that goes where all parameters are what it would choose.
+    pub share: f64,
 }
 
 /// A parameter's value, and what each record would choose.
 pub type Wishes = (f64, Vec<Wish>);
 
 /// The wish of a record from what its pieces say: values with their variances. Pieces that differ by more than these widen it
-/// (R. T. Birge, The calculation of errors by the method of least squares, Physical Review 40 (1932)). None if no piece knows.
-pub fn wish(record: usize, pieces: &[(f64, f64)]) -> Option<Wish> {
+/// (R. T. Birge, The calculation of errors by the method of least squares, Physical Review 40 (1932)). None if no piece knows. `share`
+/// as in [`Wish`].
+pub fn wish(record: usize, pieces: &[(f64, f64)], share: f64) -> Option<Wish> {
     let known =
         |(value, variance): &&(f64, f64)| value.is_finite() && variance.is_finite() && *variance > 0.0;
     let known: Vec<&(f64, f64)> = pieces.iter().filter(known).collect();
@@ -29,14 +32,19 @@ pub fn wish(record: usize, pieces: &[(f64, f64)]) -> Option<Wish> {
     let value = known.iter().map(|(value, variance)| value / variance).sum::<f64>() / weight;
     let excess: f64 = known.iter().map(|(own, variance)| (own - value).powi(2) / variance).sum();
     let ratio = excess / (known.len() as f64 - 1.0).max(1.0);
-    Some(Wish { record, value, deviation: (ratio.max(1.0) / weight).sqrt() })
+    Some(Wish { record, value, deviation: (ratio.max(1.0) / weight).sqrt(), share })
 }
 
-/// The lowest and the highest wish of two records that clearly disagree on a parameter of this value; none if none do.
+/// The lowest and the highest wish of two records that clearly disagree on a parameter of this value; none if none do, or if neither's
+/// errors would be visibly smaller with its own parameters.
 pub fn disagreement(wishes: &[Wish], value: f64) -> Option<(Wish, Wish)> {
     let matters = CRITERIA.visible * value.abs();
     let pairs = wishes.iter().flat_map(|one| wishes.iter().map(move |two| (*one, *two)));
-    let clear = pairs.filter(|it| apart(it) > CRITERIA.apart && it.1.value - it.0.value > matters);
+    let clear = pairs.filter(|it| {
+        apart(it) > CRITERIA.apart
+            && it.1.value - it.0.value > matters
+            && it.0.share.max(it.1.share) > CRITERIA.visible
+    });
     clear.max_by(|a, b| apart(a).total_cmp(&apart(b)))
 }
 
@@ -68,7 +76,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn at(record: usize, value: f64, deviation: f64) -> Wish {
-        Wish { record, value, deviation }
+        Wish { record, value, deviation, share: 0.5 }
     }
 
     proptest! {
@@ -87,6 +95,9 @@ mod tests {
             // A factor of both changes nothing, nor does the order.
             let other = [at(1, wishes[1].value, wishes[1].deviation), at(0, wishes[0].value, wishes[0].deviation)];
             prop_assert_eq!(disagreement(&other, value), found);
+            // What neither's errors show is none.
+            let hidden = wishes.map(|it| Wish { share: 0.9 * CRITERIA.visible, ..it });
+            prop_assert_eq!(disagreement(&hidden, value), None);
         }
     }
 
@@ -116,14 +127,14 @@ mod tests {
 
     #[test]
     fn pieces_that_differ_widen_what_their_record_wants() {
-        let alike = wish(3, &[(1.0, 0.04), (1.1, 0.04)]).unwrap();
+        let alike = wish(3, &[(1.0, 0.04), (1.1, 0.04)], 0.5).unwrap();
         assert_eq!(alike.record, 3);
         assert!((alike.value - 1.05).abs() < 1e-12 && (alike.deviation - 0.02_f64.sqrt()).abs() < 1e-12);
-        let apart = wish(3, &[(0.0, 0.04), (2.0, 0.04)]).unwrap();
+        let apart = wish(3, &[(0.0, 0.04), (2.0, 0.04)], 0.5).unwrap();
         assert!((apart.deviation - 1.0).abs() < 1e-12, "{apart:?}");
         let unknown = [(5.0, f64::INFINITY), (f64::NAN, 1.0), (5.0, 0.0)];
-        assert_eq!(wish(3, &unknown), None);
-        let some = wish(3, &[unknown[0], unknown[1], unknown[2], (1.0, 0.25)]).unwrap();
+        assert_eq!(wish(3, &unknown, 0.5), None);
+        let some = wish(3, &[unknown[0], unknown[1], unknown[2], (1.0, 0.25)], 0.5).unwrap();
         assert_eq!((some.value, some.deviation), (1.0, 0.5));
     }
 }

@@ -21,6 +21,8 @@ pub(super) struct Excitation {
     linear: Linear,
     /// Gradient over each block of time.
     scores: Vec<DVector<f64>>,
+    /// Power of the errors.
+    power: f64,
     /// Whether it is estimation data.
     estimation: bool,
     /// The record's number, estimation records first.
@@ -38,9 +40,12 @@ impl Excitation {
             ),
         };
         let (shift, covariance) = (linear.minimiser(), linear.robust_covariance(&scores));
+        let gain = linear.q.norm_squared();
         let of = |shift: f64, variance: f64| Opinion {
             shift,
             variance,
+            gain,
+            power: self.power,
             estimation: self.estimation,
             record: self.record,
         };
@@ -60,6 +65,10 @@ pub(super) struct Opinion {
     shift: f64,
     /// Its variance.
     variance: f64,
+    /// What the power of the excitation's errors loses where all coordinates are what it says.
+    gain: f64,
+    /// That power.
+    power: f64,
     /// Whether it is estimation data.
     estimation: bool,
     /// The record's number, estimation records first.
@@ -76,7 +85,8 @@ impl Baseline<'_> {
             let fit = self.fit(&*dynamics, records, fitted.coordinates.clone());
             let point = fit.settled(Estimate { starts, ..fitted.point.clone() });
             let (linear, trace) = fit.linearise(&point);
-            Excitation { linear, scores: trace.scores, estimation, record: number }
+            let power = 2.0 * fit.cost(&point);
+            Excitation { linear, scores: trace.scores, power, estimation, record: number }
         };
         let pieces = EXCITATIONS.div_ceil(self.train.len() + self.test.len());
         let all = self.train.iter().map(|it| (it, true)).chain(self.test.iter().map(|it| (it, false)));
@@ -99,9 +109,11 @@ pub(super) fn wishes(value: f64, all: &[Opinion]) -> Vec<Wish> {
     let records = 0..all.iter().map(|it| it.record + 1).max().unwrap_or(0);
     let of = |record: usize| {
         let own = all.iter().filter(|it| it.record == record);
-        own.map(|it| (value + it.shift, it.variance)).collect::<Vec<_>>()
+        let (gain, power) = own.clone().fold((0.0, 0.0), |sum, it| (sum.0 + it.gain, sum.1 + it.power));
+        let pieces: Vec<(f64, f64)> = own.map(|it| (value + it.shift, it.variance)).collect();
+        wish(record, &pieces, gain / power)
     };
-    records.filter_map(|record| wish(record, &of(record))).collect()
+    records.filter_map(of).collect()
 }
 
 /// A record's sections, cut into this number of pieces.
@@ -155,6 +167,8 @@ mod tests {
         let of = |(index, shift): (usize, &f64)| Opinion {
             shift: *shift,
             variance,
+            gain: 0.0,
+            power: 1.0,
             estimation: index < 2,
             record: index,
         };
@@ -190,6 +204,8 @@ mod tests {
         let unknown = [f64::INFINITY, 0.0].map(|variance| Opinion {
             shift: 7.0,
             variance,
+            gain: 0.0,
+            power: 1.0,
             estimation: true,
             record: 0,
         });

@@ -282,7 +282,8 @@ mod tests {
         // Below a tenth of the signal it comes last, and below the smallest improvement of interest not at all.
         found.account.iter_mut().for_each(|it| it.open = false);
         let with = |fit: f64| of(&Findings { signals: vec![signal(0.1, fit)], ..found.clone() });
-        let last = "The remaining errors are small. 6.0 % of body.acceleration is still unexplained on the validation data (20 × sensor noise).";
+        let last =
+            "6.0 % of body.acceleration is still unexplained on the validation data (20 × sensor noise).";
         assert!(with(0.94).ends_with(last), "{}", with(0.94));
         assert!(!with(0.99).contains("unexplained"), "{}", with(0.99));
     }

@@ -2,7 +2,7 @@
 
 use super::{digits, percent};
 use crate::decision::criteria::CRITERIA;
-use crate::report::findings::{Findings, SignalAccount, Verdict};
+use crate::report::findings::{Findings, SignalAccount};
 
 /// A ratio to the noise above which its digits mean nothing.
 const FAR: f64 = 1000.0;
@@ -43,12 +43,7 @@ pub fn small_rest(findings: &Findings) -> Option<String> {
     }
     let all = findings.account.iter().map(|it| unexplained(findings, it));
     let shown = all.filter(|it| it.share > CRITERIA.improvement && it.noise > CRITERIA.above_noise);
-    let largest = shown.max_by(|a, b| a.share.total_cmp(&b.share))?.sentence();
-    Some(if findings.verdict == Verdict::Unmodelled {
-        largest
-    } else {
-        format!("The remaining errors are small. {largest}")
-    })
+    shown.max_by(|a, b| a.share.total_cmp(&b.share)).map(|it| it.sentence())
 }
 
 fn unexplained(findings: &Findings, account: &SignalAccount) -> OpenSignal {
@@ -144,7 +139,6 @@ mod tests {
             repeatability: None,
         };
         let mut findings = Findings::of_bad_data("rig", vec![], vec![], vec![]);
-        findings.verdict = Verdict::Identified;
         (findings.account, findings.signals) = (vec![account], vec![signal]);
         findings
     }

@@ -10,14 +10,16 @@ const LISTED: usize = 3;
 pub fn headline(findings: &Findings) -> String {
     let effects: Vec<String> = findings.effects.iter().map(full_name).collect();
     match findings.verdict {
-        Verdict::NoEffect => "These records show no effect beyond the model.".into(),
+        Verdict::NoEffect => match disagreeing(findings) {
+            None => "These records show no effect beyond the model.".into(),
+            Some(they_disagree) => format!("{they_disagree} No effect is identified."),
+        },
         Verdict::ParameterMismatch => mismatch(findings),
         Verdict::Identified if effects.is_empty() => "An effect is identified.".into(),
         Verdict::Identified => format!("The model lacks {}.", list(&effects, "and")),
         Verdict::Ambiguous => ambiguous(findings),
         Verdict::Unmodelled => unmodelled(findings),
-        Verdict::SensorFault if effects.is_empty() => "A sensor is at fault, not the plant.".into(),
-        Verdict::SensorFault => format!("A sensor is at fault, not the plant: {}.", list(&effects, "and")),
+        Verdict::SensorFault => sensor_fault(findings, &list(&effects, "and")),
         Verdict::ModelInadequate => "The model predicts too little of the data to identify an effect.".into(),
         Verdict::OutOfTime => "The time limit was reached before an effect was identified.".into(),
         Verdict::BadData => "The data cannot be used as they are.".into(),
@@ -42,19 +44,44 @@ fn unmodelled(findings: &Findings) -> String {
     }
     let place =
         findings.missing.as_ref().map_or(String::new(), |it| format!(", most likely at the {}", it.place));
-    format!("The model lacks something{place}. It follows no recorded signal.")
+    format!("The model lacks something{place}. No recorded signal explains it.")
 }
 
 fn mismatch(findings: &Findings) -> String {
+    let rest = match disagreeing(findings) {
+        None => "The records show no further effect.".to_owned(),
+        Some(they_disagree) => format!("{they_disagree} No further effect is identified."),
+    };
+    let wrong = mismatched(findings).unwrap_or_else(|| "Parameters differ from the starting model.".into());
+    format!("{wrong} {rest}")
+}
+
+/// Of the plant it says what else is wrong, or that nothing is.
+fn sensor_fault(findings: &Findings, faults: &str) -> String {
+    let faults = if faults.is_empty() { String::new() } else { format!(": {faults}") };
+    let plant: Vec<String> = [mismatched(findings), disagreeing(findings)].into_iter().flatten().collect();
+    if plant.is_empty() {
+        format!("A sensor is at fault, not the plant{faults}.")
+    } else {
+        format!("A sensor is at fault{faults}. {}", plant.join(" "))
+    }
+}
+
+/// The nominal parameters that are off.
+fn mismatched(findings: &Findings) -> Option<String> {
     let wrong = findings.nominal_parameters.iter().filter(|parameter| parameter.mismatch);
     let names: Vec<String> = wrong.map(|parameter| parameter.name.clone()).collect();
-    let rest = "The records show no further effect.";
     match names.len() {
-        0 => format!("Parameters differ from the starting model. {rest}"),
-        1 => format!("{} differs from the starting model. {rest}", names[0]),
-        2..=LISTED => format!("{} differ from the starting model. {rest}", list(&names, "and")),
-        more => format!("{more} parameters differ from the starting model. {rest}"),
+        0 => None,
+        1 => Some(format!("{} differs from the starting model.", names[0])),
+        2..=LISTED => Some(format!("{} differ from the starting model.", list(&names, "and"))),
+        more => Some(format!("{more} parameters differ from the starting model.")),
     }
+}
+
+/// The clearest of what records disagree on.
+fn disagreeing(findings: &Findings) -> Option<String> {
+    findings.disagreements.first().map(|it| format!("The records disagree on {}.", it.name))
 }
 
 fn ambiguous(findings: &Findings) -> String {
@@ -103,7 +130,7 @@ mod tests {
     fn records_of_a_rig_that_was_changed_lack_nothing() {
         let mut found =
             Findings { verdict: Verdict::Unmodelled, ..Findings::of_bad_data("rig", vec![], vec![], vec![]) };
-        assert_eq!(headline(&found), "The model lacks something. It follows no recorded signal.");
+        assert_eq!(headline(&found), "The model lacks something. No recorded signal explains it.");
         let of = |record: &str, value: f64| RecordValue {
             record: record.into(),
             value,
@@ -118,5 +145,17 @@ mod tests {
         });
         let told = headline(&found);
         assert!(told.contains("they disagree on strut.stiffness") && !told.contains("lacks"), "{told}");
+        // Nor is it a plant without a fault.
+        let with = |verdict: Verdict| headline(&Findings { verdict, ..found.clone() });
+        for verdict in [Verdict::NoEffect, Verdict::ParameterMismatch, Verdict::SensorFault] {
+            let told = with(verdict);
+            assert!(told.contains("disagree on strut.stiffness"), "{told}");
+            assert!(!told.contains("no effect beyond") && !told.contains("not the plant"), "{told}");
+        }
+        found.disagreements.clear();
+        assert_eq!(
+            headline(&Findings { verdict: Verdict::SensorFault, ..found }),
+            "A sensor is at fault, not the plant."
+        );
     }
 }
