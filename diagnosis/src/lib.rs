@@ -10,7 +10,6 @@
 pub mod app;
 pub mod catalogue;
 pub mod confirm;
-pub mod data;
 pub mod dataset;
 pub mod decision;
 pub mod diagnosis;
@@ -22,6 +21,7 @@ pub mod plausibility;
 pub mod report;
 pub mod rig;
 pub mod screening;
-pub mod signal;
 
 pub use strut_plant as plant;
+pub use strut_records as data;
+pub use strut_signal as signal;

@@ -2,7 +2,7 @@
 
 use strut_diagnosis::catalogue::naming::name;
 use strut_diagnosis::data;
-use strut_diagnosis::dataset::recorded::{Dataset, Measured, Source, derivative};
+use strut_diagnosis::dataset::recorded::{Dataset, Measured, Source};
 use strut_diagnosis::dataset::split::Split;
 use strut_diagnosis::decision::verdict::Verdict;
 use strut_diagnosis::diagnosis::{Diagnosis, Options, diagnose};
@@ -12,6 +12,7 @@ use strut_diagnosis::estimation::unknowns::Estimate;
 use strut_diagnosis::experiment::{Excitation, Limits, Rival, Shape, TABLE, Trial, Wave, excitations};
 use strut_diagnosis::plant::{Between, Drive};
 use strut_diagnosis::rig::Rig;
+use strut_diagnosis::signal::derivative;
 
 use crate::common::noise;
 

@@ -1,7 +1,7 @@
 //! The search on records that the plant itself has made: what is hidden is found, what is not there is not claimed.
 
 use strut_diagnosis::catalogue::naming::name;
-use strut_diagnosis::dataset::recorded::{Dataset, Measured, Source, derivative};
+use strut_diagnosis::dataset::recorded::{Dataset, Measured, Source};
 use strut_diagnosis::dataset::split::Split;
 use strut_diagnosis::decision::disagreement::disagreement;
 use strut_diagnosis::diagnosis::{Diagnosis, Options, diagnose};
@@ -10,6 +10,7 @@ use strut_diagnosis::estimation::unknowns::Unknown;
 use strut_diagnosis::plant::{Between, Drive};
 use strut_diagnosis::rig::Rig;
 use strut_diagnosis::screening::rms;
+use strut_diagnosis::signal::derivative;
 use strut_diagnosis::signal::distortion::Fault;
 
 use crate::common::noise;

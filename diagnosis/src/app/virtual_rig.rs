@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use crate::data::table::did_you_mean;
-use crate::dataset::recorded::derivative;
 use crate::plant::{Between, Drive};
 use crate::rig::Rig;
 use crate::screening::rms;
+use crate::signal::derivative;
 use crate::signal::distortion::{Correction, Fault, Samples};
 use crate::signal::random::Random;
 

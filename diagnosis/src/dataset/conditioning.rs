@@ -8,19 +8,15 @@
 
 use std::ops::Range;
 
-use rustfft::num_complex::Complex;
-
 use crate::data::Channel;
 use crate::data::check::noise_floor;
 use crate::dataset::recorded::{Dataset, Measured, Source};
 use crate::plant::Between;
 use crate::signal::random::with_noise;
-use crate::signal::spectral::{about_line, filled};
+use crate::signal::spectral::{Complex, KEPT, about_line, filled};
 
 /// Samples a second that are enough.
 const ENOUGH: f64 = 400.0;
-/// What is kept of the band below half the new rate.
-pub(crate) const KEPT: f64 = 0.8;
 /// New periods over which the filter spreads a sample.
 const SPREAD: usize = 2;
 /// Bins to each side over which a spectrum is smoothed before it is compared to the noise.
@@ -187,7 +183,7 @@ mod tests {
     /// The remaining noise of a filtered signal, and another draw of it.
     #[test]
     fn an_inputs_error_is_as_large_as_what_its_noise_leaves() {
-        let white = crate::data::check::tests::noise(7, 20_000);
+        let white = crate::signal::random::white(7, 20_000);
         let noisy: Vec<f64> = white.iter().enumerate().map(|(k, noise)| signal(k) + 0.01 * noise).collect();
         let rms =
             |values: &[f64]| (values.iter().map(|it| it * it).sum::<f64>() / values.len() as f64).sqrt();
@@ -206,9 +202,9 @@ mod tests {
     /// Of a damper on a bench the force is that of the velocity, which is derived from a noisy position.
     #[test]
     fn the_derivative_of_a_noisy_position_is_a_velocity() {
-        let white = crate::data::check::tests::noise(5, 20_000);
+        let white = crate::signal::random::white(5, 20_000);
         let noisy: Vec<f64> = white.iter().enumerate().map(|(k, noise)| signal(k) + 0.01 * noise).collect();
-        let rates = |values: &[f64], step: f64| crate::dataset::recorded::derivative(values, step);
+        let rates = |values: &[f64], step: f64| crate::signal::derivative(values, step);
         let clean: Vec<f64> = (0..20_000).map(signal).collect();
         let apart = |values: &[f64]| {
             let (rate, wanted) = (rates(values, 2e-3), rates(&clean, 1e-3));

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::data::check::{Checked, check, lines, noise_floor, rounding};
+use crate::data::check::{Checked, check, lines, noise_at_rest, noise_floor, rounding, standstill};
 use crate::data::map::{Map, Wanted};
 use crate::data::{
     Channel, Origin, Record,
@@ -103,6 +103,7 @@ pub(super) fn import(rig: &Rig, origin: &Origin, map: &Map, rate: Option<&str>) 
         });
     }
     let outputs = rig.plant.outputs.iter().enumerate().filter(|(_, it)| !rig.is_trivial(&it.name));
+    let rest = standstill(&mapped.record);
     let measured = outputs.filter_map(|(output, declared)| {
         let mut values = values(&declared.name)?;
         if is_constant(&values) {
@@ -117,7 +118,8 @@ pub(super) fn import(rig: &Rig, origin: &Origin, map: &Map, rate: Option<&str>) 
         let raw = mapped.record.channels.iter().zip(&unusable).find(|(it, _)| it.name == declared.name);
         let (raw, wrong) = raw.map_or((&[][..], &[][..]), |(channel, ranges)| (&channel.values[..], ranges));
         // Interpolated to an even grid, values no longer show the steps of their converter.
-        let noise_floor = noise_floor(&values).max(rounding(raw));
+        let at_rest = rest.clone().map_or(0.0, |rest| noise_at_rest(raw.get(rest).unwrap_or_default()));
+        let noise_floor = noise_floor(&values).max(rounding(raw)).max(at_rest);
         let left_out = leave_out(&mut values, wrong, &mapped.record.time, &uniform);
         if left_out > 0 {
             let enough = left_out as f64 <= MOST_LEFT_OUT * values.len() as f64;

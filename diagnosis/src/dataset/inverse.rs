@@ -10,7 +10,6 @@
 use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
-use rustfft::num_complex::Complex;
 use strut_model::Declaration;
 
 use super::recorded::{Dataset, Source};
@@ -19,7 +18,7 @@ use crate::report::words::digits;
 use crate::rig::{Inverse, Rig};
 use crate::screening::rms;
 use crate::signal::distortion::Correction;
-use crate::signal::spectral::{about_line, filled};
+use crate::signal::spectral::{Complex, about_line, filled};
 
 /// Lowest end of a band in Hz: at its sampling rate, a block of errors has ten samples.
 pub(super) const LOWEST: f64 = 8.0;

@@ -160,7 +160,7 @@ mod tests {
         assert!(seen(&wave(|t| rate(t - 0.0025))).agrees());
         let half = seen(&wave(|t| 0.5 * rate(t)));
         assert!(told(half).unwrap().contains("50 % of the rate"), "{:?}", told(half));
-        let noise = crate::data::check::tests::noise(3, 2000);
+        let noise = crate::signal::random::white(3, 2000);
         assert!(told(seen(&noise)).unwrap().starts_with("does not go with"));
     }
 }

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::data::Channel;
 use crate::plant::{Between, Drive};
+use crate::signal::derivative;
 use crate::signal::distortion::{Correction, Samples};
 use crate::signal::spectral::{FINER, in_band, refined};
 
@@ -207,17 +208,6 @@ impl Dataset {
         }
         changes
     }
-}
-
-/// The derivative of an evenly sampled signal by central differences.
-pub fn derivative(signal: &[f64], step: f64) -> Vec<f64> {
-    let last = signal.len().saturating_sub(1);
-    (0..signal.len())
-        .map(|k| {
-            let (before, after) = (k.saturating_sub(1), (k + 1).min(last));
-            (signal[after] - signal[before]) / (step * (after - before).max(1) as f64)
-        })
-        .collect()
 }
 
 /// The known values without the straight line that is nearest to them.

@@ -155,14 +155,14 @@ fn shows(record: &Dataset, input: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::check::tests::{multisine, noise};
     use crate::dataset::recorded::Measured;
     use crate::plant::Between;
+    use crate::signal::random::{multisine, white};
     use proptest::prelude::*;
 
     fn record(name: &str, inputs: Vec<Vec<f64>>, seed: u64) -> Dataset {
         let length = inputs[0].len();
-        let values: Vec<f64> = noise(seed, length);
+        let values: Vec<f64> = white(seed, length);
         Dataset {
             name: name.into(),
             step: 1e-3,
@@ -176,7 +176,7 @@ mod tests {
     }
 
     fn noisy(signal: &[f64], sigma: f64, seed: u64) -> Vec<f64> {
-        signal.iter().zip(noise(seed, signal.len())).map(|(signal, noise)| signal + sigma * noise).collect()
+        signal.iter().zip(white(seed, signal.len())).map(|(signal, noise)| signal + sigma * noise).collect()
     }
 
     fn texts(train: &[Dataset], test: &[Dataset]) -> Vec<String> {

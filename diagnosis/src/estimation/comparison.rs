@@ -223,7 +223,7 @@ mod tests {
         let (block, blocks, repeated) = (40, 30, 200_u64);
         let column: Vec<f64> = (0..block * blocks).map(|k| (0.3 * f64::from(k)).sin()).collect();
         let chance = |seed: u64| {
-            let white = crate::data::check::tests::noise(seed, column.len());
+            let white = crate::signal::random::white(seed, column.len());
             let both = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
             let amount = both(&white, &column) / both(&column, &column);
             let left = white.iter().zip(&column).map(|(y, x)| y - amount * x).collect();

@@ -1,9 +1,10 @@
 //! Within what an experiment has to stay: stroke, force, rate, frequencies and time.
 
-use crate::dataset::recorded::{Dataset, derivative};
+use crate::dataset::recorded::Dataset;
 use crate::diagnosis::simulated;
 use crate::estimation::hypothesis::{Baseline, Fitted};
 use crate::rig::ForceOf;
+use crate::signal::derivative;
 
 /// Longest experiment in seconds where nobody asks for a longer one.
 const LONGEST: f64 = 20.0;

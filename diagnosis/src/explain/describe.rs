@@ -1,8 +1,5 @@
 //! What can be said of a missing signal that no law explains: where, how much of it, on what it depends.
 
-use rustfft::FftPlanner;
-use rustfft::num_complex::Complex;
-
 use crate::catalogue::naming::name;
 use crate::decision::choice::Score;
 use crate::estimation::hypothesis::{Baseline, Term};
@@ -13,16 +10,13 @@ use crate::missing::ports::{Entry, Port};
 use crate::missing::trajectory::Window;
 use crate::plant::{Plant, Signals};
 use crate::report::words::digits;
+use crate::signal::spectral::line;
 
 use super::features::{Group, RESONANCES, features};
 use super::selection::Compared;
 
 /// Kurtosis beyond which a signal comes in bursts: ten percent of the time hold all of it.
 const BURSTS: f64 = 8.0;
-/// Share of its power that a line has to hold …
-const LINE: f64 = 0.4;
-/// … within so many bins to both sides.
-const WIDTH: usize = 3;
 /// Samples of a missing signal that are shown.
 const SHOWN: usize = 1500;
 
@@ -147,12 +141,14 @@ impl Unmodelled {
                 let frequency = self.frequency.unwrap_or_default();
                 format!("a force that remembers the motion, with a resonance near {frequency:.0} Hz")
             }
-            (["bursts"], _) => "a signal that comes in bursts and follows no recorded signal".to_owned(),
+            (["bursts"], _) => {
+                "a signal that comes in bursts and that no recorded signal explains".to_owned()
+            }
             (["time"], _) => match self.frequency {
                 Some(frequency) => format!("a signal that is periodic in time, at {frequency:.2} Hz"),
                 None => "a signal that changes with time".to_owned(),
             },
-            ([], _) => "a signal that follows no recorded signal".to_owned(),
+            ([], _) => "a signal that no recorded signal explains".to_owned(),
             (words, _) => format!("a signal that follows the {}", words.join(" and the ")),
         };
         format!("{what} {} {}", self.at, self.place)
@@ -301,24 +297,6 @@ fn kurtosis(signals: &[(f64, Vec<f64>)]) -> f64 {
     if two > 0.0 { four * count / (two * two) } else { 0.0 }
 }
 
-/// The frequency in Hz at which a signal has most of its power, if it is a line.
-fn line(signals: &[(f64, Vec<f64>)]) -> Option<f64> {
-    let (step, _) = signals.first()?;
-    let longest = signals.iter().map(|(_, values)| values.len()).max()?;
-    let (mut power, mut planner) = (vec![0.0; longest / 2], FftPlanner::new());
-    let resolution = 1.0 / (step * longest as f64);
-    for (_, values) in signals {
-        let mut bins: Vec<Complex<f64>> = values.iter().map(|it| Complex::from(*it)).collect();
-        bins.resize(longest, Complex::from(0.0));
-        planner.plan_fft_forward(longest).process(&mut bins);
-        power.iter_mut().zip(&bins).skip(1).for_each(|(power, bin)| *power += bin.norm_sqr());
-    }
-    let total: f64 = power.iter().sum();
-    let best = (1..power.len()).max_by(|a, b| power[*a].total_cmp(&power[*b]))?;
-    let near = power[best.saturating_sub(WIDTH)..(best + WIDTH + 1).min(power.len())].iter().sum::<f64>();
-    (near > LINE * total).then_some(best as f64 * resolution)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -328,11 +306,10 @@ mod tests {
     }
 
     #[test]
-    fn a_sine_is_a_line_and_bursts_are_none() {
+    fn bursts_have_a_larger_kurtosis_than_a_sine() {
         let sine = signal(|t| (2.0 * std::f64::consts::PI * 7.3 * t + 1.0).sin());
-        assert!((line(&sine).unwrap() - 7.3).abs() < 0.1);
         assert!((kurtosis(&sine) - 1.5).abs() < 0.01);
         let bursts = signal(|t| if t.fract() < 0.05 { 1.0 } else { 0.0 });
-        assert!(line(&bursts).is_none() && kurtosis(&bursts) > BURSTS);
+        assert!(kurtosis(&bursts) > BURSTS);
     }
 }

@@ -1,8 +1,9 @@
 //! Features of a port's own motion, of commands and of time, in groups that say what a missing signal depends on.
 
-use crate::dataset::recorded::{Dataset, derivative};
+use crate::dataset::recorded::Dataset;
 use crate::missing::motion::Motion;
 use crate::missing::trajectory::Window;
+use crate::signal::derivative;
 
 /// Knots of a curve over a variable.
 const KNOTS: usize = 9;

@@ -2,9 +2,10 @@
 
 use rayon::prelude::*;
 
-use crate::dataset::recorded::{Dataset, derivative};
+use crate::dataset::recorded::Dataset;
 use crate::plant::{Follower, Seen, Signals};
 use crate::rig::Rig;
+use crate::signal::derivative;
 
 use super::innovations::Column;
 use super::ports::{Entry, Port};

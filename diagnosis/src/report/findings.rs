@@ -17,7 +17,8 @@ pub use disagreement::{Disagreement, RecordValue};
 pub use experiment::{DecidingExperiment, Distinction, Drive, ExperimentLimit, Setting, SourceFmu, Value};
 pub(crate) use pictures::LARGEST;
 pub use pictures::{Binned, Coherence, Mark, Parity, Periodogram, Pictures, Spectrum, Trace};
-pub use records::{ColumnRead, DataProblem, RecordRead};
+pub use records::{ColumnRead, RecordRead};
+pub use strut_records::check::DataProblem;
 
 /// Version of the format of `report.json`: raised when a reader of an older one would misunderstand it.
 pub const FORMAT: u32 = 3;

@@ -54,11 +54,11 @@ fn looks(scores: &[DVector<f64>], columns: impl Iterator<Item = usize>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::check::tests::noise;
+    use crate::signal::random::white;
 
     /// Blocks' scores of so many columns, each of them so many times.
     fn scores(blocks: usize, columns: usize, times: usize) -> Vec<DVector<f64>> {
-        let white = noise(3, blocks * columns);
+        let white = white(3, blocks * columns);
         let score = |block: usize| {
             let own =
                 (0..columns).flat_map(|column| std::iter::repeat_n(white[block * columns + column], times));

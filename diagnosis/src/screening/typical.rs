@@ -1,8 +1,9 @@
 //! How large the forces and motions of a rig's elements are.
 
 use crate::catalogue::{Element, Typical, joints};
-use crate::dataset::recorded::{Dataset, Source, derivative};
+use crate::dataset::recorded::{Dataset, Source};
 use crate::rig::{ElementSignals, ForceOf, Rig};
+use crate::signal::derivative;
 
 use super::rms;
 

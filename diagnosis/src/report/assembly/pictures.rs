@@ -7,10 +7,10 @@ mod scatters;
 
 use strut_model::Declaration;
 
-use crate::dataset::conditioning::KEPT;
 use crate::dataset::recorded::{Dataset, Measured};
 use crate::diagnosis::Diagnosis;
 use crate::report::findings::{Pictures, Trace};
+use crate::signal::spectral::KEPT;
 
 /// Seconds of a record that are shown.
 const SHOWN: f64 = 10.0;

@@ -2,19 +2,6 @@
 
 use serde::Serialize;
 
-/// Something wrong with the data.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct DataProblem {
-    /// The file.
-    pub record: String,
-    /// The signal, or `time`.
-    pub signal: String,
-    /// What is wrong, where, and what to do.
-    pub text: String,
-    /// Whether the diagnosis cannot go on with it.
-    pub fatal: bool,
-}
-
 /// How a record was read.
 #[derive(Clone, Debug, Serialize)]
 pub struct RecordRead {

@@ -33,7 +33,7 @@ fn entry(it: &Unmodelled) -> Markup {
                 @if let Some(frequency) = it.frequency { div { dt { "Frequency" } dd { (digits(frequency, 3)) " Hz" } } }
                 div {
                     dt { "Depends on" }
-                    dd { @if it.depends_on.is_empty() { "no recorded signal" } @else { (list(&it.depends_on, "and")) } }
+                    dd { @if it.depends_on.is_empty() { "nothing that was found" } @else { (list(&it.depends_on, "and")) } }
                 }
             }
             @if let Some(curve) = it.curve.as_ref().filter(|curve| !curve.x.is_empty()) {

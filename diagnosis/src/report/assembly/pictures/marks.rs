@@ -4,9 +4,10 @@ use strut_model::Value;
 use strut_physics::GRAVITY;
 
 use crate::catalogue::{self, LIFT_OFF};
-use crate::dataset::recorded::{Dataset, derivative};
+use crate::dataset::recorded::Dataset;
 use crate::diagnosis::{Diagnosis, simulated};
 use crate::report::findings::{LARGEST, Mark};
+use crate::signal::derivative;
 
 use super::shown;
 

@@ -1,10 +1,10 @@
 //! What the error depends on: its mean over bins of a variable.
 
 use crate::catalogue::Element;
-use crate::dataset::recorded::derivative;
 use crate::diagnosis::{Diagnosis, simulated};
 use crate::report::findings::Binned;
 use crate::rig::Missing;
+use crate::signal::derivative;
 
 /// Bins of a variable.
 const BINS: usize = 24;

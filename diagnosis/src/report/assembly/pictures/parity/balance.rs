@@ -154,11 +154,12 @@ impl Balance {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dataset::recorded::{Measured, Source, derivative};
+    use crate::dataset::recorded::{Measured, Source};
     use crate::diagnosis::root_mean_square;
     use crate::estimation::unknowns::Estimate;
     use crate::plant::{Between, Drive};
     use crate::rig::Rig;
+    use crate::signal::derivative;
 
     const STEP: f64 = 1e-3;
     const MEASURED: [&str; 5] = [

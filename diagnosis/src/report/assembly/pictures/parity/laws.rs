@@ -125,8 +125,8 @@ fn part<B: Bundle<f64>>(plant: &Plant, parameters: &[f64], group: &str) -> Optio
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dataset::recorded::derivative;
     use crate::plant::Between;
+    use crate::signal::derivative;
 
     /// On its own path through its simulation, a model's parts balance.
     #[test]

@@ -1,0 +1,112 @@
+use crate::{Reading, Record, TimeColumn, parse};
+use proptest::prelude::*;
+
+const VECTORS: &[u8] = include_bytes!("../../../tests/data/vectors.mat");
+const COMPRESSED: &[u8] = include_bytes!("../../../tests/data/compressed.mat");
+const STRUCT: &[u8] = include_bytes!("../../../tests/data/struct.mat");
+
+fn read(bytes: &[u8]) -> Record {
+    parse("run.mat", bytes, &Reading::default()).unwrap()
+}
+
+/// What make_fixtures.py has written.
+fn verify(record: &Record, names: &[&str]) {
+    let found: Vec<_> = record.channels.iter().map(|c| c.name.as_str()).collect();
+    assert_eq!(found, names);
+    assert_eq!(record.time.len(), 50);
+    for i in 0..50 {
+        let force = 100.0 * (std::f64::consts::TAU * 0.01 * i as f64).sin();
+        assert!((record.time[i] - 0.01 * i as f64).abs() < 1e-12);
+        assert!((record.channels[0].values[i] - force).abs() < 1e-12);
+        assert_eq!(record.channels[1].values[i], (i * 37 % 200) as f64 - 100.0);
+        if names.len() > 2 {
+            assert!((record.channels[2].values[i] - force).abs() < 1e-5);
+        }
+    }
+}
+
+#[test]
+fn what_scipy_writes() {
+    verify(&read(VECTORS), &["force", "counts", "single"]);
+    verify(&read(COMPRESSED), &["force", "counts", "single"]);
+    verify(&read(STRUCT), &["force", "counts"]);
+}
+
+#[test]
+fn the_map_names_the_time() {
+    let time = TimeColumn { column: "force".into(), unit: Some("ms".into()) };
+    let record = parse("run.mat", VECTORS, &Reading { time: Some(time), ..Reading::default() }).unwrap();
+    assert!((record.time[25] - 0.1).abs() < 1e-12);
+    assert_eq!(record.channels[0].name, "t");
+}
+
+/// An element with big-endian tag, padded.
+fn element(kind: u32, data: &[u8]) -> Vec<u8> {
+    let mut bytes = [kind.to_be_bytes(), (data.len() as u32).to_be_bytes()].concat();
+    bytes.extend(data);
+    bytes.resize(bytes.len().next_multiple_of(8), 0);
+    bytes
+}
+
+#[test]
+fn big_endian_and_compactly_stored_doubles() {
+    let mut file = b"MATLAB 5.0 MAT-file".to_vec();
+    file.resize(124, b' ');
+    file.extend(b"\x01\x00MI");
+    for (name, values) in [("t", [0_i16, 1, 2]), ("x", [-300, 7, 5])] {
+        let matrix = [
+            element(6, &[0, 0, 0, 6, 0, 0, 0, 0]),
+            element(5, &[0, 0, 0, 3, 0, 0, 0, 1]),
+            [&[0, 1, 0, 1], name.as_bytes(), &[0, 0, 0]].concat(),
+            element(3, &values.map(i16::to_be_bytes).concat()),
+        ];
+        file.extend(element(14, &matrix.concat()));
+    }
+    let record = read(&file);
+    assert_eq!(record.time, [0.0, 1.0, 2.0]);
+    assert_eq!(record.channels[0].values, [-300.0, 7.0, 5.0]);
+}
+
+#[test]
+fn every_cut_is_refused_without_panic() {
+    for bytes in [VECTORS, COMPRESSED, STRUCT] {
+        for length in 0..bytes.len() {
+            let _ = parse("run.mat", &bytes[..length], &Reading::default());
+        }
+    }
+    let message = parse("run.mat", &VECTORS[..128], &Reading::default()).unwrap_err().to_string();
+    assert!(message.contains("has no real numeric vectors"), "{message}");
+    let message = parse("run.mat", &VECTORS[..300], &Reading::default()).unwrap_err().to_string();
+    assert!(message.contains("is cut off or damaged"), "{message}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #[test]
+    fn damage_is_no_panic(
+        which in 0_usize..3, changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8)
+    ) {
+        let mut bytes = [VECTORS, COMPRESSED, STRUCT][which].to_vec();
+        for (at, byte) in changes {
+            let at = at.index(bytes.len());
+            bytes[at] = byte;
+        }
+        if let Ok(record) = parse("run.mat", &bytes, &Reading::default()) {
+            prop_assert!(record.channels.iter().all(|c| c.values.len() == record.time.len()));
+        }
+    }
+
+    /// Damage inside of compressed data is found by its checksum: here the plain contents are damaged.
+    #[test]
+    fn damaged_structs_are_no_panic(
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8)
+    ) {
+        let mut plain = Vec::new();
+        std::io::Read::read_to_end(&mut flate2::read::ZlibDecoder::new(&STRUCT[136..]), &mut plain).unwrap();
+        for (at, byte) in changes {
+            let at = at.index(plain.len());
+            plain[at] = byte;
+        }
+        let _ = parse("run.mat", &[&STRUCT[..128], &plain].concat(), &Reading::default());
+    }
+}
