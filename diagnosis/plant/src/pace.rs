@@ -262,11 +262,10 @@ mod tests {
         let (step, position, velocity) =
             (2e-3, plant.input("motion.position").unwrap(), plant.input("motion.velocity").unwrap());
         let mut inputs = vec![vec![0.0; 2000]; plant.inputs.len()];
-        for k in 0..2000 {
-            let phase = std::f64::consts::TAU * 3.0 * k as f64 * step;
-            (inputs[position][k], inputs[velocity][k]) =
-                (0.015 * phase.sin(), 0.015 * std::f64::consts::TAU * 3.0 * phase.cos());
-        }
+        let turn = std::f64::consts::TAU * 3.0;
+        let phases = || (0..2000).map(|k| turn * f64::from(k) * step);
+        inputs[position] = phases().map(|phase| 0.015 * phase.sin()).collect();
+        inputs[velocity] = phases().map(|phase| 0.015 * turn * phase.cos()).collect();
         let drive = Drive { start: 0.0, step, inputs, finer: 1, between: Between::Lines };
         let dynamics = plant.prepare(&plant.choices).unwrap();
         let start = vec![0.0; plant.states.len()];

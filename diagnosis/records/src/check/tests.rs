@@ -226,23 +226,27 @@ fn a_signal_that_is_renewed_less_often_is_not_held_by_a_fault() {
 /// held as well, but the motion has gone on.
 #[test]
 fn a_rest_of_all_signals_is_no_loss() {
-    let mut record = clean(1, 0.01);
-    let stretches = [300..340, 900..930, 1700..1740, 2400..2430];
-    let mut lost = record.clone();
-    for (channel, lost) in record.channels.iter_mut().zip(&mut lost.channels) {
-        for (k, value) in channel.values.iter_mut().enumerate() {
-            // Each stop is left as slowly as it is come to.
-            let distance = |it: &Range<usize>| it.start.saturating_sub(k).max((k + 1).saturating_sub(it.end));
-            let nearest = stretches.iter().map(distance).min().unwrap();
-            *value *= (nearest as f64 / 100.0).min(1.0);
+    for seed in 0..12 {
+        let mut record = clean(seed, 0.01);
+        let stretches = [300..340, 900..930, 1700..1740, 2400..2430];
+        let mut lost = record.clone();
+        for (channel, lost) in record.channels.iter_mut().zip(&mut lost.channels) {
+            for (k, value) in channel.values.iter_mut().enumerate() {
+                // Each stop is left as slowly as it is come to.
+                let distance =
+                    |it: &Range<usize>| it.start.saturating_sub(k).max((k + 1).saturating_sub(it.end));
+                let nearest = stretches.iter().map(distance).min().unwrap();
+                *value *= (nearest as f64 / 100.0).min(1.0);
+            }
+            for stretch in stretches.clone() {
+                let value = lost.values[stretch.start];
+                lost.values[stretch].fill(value);
+            }
         }
-        for stretch in stretches.clone() {
-            let value = lost.values[stretch.start];
-            lost.values[stretch].fill(value);
-        }
+        assert_eq!(check(&record).problems, []);
+        // A signal may be by chance where it was.
+        assert!(check(&lost).problems.len() >= 2, "{seed}");
     }
-    assert_eq!(check(&record).problems, []);
-    assert_eq!(check(&lost).problems.len(), 3);
 }
 
 /// An encoder on what sticks at every turn: no sample was lost.
