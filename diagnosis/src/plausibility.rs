@@ -6,6 +6,7 @@
 
 mod kinematics;
 
+use crate::data::check::DataProblem;
 use crate::data::units::conversion;
 use crate::dataset::recorded::{Dataset, Measured, Source};
 use crate::dataset::split::Split;
@@ -16,7 +17,6 @@ use crate::diagnosis::{Options, root_mean_square};
 use crate::estimation::hypothesis::Baseline;
 use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::plant::Dynamics;
-use crate::report::findings::DataProblem;
 use crate::report::words::{digits, unit};
 use crate::rig::Rig;
 use crate::screening::{bent_rms, rms};

@@ -7,13 +7,13 @@ use std::path::PathBuf;
 use strut_blind::{cases, files, generate};
 use strut_diagnosis::app::virtual_rig::{self, Experiment};
 use strut_diagnosis::data::Origin;
+use strut_diagnosis::data::check::DataProblem;
 use strut_diagnosis::data::map::Map;
 use strut_diagnosis::dataset::load::load;
 use strut_diagnosis::dataset::split::Split;
 use strut_diagnosis::dataset::witness;
 use strut_diagnosis::diagnosis::Options;
 use strut_diagnosis::plausibility::problems;
-use strut_diagnosis::report::findings::DataProblem;
 use strut_diagnosis::rig::Rig;
 use strut_model::ParameterSet;
 

@@ -219,7 +219,7 @@ impl Correction {
     }
 }
 
-/// A signal at so many samples after each of its own, by cubic interpolation between them; the ends are held.
+/// A signal at `later` samples after each of its own, by cubic interpolation between them; the ends are held.
 fn resampled(signal: &[f64], later: impl Fn(usize) -> f64) -> Vec<f64> {
     let at = |index: usize| {
         let position = index as f64 + later(index);

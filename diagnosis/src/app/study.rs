@@ -8,6 +8,7 @@ use strut_model::ParameterSet;
 
 use crate::catalogue::naming;
 use crate::data::Origin;
+use crate::data::check::DataProblem;
 use crate::data::map::Map;
 use crate::data::table::did_you_mean;
 use crate::dataset::load::{Loaded, load};
@@ -20,7 +21,7 @@ use crate::estimation::deadline::{Deadline, Stage};
 use crate::experiment::Limits;
 use crate::plausibility;
 use crate::report::extend::Extended;
-use crate::report::findings::{DataProblem, Findings, RecordRead};
+use crate::report::findings::{Findings, RecordRead};
 use crate::report::provenance::Provenance;
 use crate::rig::Rig;
 

@@ -1,9 +1,10 @@
 //! The columns that were read of a file: what is to be told of them, and those that no signal of the rig comes from.
 
+use crate::data::check::DataProblem;
 use crate::data::map::{Map, Mapped, Taken};
 use crate::data::uniform::uniform;
 use crate::data::{Channel, Record};
-use crate::report::findings::{ColumnRead, DataProblem, RecordRead};
+use crate::report::findings::{ColumnRead, RecordRead};
 use crate::report::words::digits;
 use crate::rig::Rig;
 

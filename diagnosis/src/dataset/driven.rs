@@ -1,8 +1,8 @@
 //! How a rig can be driven by the columns of its records.
 
+use crate::data::check::DataProblem;
 use crate::data::map::{Map, Wanted, plain};
 use crate::data::{Channel, Origin, units};
-use crate::report::findings::DataProblem;
 use crate::rig::{DrivenBy, Rig, Undriven};
 
 /// Whether the first of some files has a signal or a column of a name, with or without its unit at the end.

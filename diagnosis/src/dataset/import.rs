@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::data::check::DataProblem;
 use crate::data::check::{Checked, check, lines, noise_at_rest, noise_floor, rounding, standstill};
 use crate::data::map::{Map, Wanted};
 use crate::data::{
@@ -10,7 +11,7 @@ use crate::data::{
 };
 use crate::dataset::recorded::{Dataset, Measured, Source};
 use crate::plant::Between;
-use crate::report::findings::{DataProblem, RecordRead};
+use crate::report::findings::RecordRead;
 use crate::report::words::quantity;
 use crate::rig::{Opposed, Rig};
 

@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use strut_model::Declaration;
 
 use super::recorded::{Dataset, Source};
-use crate::report::findings::DataProblem;
+use crate::data::check::DataProblem;
 use crate::report::words::digits;
 use crate::rig::{Inverse, Rig};
 use crate::screening::rms;

@@ -1,9 +1,10 @@
 //! All records of a diagnosis, read in the way in which a rig can be compared with them.
 
 use crate::data::Origin;
+use crate::data::check::DataProblem;
 use crate::data::map::Map;
 use crate::dataset::recorded::Dataset;
-use crate::report::findings::{DataProblem, RecordRead};
+use crate::report::findings::RecordRead;
 use crate::rig::{Inverse, Rig};
 
 use super::driven::{names, undriven};

@@ -3,7 +3,7 @@
 
 use super::inverse::{LOWEST, Signals, below, motion};
 use super::recorded::Dataset;
-use crate::report::findings::DataProblem;
+use crate::data::check::DataProblem;
 use crate::report::words::{digits, percent};
 use crate::rig::{Inverse, Rig};
 

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
+use crate::data::check::DataProblem;
 use crate::dataset::recorded::Dataset;
 use crate::diagnosis::{Diagnosis, Options, diagnose};
-use crate::report::findings::DataProblem;
 use crate::rig::Rig;
 
 /// Longest section in seconds of a plant that drifts, or whose phase is soon lost: over a part of it, a model that is far off

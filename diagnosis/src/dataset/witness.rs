@@ -2,10 +2,10 @@
 
 use strut_model::Declaration;
 
+use crate::data::check::DataProblem;
 use crate::data::check::noise_floor;
 use crate::dataset::recorded::{BLOCK, Dataset, Source};
 use crate::diagnosis::root_mean_square;
-use crate::report::findings::DataProblem;
 use crate::report::words::{self, digits};
 use crate::screening::rms;
 

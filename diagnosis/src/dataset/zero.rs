@@ -2,9 +2,9 @@
 
 use strut_model::unit;
 
+use crate::data::check::DataProblem;
 use crate::dataset::recorded::Dataset;
 use crate::plant::{Between, Drive, Dynamics};
-use crate::report::findings::DataProblem;
 use crate::report::words::quantity;
 use crate::rig::Rig;
 use crate::signal::distortion::Correction;

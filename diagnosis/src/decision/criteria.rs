@@ -30,7 +30,7 @@ pub struct Criteria {
     pub p_value: f64,
     /// Errors in sensor noise beyond which an account is open.
     pub above_noise: f64,
-    /// Share of a signal, or of a parameter's value, below which a difference is not worth a sentence.
+    /// Share of a signal, of a parameter's value, or of an error's power, below which a difference is not worth a sentence.
     pub visible: f64,
     /// Standard deviations between two answers that chance does not explain: for normal errors once in 16 000.
     pub apart: f64,

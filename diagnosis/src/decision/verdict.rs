@@ -18,7 +18,7 @@ pub enum Verdict {
     Ambiguous,
     /// Something is missing that is not in the catalogue.
     Unmodelled,
-    /// A sensor is at fault, not the plant.
+    /// Of all that could be missing, only sensors are at fault. Nominal parameters may be off, too.
     SensorFault,
     /// The model explains too little for anything to be told.
     ModelInadequate,

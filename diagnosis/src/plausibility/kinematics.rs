@@ -1,9 +1,9 @@
 //! Columns of one motion against each other: a velocity is the rate of its position whatever the rig's parameters are.
 
 use crate::catalogue::Element;
+use crate::data::check::DataProblem;
 use crate::dataset::recorded::{Dataset, Source};
 use crate::decision::plausible::{FARTHEST, is_beyond_any_rig, mismatched_rate};
-use crate::report::findings::DataProblem;
 use crate::report::words::{digits, unit};
 use crate::rig::Rig;
 use crate::screening::rms;

@@ -14,6 +14,7 @@ use unmodelled::missing;
 
 use crate::catalogue::naming::{self, name};
 use crate::confirm::{Accepted, has_no_name};
+use crate::data::check::DataProblem;
 use crate::dataset::recorded::Dataset;
 use crate::dataset::witness::same_excitation;
 use crate::decision::choice::Score;
@@ -24,8 +25,8 @@ use crate::estimation::fit::Residuals;
 use crate::estimation::hypothesis::{Fitted, Term};
 use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::report::findings::{
-    Answer, Candidate, DataProblem, Effect, EffectParameter, FORMAT, Findings, FittedValue, NominalParameter,
-    Signal, SignalDistortion, Start,
+    Answer, Candidate, Effect, EffectParameter, FORMAT, Findings, FittedValue, NominalParameter, Signal,
+    SignalDistortion, Start,
 };
 use crate::report::words::located;
 use crate::signal::distortion::{AFTER, Correction, Fault};

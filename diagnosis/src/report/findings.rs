@@ -9,6 +9,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::data::check::DataProblem;
+
 pub use crate::decision::evidence::Evidence;
 pub use crate::decision::verdict::Verdict;
 pub use crate::report::provenance::{Provenance, RecordOrigin};
@@ -18,7 +20,6 @@ pub use experiment::{DecidingExperiment, Distinction, Drive, ExperimentLimit, Se
 pub(crate) use pictures::LARGEST;
 pub use pictures::{Binned, Coherence, Mark, Parity, Periodogram, Pictures, Spectrum, Trace};
 pub use records::{ColumnRead, RecordRead};
-pub use strut_records::check::DataProblem;
 
 /// Version of the format of `report.json`: raised when a reader of an older one would misunderstand it.
 pub const FORMAT: u32 = 3;

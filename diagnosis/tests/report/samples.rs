@@ -4,8 +4,9 @@ mod parts;
 
 use std::sync::LazyLock;
 
+use strut_diagnosis::data::check::DataProblem;
 use strut_diagnosis::report::findings::{
-    Curve, DataProblem, Disagreement, Evidence, FORMAT, Findings, Pictures, RecordValue, Signal, Verdict,
+    Curve, Disagreement, Evidence, FORMAT, Findings, Pictures, RecordValue, Signal, Verdict,
 };
 
 use super::simulation::{self, Comparison, balances, binned, comparisons, missing};

@@ -11,15 +11,15 @@ use crate::Drive;
 const DISPLACED: f64 = 0.1;
 /// The same of what follows behind a backlash, whatever its unit: beyond the band its rate has one slope.
 const BEYOND_BANDS: f64 = 1e9;
-/// How often a newton is doubled to look for the force at which a backlash is gone.
+/// How often a newton is doubled to look for the force at which a backlash is gone, or friction slides.
 const DOUBLED: usize = 24;
 /// How often the distance to the force at which friction slides is halved.
 const HALVED: usize = 40;
 /// A velocity in m/s or rad/s that suspensions seldom exceed: friction before it slides forgets the faster the faster it is moved.
 pub(crate) const FAST: f64 = 1.0;
 
-/// The fastest rate of change at rest, in fast motion, and in contact behind a backlash, and the largest slope of a delay's states,
-/// per second.
+/// The fastest rate of change at rest, in fast motion, in contact behind a backlash, and where friction slides; and the largest slope of
+/// a delay's states, per second.
 pub(crate) fn rates<M: Model>(
     model: &M,
     parameters: &M::Parameters<f64>,
@@ -31,29 +31,30 @@ pub(crate) fn rates<M: Model>(
     let derived = model.derive(&lifted);
     let memory = Declarations::of::<M::Memory<f64>>();
     let memory = Bundle::from_fn(|i| Dual64::from(memory[i].start));
+    let slopes = |state: &M::State<Dual64>, input: &M::Input<Dual64>| {
+        let now = Instant {
+            time: Dual64::from(0.0),
+            state,
+            input,
+            parameters: &lifted,
+            derived: &derived,
+            memory: &memory,
+            tick: 0,
+        };
+        model.equations(now).0
+    };
     let jacobian_at = |at: &[f64], inputs: &[f64]| {
         let input = Bundle::from_fn(|i| Dual64::from(inputs[i]));
         let mut jacobian = nalgebra::DMatrix::<f64>::zeros(states, states);
-        let (mut moves, mut slopes) = (vec![false; states], vec![0.0; states]);
+        let mut moves = vec![false; states];
         for column in 0..states {
             let state = Bundle::from_fn(|i| Dual64::new(at[i], f64::from(i == column)));
-            let now = Instant {
-                time: Dual64::from(0.0),
-                state: &state,
-                input: &input,
-                parameters: &lifted,
-                derived: &derived,
-                memory: &memory,
-                tick: 0,
-            };
-            let (rates, _) = model.equations(now);
-            rates.for_each(|row, rate| {
+            slopes(&state, &input).for_each(|row, rate| {
                 jacobian[(row, column)] = rate.eps;
                 moves[row] |= rate.re != 0.0 || rate.eps != 0.0;
-                slopes[row] = rate.re;
             });
         }
-        (jacobian, moves, slopes)
+        (jacobian, moves)
     };
     let fastest_of = |jacobian: &nalgebra::DMatrix<f64>| -> f64 {
         if !jacobian.iter().all(|entry| entry.is_finite()) {
@@ -63,9 +64,9 @@ pub(crate) fn rates<M: Model>(
     };
     let rest: Vec<f64> = declared.iter().map(|state| state.start).collect();
     let first: Vec<f64> = drive.inputs.iter().map(|it| it.first().copied().unwrap_or(0.0)).collect();
-    let (resting, ..) = jacobian_at(&rest, &first);
+    let (resting, _) = jacobian_at(&rest, &first);
     let [moved, moving] = moved(declared, &Declarations::of::<M::Input<f64>>(), (&rest, &first), drive);
-    let (when_moved, moves, _) = jacobian_at(&moved, &moving);
+    let (when_moved, moves) = jacobian_at(&moved, &moving);
     let mut fastest = fastest_of(&resting).max(fastest_of(&when_moved));
     // What has backlash is loose at rest: it is looked at where it is in contact, too. What is off does not move.
     for (index, state) in declared.iter().enumerate().filter(|(index, _)| moves[*index]) {
@@ -76,24 +77,28 @@ pub(crate) fn rates<M: Model>(
         };
         match &state.name {
             name if name.starts_with("hysteresis.") && state.unit == N => {
+                let at = |by: f64| jacobian_at(&displaced(&moved, by), &moving).0;
                 // Not much beyond it, where some laws grow without end.
-                let at = |by: f64| jacobian_at(&displaced(&moved, by), &moving);
-                let doubled = || std::iter::successors(Some(1.0), |by| Some(2.0 * by)).take(DOUBLED);
-                let mut in_contact = std::iter::once(0.0).chain(doubled()).map(at);
-                if let Some((jacobian, _, slopes)) = in_contact.find(|(it, ..)| it[(index, index)] != 0.0) {
-                    fastest = fastest.max(fastest_of(&jacobian));
-                    // And where it neither grows nor falls: at its limit, an exponent below one makes it come back much faster. There it
-                    // has to be stable only, since it is at rest.
-                    let sign = slopes[index].signum();
-                    let falls = |by: &f64| sign * at(sign * by).2[index] <= 0.0;
-                    if let Some(beyond) = doubled().find(falls) {
-                        let (mut below, mut limit) = (0.0, beyond);
-                        for _ in 0..HALVED {
-                            let middle = 0.5 * (below + limit);
-                            *(if falls(&middle) { &mut limit } else { &mut below }) = middle;
+                let mut forces = std::iter::once(0.0).chain(doubled()).map(|by| (by, at(by)));
+                let Some((contact, jacobian)) = forces.find(|(_, it)| it[(index, index)] != 0.0) else {
+                    continue;
+                };
+                fastest = fastest.max(fastest_of(&jacobian));
+                let input = Bundle::from_fn(|i| Dual64::from(moving[i]));
+                let slope = |by: f64| {
+                    let state = displaced(&moved, by);
+                    let mut own = 0.0;
+                    slopes(&Bundle::from_fn(|i| Dual64::from(state[i])), &input).for_each(|row, slope| {
+                        if row == index {
+                            own = slope.re;
                         }
-                        fastest = fastest.max(ACCURATE / STABLE * fastest_of(&at(sign * limit).0));
-                    }
+                    });
+                    own
+                };
+                // With an exponent below one it comes back to where it slides much faster than it builds up. As it is at rest there, a step
+                // has to be stable only.
+                if let Some(sliding) = sliding(slope, contact) {
+                    fastest = fastest.max(ACCURATE / STABLE * fastest_of(&at(sliding)));
                 }
             }
             name if name.starts_with("hysteresis.") || name.ends_with(".follower") => {
@@ -108,6 +113,23 @@ pub(crate) fn rates<M: Model>(
     // The rational function of a delay is one only in steps well below it.
     let late = declared.iter().enumerate().filter(|(_, state)| state.name.contains(".delay."));
     [fastest, late.map(|(row, _)| resting.row(row).amax()).fold(0.0, f64::max)]
+}
+
+/// The force at which friction slides, where it neither grows nor falls: in the direction in which it grows at another force.
+fn sliding(slope: impl Fn(f64) -> f64, contact: f64) -> Option<f64> {
+    let sign = slope(contact).signum();
+    let falls = |by: &f64| sign * slope(sign * by) <= 0.0;
+    let (mut below, mut limit) = (0.0, doubled().find(falls)?);
+    for _ in 0..HALVED {
+        let middle = 0.5 * (below + limit);
+        *(if falls(&middle) { &mut limit } else { &mut below }) = middle;
+    }
+    Some(sign * limit)
+}
+
+/// A newton, doubled again and again.
+fn doubled() -> impl Iterator<Item = f64> {
+    std::iter::successors(Some(1.0), |by| Some(2.0 * by)).take(DOUBLED)
 }
 
 /// States and inputs where everything moves fast, one thing against the next, so that no two of them go together; an input as fast

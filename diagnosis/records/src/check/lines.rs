@@ -1,7 +1,7 @@
 //! Lines in the spectrum of one signal alone: hum, or what is faster than half the sampling rate and is folded by it.
 //!
 //! What moves a rig shows in its inputs, and what resonates in it is wider than a line. Where an input has lines itself (sines,
-//! repeated pseudo-random sequences) every bend in the rig makes more of them, and nothing is told.
+//! repeated pseudo-random sequences) every bend in the rig makes more of them, and nothing is reported.
 
 use std::ops::Range;
 
@@ -129,7 +129,7 @@ mod tests {
     const STEP: f64 = 1e-3;
     const COUNT: usize = 12_000;
 
-    /// What is told of signals of which the first one drives the others.
+    /// The problems of signals of which the first one drives the others.
     fn told(signals: &[Vec<f64>]) -> Vec<DataProblem> {
         let time: Vec<f64> = (0..signals[0].len()).map(|k| STEP * k as f64).collect();
         let channel = |(number, values): (usize, &Vec<f64>)| Channel {

@@ -3,9 +3,9 @@
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
-/// Share of its power that a line has to hold …
+/// Share of a signal's power that its line has to hold.
 const LINE: f64 = 0.4;
-/// … within so many bins to both sides.
+/// Bins to both sides of a line that belong to it.
 const WIDTH: usize = 3;
 /// Periods in the longest signal from which it is a line: what drifts has most of its power in the lowest bins.
 const PERIODS: usize = 4 * WIDTH;

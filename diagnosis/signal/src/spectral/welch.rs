@@ -41,7 +41,7 @@ pub fn periodogram(signal: &[f64]) -> Vec<f64> {
 
 /// The coherence of a signal with one that may drive it, `|S_xy|²/(S_xx S_yy)`.
 ///
-/// The limit is that of so many independent segments (G. C. Carter, Coherence and time delay estimation, Proc. IEEE
+/// The limit is that of as many independent segments (G. C. Carter, Coherence and time delay estimation, Proc. IEEE
 /// 75, 1987); Hann windows that overlap by half are correlated by a sixth.
 pub fn coherence(signal: &[f64], drive: &[f64], step: f64) -> Coherence {
     let length = longest(signal.len().min(drive.len()), AVERAGED);
@@ -64,7 +64,7 @@ pub fn coherence(signal: &[f64], drive: &[f64], step: f64) -> Coherence {
     }
 }
 
-/// The longest segment, a power of two, of which there are at least `count` in so many samples.
+/// The longest segment, a power of two, of which there are at least `count` in the samples.
 fn longest(samples: usize, count: usize) -> usize {
     let mut length = SEGMENT;
     while length > 2 && (count + 1) * length > 2 * samples {

@@ -2,7 +2,8 @@
 
 use maud::{Markup, html};
 
-use crate::report::findings::{DataProblem, Findings, NominalParameter, RecordRead};
+use crate::data::check::DataProblem;
+use crate::report::findings::{Findings, NominalParameter, RecordRead};
 use crate::report::words::records::read;
 use crate::report::words::{capitalised, count, digits, interval, number, percent, place, unit};
 
