@@ -250,12 +250,13 @@ impl Follower for Summed<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Between, models};
+    use crate::Between;
+    use strut_physics::rigs::FullCar;
 
     /// A car with its struts together, a drive over one wheel, and parameters with friction at both front struts.
     fn car() -> (Plant, Drive, Vec<f64>) {
         let places = ["front_left", "front_right", "rear_left", "rear_right"];
-        let plant = models::named("FullCar").unwrap().with_instances(Instance::of("strut", &places));
+        let plant = Plant::of::<FullCar>().with_instances(Instance::of("strut", &places));
         let mut inputs: Vec<Vec<f64>> = std::iter::repeat_n(vec![0.0; 200], plant.inputs.len()).collect();
         inputs[0] = (0..200).map(|k| 0.01 * (0.1 * f64::from(k)).sin()).collect();
         let drive = Drive { start: 0.0, step: 2e-3, inputs, finer: 1, between: Between::Lines };
@@ -290,7 +291,7 @@ mod tests {
         }
         let [one, other] = [&joint, &single].map(|it| dynamics.outputs(it, &start, &drive));
         assert_eq!(one, other);
-        let own = models::named("FullCar").unwrap().parameters.len();
+        let own = Plant::of::<FullCar>().parameters.len();
         assert_eq!(plant.own(&joint), single[..own]);
         assert!(plant.parameters[own..].iter().all(|it| !it.port));
         let damping = plant.parameter("strut.front.damping").unwrap();

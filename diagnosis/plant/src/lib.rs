@@ -7,6 +7,8 @@ mod foreign;
 mod integrate;
 mod jet;
 mod joint;
+// The unit tests name the models that they need: to compile all of them takes long.
+#[cfg(not(test))]
 pub mod models;
 mod pace;
 mod steps;

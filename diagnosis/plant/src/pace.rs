@@ -160,18 +160,18 @@ fn range<M: Model>(
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use strut_physics::rigs::QuarterCar;
+    use strut_physics::rigs::{ElementDyno, QuarterCar};
 
     use super::*;
     use crate::integrate::Run;
-    use crate::{Between, Seed, models};
+    use crate::{Between, Plant, Seed};
 
     const SAMPLES: usize = 3000;
     const STEP: f64 = 1e-3;
 
     /// A rig's outputs on a road, and how many steps they took.
     fn driven(named: &[(&str, f64)], finest: bool) -> (Vec<Vec<f64>>, usize) {
-        let plant = models::named("QuarterCar").unwrap();
+        let plant = Plant::of::<QuarterCar>();
         let model = QuarterCar::prepare(&strut_model::Settings::starts(), None).unwrap();
         let mut parameters: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
         for (name, value) in named {
@@ -249,7 +249,7 @@ mod tests {
     /// While it slides, it is at its limit: what changes there is gone within a hundredth of a sample, and no derivative may grow.
     #[test]
     fn derivatives_of_friction_that_slides_are_those_of_differences() {
-        let plant = models::named("ElementDyno").unwrap();
+        let plant = Plant::of::<ElementDyno>();
         let mut parameters: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
         let at = |name: &str| plant.parameter(name).unwrap();
         for (name, value) in [

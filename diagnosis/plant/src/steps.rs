@@ -154,7 +154,8 @@ fn follow<M: Model, R: Scalar>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Between, models};
+    use crate::{Between, Plant};
+    use strut_physics::rigs::QuarterCar;
 
     /// Gives some states, and counts how often it is handed the next ones.
     struct Given {
@@ -186,7 +187,7 @@ mod tests {
 
     /// Outputs, and how often states were integrated, of a quarter car whose bodies' motions are given.
     fn followed(friction: f64, asks: bool) -> (Vec<f64>, usize) {
-        let plant = models::named("QuarterCar").unwrap();
+        let plant = Plant::of::<QuarterCar>();
         let mut parameters: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
         parameters[plant.parameter("hysteresis.presliding.force").unwrap()] = friction;
         let start: Vec<f64> = plant.states.iter().map(|it| it.start).collect();

@@ -111,7 +111,7 @@ fn filtered(values: &[f64], noise: f64, factor: usize) -> Vec<f64> {
     if (noise == 0.0 && factor == 1) || values.len() < 16 {
         return values.to_vec();
     }
-    let (line, deviation) = about_line(values, |spectrum| {
+    let (line, deviation) = about_line(values, &mut |spectrum| {
         gains(spectrum, noise, factor).into_iter().map(Complex::from).collect()
     });
     (0..values.len()).step_by(factor).map(|k| deviation[k] + line.at(k)).collect()
@@ -124,12 +124,12 @@ fn error(values: &[f64], noise: f64, (denoised, factor): (bool, usize), channel:
     }
     let mut own = Vec::new();
     let signal = filled(values).unwrap_or_else(|| values.to_vec());
-    about_line(&signal, |spectrum| {
+    about_line(&signal, &mut |spectrum| {
         own = gains(spectrum, if denoised { noise } else { 0.0 }, factor);
         own.iter().map(|gain| Complex::from(*gain)).collect()
     });
     let drawn = with_noise(&vec![0.0; values.len()], noise, channel);
-    let (line, deviation) = about_line(&drawn, |_| own.into_iter().map(Complex::from).collect());
+    let (line, deviation) = about_line(&drawn, &mut |_| own.iter().copied().map(Complex::from).collect());
     (0..values.len()).step_by(factor).map(|k| deviation[k] + line.at(k)).collect()
 }
 

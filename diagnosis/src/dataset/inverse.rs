@@ -176,7 +176,7 @@ fn relevant(record: &Dataset, values: &[f64]) -> f64 {
     let of = |section: &Range<usize>| {
         let part = filled(&values[section.clone()]).filter(|it| it.len() >= 16)?;
         let mut top = 0.0;
-        about_line(&part, |spectrum| {
+        about_line(&part, &mut |spectrum| {
             let len = spectrum.len();
             let power: Vec<f64> = spectrum[..=len / 2].iter().map(Complex::norm_sqr).collect();
             let (total, mut beyond) = (power.iter().sum::<f64>(), 0.0);

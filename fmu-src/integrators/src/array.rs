@@ -48,8 +48,12 @@ impl<const N: usize> Array for [f64; N] {
     }
 
     #[inline]
-    fn from_fn(f: impl FnMut(usize) -> f64) -> Self {
-        std::array::from_fn(f)
+    fn from_fn(mut f: impl FnMut(usize) -> f64) -> Self {
+        let mut array = [0.0; N];
+        for (i, element) in array.iter_mut().enumerate() {
+            *element = f(i);
+        }
+        array
     }
 
     #[inline]
@@ -80,7 +84,8 @@ impl<const N: usize> Square<[f64; N]> for SMatrix<f64, N, N> {
     }
 
     fn invert(&mut self) -> bool {
-        self.try_inverse_mut()
+        // By the same way for all sizes: the formulas that nalgebra has for small ones are long, and each model compiles them all.
+        nalgebra::try_invert_to(*self, self)
     }
 
     #[inline]

@@ -147,6 +147,30 @@ pub trait Bundle<R>: Copy {
     }
 }
 
+/// An array of variables, at least one; what the derived implementations of [`Bundle`] are made of.
+///
+/// By a loop, as [`each`] is: the closures of `array::from_fn` and `array::map` are compiled once more for each field of each model.
+#[doc(hidden)]
+#[inline]
+pub fn elements<R: Copy, const N: usize>(next: &mut impl FnMut() -> R) -> [R; N] {
+    let mut elements = [next(); N];
+    for element in &mut elements[1..] {
+        *element = next();
+    }
+    elements
+}
+
+/// The same part of each of several bundles, at least one.
+#[doc(hidden)]
+#[inline(always)]
+pub fn each<'a, B, T, const N: usize>(bundles: [&'a B; N], part: impl Fn(&'a B) -> &'a T) -> [&'a T; N] {
+    let mut parts = [part(bundles[0]); N];
+    for i in 1..N {
+        parts[i] = part(bundles[i]);
+    }
+    parts
+}
+
 /// No variables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoVariables;

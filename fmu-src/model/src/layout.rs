@@ -6,7 +6,7 @@ use strut_integrators::Method;
 
 use crate::{
     Bundle, Choice, Declaration, Declarations, Error, Model, SettingDeclaration, SettingKind, Settings,
-    Value, Variables,
+    Value, Variables, setting::Setting,
 };
 
 /// How the integration is controlled; the user sees it as parameters.
@@ -84,6 +84,10 @@ impl<M: Model> Layout<M> {
     /// A model without states needs no solver.
     pub const SOLVER: usize = if Self::STATES == 0 { 0 } else { Solver::<f64>::COUNT };
 
+    /// The model's settings and those of the solver.
+    pub const SETTINGS: usize =
+        M::Settings::COUNT + if Self::STATES == 0 { 0 } else { <SolverSettings as Settings>::COUNT };
+
     /// Section and length, in the order of the value references.
     pub const SECTIONS: [(Section, usize); 7] = [
         (Section::Input, Self::INPUTS),
@@ -108,11 +112,6 @@ impl<M: Model> Layout<M> {
         Err(Error::UnknownReference { kind: "real", reference, model: M::ABOUT.name })
     }
 
-    /// First value reference of a section.
-    pub fn first(section: Section) -> usize {
-        Self::SECTIONS.iter().take_while(|(other, _)| *other != section).map(|(_, len)| len).sum()
-    }
-
     /// What is declared about a section's variables. The rates are declared by the states.
     pub fn declarations(section: Section) -> Vec<Declaration> {
         match section {
@@ -132,22 +131,62 @@ impl<M: Model> Layout<M> {
         }
     }
 
-    /// Name of a real variable, for messages.
-    pub fn name(reference: u32) -> String {
-        match Self::locate(reference) {
-            Ok((Section::Rate, index)) => rate_name(&Self::declarations(Section::Rate)[index].name),
-            Ok((section, index)) => Self::declarations(section)[index].name.clone(),
-            Err(_) => format!("#{reference}"),
+    /// All that is declared.
+    pub fn declared() -> Declared {
+        let mut settings = M::Settings::declare();
+        let starts = M::Settings::starts();
+        let mut setting_starts: Vec<Value> = (0..).map_while(|index| starts.get(index)).collect();
+        if Self::STATES > 0 {
+            settings.extend(SolverSettings::declare());
+            setting_starts.push(SolverMethod::from(M::ABOUT.method).value());
+        }
+        Declared {
+            model: M::ABOUT.name,
+            sections: Self::SECTIONS.map(|(section, _)| (section, Self::declarations(section))),
+            settings,
+            own_settings: M::Settings::COUNT,
+            setting_starts,
         }
     }
+}
 
-    /// The model's settings and those of the solver.
-    pub fn settings() -> Vec<SettingDeclaration> {
-        let mut list = M::Settings::declare();
-        if Self::STATES > 0 {
-            list.extend(SolverSettings::declare());
-        }
+/// All that a model declares, without the model's type: what is made of it is compiled once, and not for each model.
+pub(crate) struct Declared {
+    /// The model's name.
+    pub model: &'static str,
+    /// The real variables in the order of their references. The rates are declared by the states.
+    pub sections: [(Section, Vec<Declaration>); 7],
+    /// The model's settings and, after them, the solver's.
+    pub settings: Vec<SettingDeclaration>,
+    /// How many of the settings are the model's own.
+    pub own_settings: usize,
+    /// The declared values of the settings.
+    pub setting_starts: Vec<Value>,
+}
+
+impl Declared {
+    /// First value reference of a section.
+    pub fn first(&self, section: Section) -> usize {
+        self.sections.iter().take_while(|(other, _)| *other != section).map(|(_, list)| list.len()).sum()
+    }
+
+    /// What is declared about a section's variables.
+    pub fn section(&self, section: Section) -> &[Declaration] {
+        let (_, list) = self.sections.iter().find(|(other, _)| *other == section).expect("all are listed");
         list
+    }
+
+    /// Name of a real variable, for messages.
+    pub fn name(&self, reference: u32) -> String {
+        let mut index = reference as usize;
+        for (section, list) in &self.sections {
+            match list.get(index) {
+                Some(declaration) if *section == Section::Rate => return rate_name(&declaration.name),
+                Some(declaration) => return declaration.name.clone(),
+                None => index -= list.len(),
+            }
+        }
+        format!("#{reference}")
     }
 }
 

@@ -28,6 +28,8 @@ mod tanh;
 pub mod unit;
 
 pub use bundle::{Bundle, Declaration, Declarations, NoVariables};
+#[doc(hidden)]
+pub use bundle::{each, elements};
 pub use dependencies::Dependencies;
 pub use entry::{Entry, Inputs, Instance, Trajectory};
 pub use error::Error;

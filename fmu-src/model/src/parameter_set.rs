@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use toml::{Table, Value as Toml};
 
 use crate::{
-    Declaration, Error, Model, SettingKind, Value,
-    layout::{Layout, Section, display, expected},
+    Declaration, Error, SettingKind, Value,
+    layout::{Declared, Section, display, expected},
     unit::{self, OwnedUnit},
 };
 
@@ -166,49 +166,51 @@ pub(crate) struct Starts {
 }
 
 impl Starts {
+    /// That of a real variable; zero if it has none.
+    pub fn real(&self, reference: usize) -> f64 {
+        self.reals.get(&(reference as u32)).copied().unwrap_or(0.0)
+    }
+
     /// # Errors
     /// If the set names a variable that does not exist or gives a value of a wrong type or unit, or out of bounds.
-    pub fn of<M: Model>(declared_settings: Vec<Value>, set: Option<&ParameterSet>) -> Result<Self, Error> {
+    pub fn of(all: &Declared, set: Option<&ParameterSet>) -> Result<Self, Error> {
+        let name = all.model;
         if let Some(ParameterSet { fmu, model, .. }) = set
-            && model != M::ABOUT.name
+            && model != name
         {
-            let name = M::ABOUT.name;
             return Err(Error::Refused(format!(
                 "the parameter set of {fmu} is one for the model {model}, not for {name}"
             )));
         }
-        let mut settings = declared_settings;
-        let mut declared: Vec<(u32, Declaration)> = Vec::new();
+        let mut settings = all.setting_starts.clone();
+        let mut declared: Vec<(u32, &Declaration)> = Vec::new();
         for section in [Section::Input, Section::State, Section::Parameter, Section::Solver] {
-            declared.extend((Layout::<M>::first(section) as u32..).zip(Layout::<M>::declarations(section)));
+            declared.extend((all.first(section) as u32..).zip(all.section(section)));
         }
         let mut reals: BTreeMap<u32, f64> =
             declared.iter().map(|(reference, declaration)| (*reference, declaration.start)).collect();
-        let outputs = Layout::<M>::declarations(Section::Output);
-        for name in set.iter().flat_map(|set| set.units.keys()) {
-            let mut all = declared.iter().map(|(_, declaration)| declaration).chain(&outputs);
-            let found = all.find(|declaration| declaration.name == *name);
+        let outputs = all.section(Section::Output);
+        for variable in set.iter().flat_map(|set| set.units.keys()) {
+            let mut reals = declared.iter().map(|(_, declaration)| *declaration).chain(outputs);
+            let found = reals.find(|declaration| declaration.name == *variable);
             if found.is_none_or(|declaration| declaration.unit != unit::ANY) {
                 return Err(Error::Refused(format!(
-                    "{} has no variable `{name}` whose unit a parameter set gives",
-                    M::ABOUT.name
+                    "{name} has no variable `{variable}` whose unit a parameter set gives"
                 )));
             }
         }
-        let setting_declarations = Layout::<M>::settings();
-        for (name, given) in set.iter().flat_map(|set| &set.values) {
+        for (variable, given) in set.iter().flat_map(|set| &set.values) {
             if let Some((reference, declaration)) =
-                declared.iter().find(|(_, declaration)| declaration.name == *name)
+                declared.iter().find(|(_, declaration)| declaration.name == *variable)
             {
-                let unit = set.and_then(|set| set.units.get(name)).map(|unit| &*unit.symbol);
+                let unit = set.and_then(|set| set.units.get(variable)).map(|unit| &*unit.symbol);
                 reals.insert(*reference, real(declaration, unit, given)?);
-            } else if let Some(index) = setting_declarations.iter().position(|setting| setting.name == name) {
-                settings[index] = setting(&setting_declarations[index], given)?;
+            } else if let Some(index) = all.settings.iter().position(|setting| setting.name == variable) {
+                settings[index] = setting(&all.settings[index], given)?;
             } else {
                 let names = declared.iter().map(|(_, declaration)| declaration.name.as_str());
-                let similar =
-                    similar(name, names.chain(setting_declarations.iter().map(|setting| setting.name)));
-                return Err(Error::UnknownName { name: name.clone(), model: M::ABOUT.name, similar });
+                let similar = similar(variable, names.chain(all.settings.iter().map(|setting| setting.name)));
+                return Err(Error::UnknownName { name: variable.clone(), model: name, similar });
             }
         }
         Ok(Self { reals, settings })

@@ -82,7 +82,7 @@ macro_rules! bundle_of {
             }
             #[inline]
             fn combine<const N: usize>(&self, others: [&Self; N], f: &mut impl FnMut(&R, [&R; N]) -> R) -> Self {
-                Self { $($field: Bundle::<R>::combine(&self.$field, others.map(|it| &it.$field), f)),* }
+                Self { $($field: Bundle::<R>::combine(&self.$field, strut_model::each(others, |it| &it.$field), f)),* }
             }
             fn declare(declarations: &mut Declarations) {
                 $(declarations.group::<$group<f64>>(stringify!($field), $doc);)*

@@ -24,14 +24,14 @@ pub mod waveform;
 #[cfg(test)]
 mod testing;
 
-#[cfg(feature = "catalogue")]
+#[cfg(all(feature = "catalogue", not(test)))]
 use strut_model::Entry;
 
 /// Standard acceleration of gravity in m/s².
 pub const GRAVITY: f64 = 9.80665;
 
-/// All models. A static, so that they are compiled once and not by everyone who looks into it.
-#[cfg(feature = "catalogue")]
+/// All models. A static, so that they are compiled once and not by everyone who looks into it; no unit test does.
+#[cfg(all(feature = "catalogue", not(test)))]
 pub static CATALOGUE: &[Entry] = &[
     Entry::of::<rigs::QuarterCar>(),
     Entry::of::<rigs::FullCar>(),

@@ -109,11 +109,12 @@ fn renamed(name: &str, start: &str, other: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::models;
+    use crate::Plant;
+    use strut_physics::rigs::{ElementDyno, LinearDrive, QuarterCar};
 
     /// The bench's parameters.
     fn bench() -> Vec<String> {
-        models::named("ElementDyno").unwrap().parameters.into_iter().map(|it| it.name).collect()
+        Plant::of::<ElementDyno>().parameters.into_iter().map(|it| it.name).collect()
     }
 
     #[test]
@@ -141,7 +142,7 @@ mod tests {
     /// The effects of the catalogue have the names of the library's rigs.
     #[test]
     fn guides_and_tyre_are_called_as_in_a_rig_of_the_library() {
-        let own = [models::named("QuarterCar").unwrap(), models::named("LinearDrive").unwrap()];
+        let own = [Plant::of::<QuarterCar>(), Plant::of::<LinearDrive>()];
         for role in Role::ALL {
             for name in bench().iter().filter_map(|it| role.beside(it)) {
                 assert!(own.iter().any(|it| it.parameter(&name).is_some()), "{name}");

@@ -28,7 +28,7 @@ impl Line {
 /// If there are fewer than two samples.
 pub fn about_line(
     values: &[f64],
-    gains: impl FnOnce(&[Complex<f64>]) -> Vec<Complex<f64>>,
+    gains: &mut dyn FnMut(&[Complex<f64>]) -> Vec<Complex<f64>>,
 ) -> (Line, Vec<f64>) {
     let n = values.len();
     let line = Line { first: values[0], slope: (values[n - 1] - values[0]) / (n - 1) as f64 };
@@ -54,7 +54,7 @@ pub fn in_band(values: &[f64], step: f64, top: f64, order: i32) -> Vec<f64> {
     if values.len() < 2 {
         return vec![0.0; values.len()];
     }
-    let (line, deviation) = about_line(values, |spectrum| {
+    let (line, deviation) = about_line(values, &mut |spectrum| {
         let len = spectrum.len();
         let gain = |bin: usize| {
             let bin = if 2 * bin > len { bin as f64 - len as f64 } else { bin as f64 };

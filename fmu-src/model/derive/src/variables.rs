@@ -41,7 +41,7 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
             count.push(quote!(1));
             gather.push(quote!(#ident: next()));
             scatter.push(quote!(put(self.#ident);));
-            combine.push(quote!(#ident: f(&self.#ident, others.map(|it| &it.#ident))));
+            combine.push(quote!(#ident: f(&self.#ident, ::strut_model::each(others, |it| &it.#ident))));
             declare.push(quote!(declarations.variable(::strut_model::Declaration {
                 name: #text.into(), doc: #doc.into(), unit: #unit, start: #start,
                 min: #min, max: #max, nominal: #nominal, fixed: #fixed, output: #output, port: #port,
@@ -56,11 +56,15 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
                 same => same.to_token_stream(),
             };
             count.push(quote!(#length));
-            gather.push(quote!(#ident: ::core::array::from_fn(|_| next())));
+            gather.push(quote!(#ident: ::strut_model::elements(next)));
             scatter.push(quote!(self.#ident.into_iter().for_each(&mut *put);));
-            combine.push(quote!(#ident: ::core::array::from_fn(|i| {
-                f(&self.#ident[i], others.map(|it| &it.#ident[i]))
-            })));
+            combine.push(quote!(#ident: {
+                let mut index = 0;
+                ::strut_model::elements(&mut || {
+                    index += 1;
+                    f(&self.#ident[index - 1], ::strut_model::each(others, |it| &it.#ident[index - 1]))
+                })
+            }));
             declare.push(quote!(for index in 0..#length {
                 declarations.variable(::strut_model::Declaration {
                     name: format!("{}[{}]", #text, index + 1), doc: format!("{}, {}", #doc, index + 1),
@@ -75,7 +79,7 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
             gather.push(quote!(#ident: <#ty as ::strut_model::Bundle<#scalar>>::gather(next)));
             scatter.push(quote!(::strut_model::Bundle::<#scalar>::scatter(&self.#ident, put);));
             combine.push(quote!(#ident: ::strut_model::Bundle::<#scalar>::combine(
-                &self.#ident, others.map(|it| &it.#ident), f,
+                &self.#ident, ::strut_model::each(others, |it| &it.#ident), f,
             )));
             declare.push(match group(field)? {
                 Group::Flattened => quote!(<#concrete as ::strut_model::Bundle<f64>>::declare(declarations);),

@@ -13,9 +13,8 @@ use uuid::Uuid;
 use crate::{
     About, Bundle, Declaration, Enumeration, Error, Model, ParameterSet, SettingDeclaration, SettingKind,
     Settings, Value,
-    layout::{Layout, Section, SolverMethod, rate_name},
+    layout::{Declared, Layout, Section, rate_name},
     parameter_set::Starts,
-    setting::Setting,
     unit::OwnedUnit,
 };
 
@@ -179,35 +178,45 @@ impl Interface {
     /// # Errors
     /// If the parameter set does not fit the declarations or the model refuses it.
     pub fn of<M: Model>(set: Option<&ParameterSet>, resources: Option<&Path>) -> Result<Self, Error> {
-        let starts = Starts::of::<M>(declared_settings::<M>(), set)?;
+        let declared = Layout::<M>::declared();
+        let starts = Starts::of(&declared, set)?;
         let mut settings = M::Settings::starts();
         for (index, value) in starts.settings.iter().enumerate() {
             // The solver's settings follow the model's; they have no part in the structure.
             let _ = settings.set(index, value.clone());
         }
         let dependency = Dependency::of::<M>(&settings, resources)?;
+        let sampled = <M::Memory<f64> as Bundle<f64>>::LEN > 0;
+        Ok(Self::made_of(M::ABOUT, &declared, (set, starts), &dependency, sampled))
+    }
+
+    fn made_of(
+        about: About,
+        declared: &Declared,
+        (set, starts): (Option<&ParameterSet>, Starts),
+        dependency: &Dependency,
+        sampled: bool,
+    ) -> Self {
         let (mut variables, mut tables) = (Vec::new(), Vec::new());
-        for (section, _) in Layout::<M>::SECTIONS {
-            let list = Layout::<M>::declarations(section);
-            let first = Layout::<M>::first(section);
-            tables.extend(numbering::tables(section, first, &list));
-            variables.extend(list.into_iter().enumerate().map(|(index, declaration)| {
+        for (section, list) in &declared.sections {
+            let first = declared.first(*section);
+            tables.extend(numbering::tables(*section, first, list));
+            variables.extend(list.iter().enumerate().map(|(index, declaration)| {
                 let reference = (first + index) as u32;
                 let start = starts.reals.get(&reference).copied();
                 let given = set.and_then(|set| set.units.get(&declaration.name)).cloned();
-                real(section, reference, declaration, start, given, (&dependency, index))
+                real(*section, reference, declaration.clone(), start, given, (dependency, index))
             }));
         }
-        for index in 0..Layout::<M>::STATES {
-            let state = Layout::<M>::first(Section::State) + index;
-            let rate = Layout::<M>::first(Section::Rate) + index;
+        let states = declared.section(Section::State).len();
+        for index in 0..states {
+            let state = declared.first(Section::State) + index;
+            let rate = declared.first(Section::Rate) + index;
             if let VariableKind::Real { derivative_of, .. } = &mut variables[rate].kind {
                 *derivative_of = Some(state);
             }
         }
-        for (reference, (declaration, value)) in
-            Layout::<M>::settings().iter().zip(starts.settings).enumerate()
-        {
+        for (reference, (declaration, value)) in declared.settings.iter().zip(starts.settings).enumerate() {
             variables.push(setting(reference as u32, declaration, value));
         }
         // Who sees the value in a tool must see that its source does not give it.
@@ -216,12 +225,10 @@ impl Interface {
                 variable.doc.push_str(" (value assumed)");
             }
         }
-        let structure = Structure::new::<M>(&dependency, &variables);
+        let structure = Structure::new(declared, dependency, &variables);
         let event_indicators = dependency.event_indicators;
-        let (about, states) = (M::ABOUT, Layout::<M>::STATES);
-        let sampled = <M::Memory<f64> as Bundle<f64>>::LEN > 0;
-        let timely = Timely::new::<M>(&dependency);
-        Ok(Self { about, variables, structure, timely, states, event_indicators, tables, sampled })
+        let timely = Timely::new(declared, dependency);
+        Self { about, variables, structure, timely, states, event_indicators, tables, sampled }
     }
 
     /// An identifier of all that is declared, start values included: the library computes it from the
@@ -237,16 +244,6 @@ impl Interface {
     pub fn variable(&self, name: &str) -> Option<&Variable> {
         self.variables.iter().find(|variable| variable.name == name)
     }
-}
-
-/// Declared values of the model's settings and, after them, the solver's.
-pub(crate) fn declared_settings<M: Model>() -> Vec<Value> {
-    let settings = M::Settings::starts();
-    let mut values: Vec<Value> = (0..).map_while(|index| settings.get(index)).collect();
-    if Layout::<M>::STATES > 0 {
-        values.push(SolverMethod::from(M::ABOUT.method).value());
-    }
-    values
 }
 
 fn real(

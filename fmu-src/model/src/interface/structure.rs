@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::{
     Bundle, Dependencies, Error, Instant, Model, SettingDeclaration, SettingKind, Settings, Value,
-    layout::{Layout, Section},
+    layout::{Declared, Layout, Section},
     simulation::indicators::count,
 };
 
@@ -26,6 +26,9 @@ pub struct Dependency {
     /// Positions of the known quantities.
     knowns: Knowns,
 }
+
+/// Runs a model's equations with the given settings, or with another value of the one of an index.
+type Unite<'a> = &'a mut dyn FnMut(&mut Dependency, Option<(usize, Value)>) -> Result<usize, String>;
 
 /// Numbering of the known quantities.
 #[derive(Clone, Copy, Debug)]
@@ -66,28 +69,32 @@ impl Dependency {
             event_indicators: 0,
             knowns,
         };
-        let model = M::prepare(settings, resources).map_err(Error::Refused)?;
-        dependency.unite(&model);
-        let kinks = count(&model);
-        dependency.event_indicators = kinks;
-        for (index, declaration) in M::Settings::declare().iter().enumerate() {
-            let mut most = kinks;
-            for value in choices(declaration) {
-                let mut other = settings.clone();
-                // A choice that the model refuses (a file that is not there) has no dependencies.
-                if other.set(index, value).is_some()
-                    && let Ok(model) = M::prepare(&other, resources)
-                {
-                    dependency.unite(&model);
-                    most = most.max(count(&model));
-                }
+        dependency.over_all_choices(&M::Settings::declare(), &mut |dependency, choice| {
+            let mut settings = settings.clone();
+            if let Some((index, value)) = choice {
+                settings.set(index, value).ok_or("the setting cannot have this value")?;
             }
+            let model = M::prepare(&settings, resources)?;
+            dependency.unite(&model);
+            Ok(count(&model))
+        })?;
+        Ok(dependency)
+    }
+
+    /// `unite` adds what the equations depend on, and counts the kinks.
+    fn over_all_choices(&mut self, settings: &[SettingDeclaration], unite: Unite<'_>) -> Result<(), Error> {
+        let kinks = unite(self, None).map_err(Error::Refused)?;
+        self.event_indicators = kinks;
+        for (index, declaration) in settings.iter().enumerate() {
+            // A choice that the model refuses (a file that is not there) has no dependencies.
+            let others = choices(declaration).into_iter();
+            let most = others.filter_map(|value| unite(self, Some((index, value))).ok()).max();
             // Several settings may be changed together.
-            dependency.event_indicators += most - kinks;
+            self.event_indicators += most.map_or(0, |most| most.saturating_sub(kinks));
         }
         // At least one: some importers set inputs only where they ask for event indicators.
-        dependency.event_indicators = dependency.event_indicators.max(1);
-        Ok(dependency)
+        self.event_indicators = self.event_indicators.max(1);
+        Ok(())
     }
 
     fn unite<M: Model>(&mut self, model: &M) {
@@ -153,12 +160,12 @@ pub struct Timely {
 }
 
 impl Timely {
-    pub(super) fn new<M: Model>(dependency: &Dependency) -> Self {
+    pub(super) fn new(declared: &Declared, dependency: &Dependency) -> Self {
         let of = |sections: [(Section, &[Dependencies]); 2]| -> Vec<usize> {
             let time = dependency.knowns.time();
             let sections = sections.into_iter();
             let found = sections.flat_map(|(section, sets)| {
-                let first = Layout::<M>::first(section);
+                let first = declared.first(section);
                 sets.iter().enumerate().filter(|(_, set)| set.contains(time)).map(move |(i, _)| first + i)
             });
             found.collect()
@@ -172,9 +179,9 @@ impl Timely {
 }
 
 impl Structure {
-    pub(super) fn new<M: Model>(dependency: &Dependency, variables: &[Variable]) -> Self {
+    pub(super) fn new(declared: &Declared, dependency: &Dependency, variables: &[Variable]) -> Self {
         let Dependency { knowns, .. } = *dependency;
-        let first = Layout::<M>::first;
+        let first = |section| declared.first(section);
         // Real variables come first and in the order of their references: reference and position are one.
         let position = |known: usize| {
             if known < knowns.inputs {
@@ -201,10 +208,9 @@ impl Structure {
         initial_unknowns.extend(at(Section::Rate, &dependency.rates, all));
         initial_unknowns.extend(at(Section::Derived, &dependency.derived, all));
         // What a setting does to the structure cannot be traced: everything may depend on each of the model's own.
-        let own = M::Settings::declare().len();
-        let settings = variables.len() - Layout::<M>::settings().len();
+        let settings = variables.len() - declared.settings.len();
         for (_, dependencies) in &mut initial_unknowns {
-            dependencies.extend(settings..settings + own);
+            dependencies.extend(settings..settings + declared.own_settings);
         }
         Self { outputs, derivatives: at(Section::Rate, &dependency.rates, continuous), initial_unknowns }
     }

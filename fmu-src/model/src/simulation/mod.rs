@@ -17,7 +17,6 @@ use strut_integrators::{Array, Integrator, InvalidSettings, SolverStats, System}
 use crate::{
     Bundle, Error, Instant, Model, ParameterSet, Settings,
     bundle::from_slice,
-    interface::declared_settings,
     layout::{InputArray, Layout, OutputArray, Section, Solver, SolverSettings, StateArray},
     parameter_set::Starts,
 };
@@ -66,20 +65,17 @@ impl<M: Model> Simulation<M> {
     /// If the parameter set does not fit the declarations. Whether the model accepts its settings and
     /// parameters is told by [`initialize`](Self::initialize).
     pub fn new(set: Option<&ParameterSet>, resources: Option<&Path>) -> Result<Self, Error> {
-        let starts = Starts::of::<M>(declared_settings::<M>(), set)?;
+        let declared = Layout::<M>::declared();
+        let starts = Starts::of(&declared, set)?;
         let mut settings = M::Settings::starts();
         let mut solver_settings = SolverSettings::starts();
-        let own = M::Settings::declare().len();
-        for (index, value) in starts.settings.into_iter().enumerate() {
-            let _checked = if index < own {
-                settings.set(index, value)
-            } else {
-                solver_settings.set(index - own, value)
+        for (index, value) in starts.settings.iter().enumerate() {
+            let _checked = match index.checked_sub(declared.own_settings) {
+                None => settings.set(index, value.clone()),
+                Some(rest) => solver_settings.set(rest, value.clone()),
             };
         }
-        let value = |section: Section, index: usize| {
-            starts.reals.get(&((Layout::<M>::first(section) + index) as u32)).copied().unwrap_or(0.0)
-        };
+        let value = |section: Section, index: usize| starts.real(declared.first(section) + index);
         let parameters = Bundle::from_fn(|i| value(Section::Parameter, i));
         let solver = Bundle::from_fn(|i| value(Section::Solver, i));
         let memory = crate::Declarations::of::<M::Memory<f64>>();

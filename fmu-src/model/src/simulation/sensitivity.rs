@@ -40,7 +40,7 @@ impl<M: Model> Simulation<M> {
                 (Section::Parameter, index) => seeds.parameter.as_mut_slice()[index] += amount,
                 _ => {
                     return Err(Error::NotSettable {
-                        name: Layout::<M>::name(*reference),
+                        name: Layout::<M>::declared().name(*reference),
                         reason: "derivatives are taken with respect to inputs, states and parameters only",
                     });
                 }
@@ -56,7 +56,7 @@ impl<M: Model> Simulation<M> {
                 Section::Derived => derived.as_slice()[index],
                 Section::Input | Section::Parameter | Section::Solver => {
                     return Err(Error::NotSettable {
-                        name: Layout::<M>::name(*reference),
+                        name: Layout::<M>::declared().name(*reference),
                         reason: "derivatives are taken of outputs, states, state derivatives and calculated parameters only",
                     });
                 }
@@ -80,7 +80,7 @@ impl<M: Model> Simulation<M> {
             Seeds::<M> { input: self.input.rates(self.time), state: self.rates, parameter: Array::zeros() };
         let (_, output, _) = self.varied(&seeds, 1.0);
         for ((reference, order), value) in references.iter().zip(orders).zip(values) {
-            let name = || Layout::<M>::name(*reference);
+            let name = || Layout::<M>::declared().name(*reference);
             if *order != 1 {
                 return Err(Error::Order {
                     name: name(),

@@ -83,7 +83,7 @@ impl<M: Model> Snapshot<M> {
         bytes.extend(self.words.iter().flat_map(|word| word.to_le_bytes()));
         let own = (0..).map_while(|index| self.settings.get(index));
         let solver = (0..).map_while(|index| self.solver_settings.get(index));
-        for value in own.chain(solver).take(Layout::<M>::settings().len()) {
+        for value in own.chain(solver).take(Layout::<M>::SETTINGS) {
             match value {
                 Value::Real(number) => bytes.extend(number.to_le_bytes()),
                 Value::Integer(number) => bytes.extend(number.to_le_bytes()),
@@ -114,8 +114,8 @@ impl<M: Model> Snapshot<M> {
         let words = (0..count).map(|_| take(&mut bytes).map(u64::from_le_bytes)).collect::<Option<_>>()?;
         let mut settings = M::Settings::starts();
         let mut solver_settings = SolverSettings::starts();
-        let own = M::Settings::declare().len();
-        for index in 0..Layout::<M>::settings().len() {
+        let own = M::Settings::COUNT;
+        for index in 0..Layout::<M>::SETTINGS {
             if index < own {
                 let value = read_like(&settings.get(index)?, &mut bytes)?;
                 settings.set(index, value)?;

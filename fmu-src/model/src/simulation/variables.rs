@@ -5,7 +5,7 @@ use strut_integrators::Array;
 use crate::{
     Error, Model, Settings, Value,
     bundle::{from_slice, to_array},
-    layout::{Layout, Section, check_bounds, display, expected},
+    layout::{Declared, Layout, Section, check_bounds, display, expected},
 };
 
 use super::{Simulation, input::MAX_ORDER};
@@ -69,7 +69,7 @@ impl<M: Model> Simulation<M> {
                 Section::Parameter => to_array(&self.parameters).as_slice()[index],
                 Section::Solver => to_array(&self.solver).as_slice()[index],
                 Section::Output | Section::Rate | Section::Derived => {
-                    return Err(Error::NotCalculated { name: Layout::<M>::name(*reference) });
+                    return Err(Error::NotCalculated { name: Layout::<M>::declared().name(*reference) });
                 }
             };
         }
@@ -111,36 +111,7 @@ impl<M: Model> Simulation<M> {
         value: f64,
         access: Access,
     ) -> Result<(), Error> {
-        let refused = |reason| Err(Error::NotSettable { name: Layout::<M>::name(reference), reason });
-        let declaration = &Layout::<M>::declarations(section)[index];
-        match section {
-            Section::Input => return Err(Error::NotFinite { name: declaration.name.clone(), value }),
-            Section::Output => return refused("it is an output"),
-            Section::Rate => return refused("it is the derivative of a state"),
-            Section::Derived => return refused("it is calculated from parameters"),
-            Section::State if access.is_integrators() => {
-                return Err(Error::NotFinite { name: declaration.name.clone(), value });
-            }
-            Section::State if access < Access::All => {
-                return refused(
-                    "a state may be set until initialisation ends and, for model exchange, in Continuous-Time Mode only",
-                );
-            }
-            Section::Parameter if access == Access::Continuous => {
-                return refused(
-                    "parameters may be set before initialisation, at events and between steps only",
-                );
-            }
-            Section::Parameter if declaration.fixed && access < Access::All => {
-                return refused("it is a fixed parameter: set it before initialisation ends");
-            }
-            Section::Solver if access == Access::Continuous => {
-                return refused(
-                    "parameters may be set before initialisation, at events and between steps only",
-                );
-            }
-            Section::State | Section::Parameter | Section::Solver => check_bounds(declaration, value)?,
-        }
+        check_settable(&Layout::<M>::declared(), reference, (section, index), value, access)?;
         match section {
             Section::State => self.state.as_mut_slice()[index] = value,
             Section::Solver => {
@@ -170,7 +141,7 @@ impl<M: Model> Simulation<M> {
         values: &[f64],
     ) -> Result<(), Error> {
         for ((reference, order), value) in references.iter().zip(orders).zip(values) {
-            let name = || Layout::<M>::name(*reference);
+            let name = || Layout::<M>::declared().name(*reference);
             let (Section::Input, index) = Layout::<M>::locate(*reference)? else {
                 return Err(Error::NotSettable {
                     name: name(),
@@ -199,9 +170,8 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// For an unknown reference or a setting of another type.
     pub fn setting(&self, reference: u32, kind: &'static str) -> Result<Value, Error> {
-        let own = M::Settings::declare().len();
         let index = reference as usize;
-        let value = match index.checked_sub(own) {
+        let value = match index.checked_sub(M::Settings::COUNT) {
             None => self.settings.get(index),
             Some(rest) if Layout::<M>::STATES > 0 => self.solver_settings.get(rest),
             Some(_) => None,
@@ -221,14 +191,14 @@ impl<M: Model> Simulation<M> {
     pub fn set_setting(&mut self, reference: u32, value: Value, access: Access) -> Result<(), Error> {
         self.setting(reference, kind_of(&value))?;
         let index = reference as usize;
-        let declaration = Layout::<M>::settings()[index];
+        let Declared { settings, own_settings, .. } = Layout::<M>::declared();
+        let declaration = settings[index];
         if access == Access::Continuous || (access < Access::All && !declaration.tunable) {
             let reason = "it is a parameter that is fixed: set it before initialisation ends";
             return Err(Error::NotSettable { name: declaration.name.into(), reason });
         }
         let shown = display(&value);
-        let own = M::Settings::declare().len();
-        let done = match index.checked_sub(own) {
+        let done = match index.checked_sub(own_settings) {
             None => self.settings.set(index, value),
             Some(rest) => self.solver_settings.set(rest, value),
         };
@@ -269,6 +239,37 @@ impl<M: Model> Simulation<M> {
         self.evaluate()?;
         Ok(self.rates.as_slice())
     }
+}
+
+/// Refuses a variable that may not be set now, and a value that it cannot have.
+fn check_settable(
+    declared: &Declared,
+    reference: u32,
+    (section, index): (Section, usize),
+    value: f64,
+    access: Access,
+) -> Result<(), Error> {
+    let declaration = &declared.section(section)[index];
+    let reason = match section {
+        Section::Input => return Err(Error::NotFinite { name: declaration.name.clone(), value }),
+        Section::Output => "it is an output",
+        Section::Rate => "it is the derivative of a state",
+        Section::Derived => "it is calculated from parameters",
+        Section::State if access.is_integrators() => {
+            return Err(Error::NotFinite { name: declaration.name.clone(), value });
+        }
+        Section::State if access < Access::All => {
+            "a state may be set until initialisation ends and, for model exchange, in Continuous-Time Mode only"
+        }
+        Section::Parameter | Section::Solver if access == Access::Continuous => {
+            "parameters may be set before initialisation, at events and between steps only"
+        }
+        Section::Parameter if declaration.fixed && access < Access::All => {
+            "it is a fixed parameter: set it before initialisation ends"
+        }
+        Section::State | Section::Parameter | Section::Solver => return check_bounds(declaration, value),
+    };
+    Err(Error::NotSettable { name: declared.name(reference), reason })
 }
 
 /// Name of a value's type in messages; an enumeration's values are integers.
