@@ -122,7 +122,8 @@ fn folder(friction: &str) -> PathBuf {
 fn diagnosed(friction: &str) -> serde_json::Value {
     let folder = folder(friction);
     std::fs::create_dir_all(&folder).expect("the target folder can be written");
-    let arguments = [folder.as_os_str(), friction.as_ref()];
+    // A period of the excitation.
+    let arguments = [folder.as_os_str(), friction.as_ref(), "4".as_ref()];
     strut::python("examples/third-party/damper_records.py", arguments);
     let report = folder.join("report");
     let mut diagnose = std::process::Command::new(strut::program("diagnose"));
@@ -147,6 +148,11 @@ fn friction_in_a_record_is_found_beside_their_fmu() {
     assert_eq!((&effect["id"], &effect["element"]), (&"01".into(), &"strut".into()));
     let force = effect["parameters"][0]["value"].as_f64().unwrap();
     assert!((force / 8.0 - 1.0).abs() < 0.02, "{force}");
+}
+
+#[test]
+#[ignore = "a further diagnosis: `scripts/long-tests records`"]
+fn nothing_is_found_beside_their_fmu_where_nothing_is_hidden() {
     let none = diagnosed("0");
     assert_eq!(none["effects"].as_array().map(Vec::len), Some(0), "{}", none["effects"]);
 }

@@ -99,6 +99,7 @@ fn damping_that_a_current_sets_is_found_beside_friction() {
 }
 
 #[test]
+#[ignore = "a further diagnosis: `scripts/long-tests diagnosis`"]
 fn a_yield_force_that_a_current_sets_is_found() {
     let said = found(|x, v, i| 6000.0 * x + 900.0 * v + (60.0 + 200.0 * i) * (v / 0.02).tanh());
     assert_eq!(said.len(), 1);

@@ -1,6 +1,6 @@
 """Records of a mass on a spring and a damper, with friction hidden in it, for the FMU `Mass_Damper.fmu` of OpenModelica.
 
-    python examples/third-party/damper_records.py FOLDER [FRICTION]
+    python examples/third-party/damper_records.py FOLDER [FRICTION [SECONDS]]
 
 writes `damper-train.csv` and `damper-test.csv`: the force, and position and acceleration of the mass with noise. The equations
 are solved by scipy; nothing of the FMU or of Strut is in them. Mass, spring and damper are not quite those of the FMU.
@@ -22,10 +22,10 @@ REST = 0.0
 NOISE = 0.005
 
 
-def record(seed, friction):
+def record(seed, friction, duration):
     """Columns of a record: a multisine of the force in N, position in m, acceleration in m/s2."""
     random = np.random.default_rng(seed)
-    time = np.arange(0.0, DURATION, STEP)
+    time = np.arange(0.0, duration, STEP)
     frequencies = np.arange(0.5, 30.0, 0.25)
     phases = random.uniform(0.0, 2.0 * np.pi, len(frequencies))
     force = 6.0 * np.sin(2.0 * np.pi * frequencies[:, None] * time + phases[:, None]).sum(0)
@@ -46,10 +46,11 @@ def record(seed, friction):
 def main():
     folder = Path(sys.argv[1])
     friction = float(sys.argv[2]) if len(sys.argv) > 2 else 8.0
+    duration = float(sys.argv[3]) if len(sys.argv) > 3 else DURATION
     for seed, name in [(1, "train"), (2, "test")]:
         header = "time [s],f [N],mass.s [m],mass.a [m/s2]"
         path = folder / f"damper-{name}.csv"
-        np.savetxt(path, record(seed, friction), fmt="%.9g", delimiter=",", header=header, comments="")
+        np.savetxt(path, record(seed, friction, duration), fmt="%.9g", delimiter=",", header=header, comments="")
         print(path)
 
 

@@ -60,6 +60,7 @@ fn the_magnetorheological_damper_is_explained() {
 /// By hand 80 % and 79 % were reached on the two validation records, with presliding friction. The damper has a backlash, as its
 /// makers say, and pulls harder in one direction.
 #[test]
+#[ignore = "a further diagnosis: `scripts/long-tests records`"]
 fn the_friction_damper_is_explained() {
     let Some(records) = real("friction-damper") else { return };
     let test = ["1Hz30lbtension0.5amplitude.csv", "0.25Hz30lbtension1.5amplitude.csv"];
@@ -110,6 +111,7 @@ fn a_load_cell_that_was_not_zeroed_hides_no_friction() {
 /// By hand, with a voltage u behind a short lag: (1285 + 428 u) v + (235 + 354 u) tanh(v/v_0), fit 0.76; 0.60 without the voltage. A
 /// law with the yield force alone takes over what the damping does.
 #[test]
+#[ignore = "a further diagnosis: `scripts/long-tests records`"]
 fn the_voltage_of_a_coil_sets_the_yield_force() {
     let Some(records) = real("real/mr-damper-random") else { return };
     let (report, phi) = diagnose_element("voltage", &records, "a.csv", &["b.csv"]);
@@ -130,6 +132,7 @@ fn the_voltage_of_a_coil_sets_the_yield_force() {
 
 /// The same where nobody says that the column is a voltage: no signal of the rig is.
 #[test]
+#[ignore = "a further diagnosis: `scripts/long-tests records`"]
 fn a_force_that_follows_another_column_is_told() {
     let Some(records) = real("real/mr-damper-random") else { return };
     let unnamed = folder("random-records");

@@ -9,6 +9,7 @@ Needs Python 3.10 or later, numpy and scipy.
 
 import argparse
 import json
+import os
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
@@ -123,10 +124,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true", help="compare with the committed files")
     parser.add_argument("cases", nargs="*", metavar="NAME", help="only these cases")
+    parser.add_argument("--part", default=os.environ.get("STRUT_PART", "1/1"), metavar="K/N", help="the K-th of N parts of them")
     arguments = parser.parse_args()
     # The longest ones first: two cores are then busy to the end.
     chosen = [c for c in [*(make()[0] for make in systems.SYSTEMS.values()), *CASES]
               if not arguments.cases or c["case"] in arguments.cases]
+    number, parts = map(int, arguments.part.split("/"))
+    chosen = chosen[number - 1 :: parts]
     (HERE / "cases").mkdir(exist_ok=True)
     complaints = []
 
@@ -150,7 +154,8 @@ def main():
         if case["kind"] == "times":
             complaints += finish(case, *times(case), arguments.check)
 
-    if not arguments.cases:
+    # What is one whole belongs to the first part.
+    if not arguments.cases and number == 1:
         complaints += sanity.complaints()
         sheet, path = numbers(), HERE / "numbers.json"
         if arguments.check:

@@ -93,11 +93,11 @@ fn shot(baseline: &Baseline<'_>, start: &Estimate) -> Option<Fitted> {
     baseline.fitted(&[], &[point], Stop::NOISY).ok()
 }
 
-/// The fit with a signal turned over, if that is clearly better. An output's sign is doubted only where something does not fit
-/// at all. An input's always: where another one does most, all fits roughly with it the wrong way round.
+/// The fit with a signal turned over, if that is clearly better. A sign is doubted only where something does not fit at all, but
+/// that of one input of several always: where another one does most, all fits roughly with it the wrong way round.
 fn turned_over(baseline: &Baseline<'_>, base: &Fitted, turned: &Estimate, handle: Unknown) -> Option<Fitted> {
     let fits = fits(baseline, base);
-    if fits && matches!(handle, Unknown::Output(..)) {
+    if fits && (matches!(handle, Unknown::Output(..)) || inputs(baseline.train) == 1) {
         return None;
     }
     let hasty = Stop { iterations: 8, ..Stop::NOISY };
@@ -117,6 +117,12 @@ fn fits(baseline: &Baseline<'_>, fitted: &Fitted) -> bool {
     let records = baseline.train.iter().zip(&fitted.train);
     let mut signals = records.flat_map(|(record, left)| record.measured.iter().zip(left));
     signals.all(|(measured, left)| phi(left, &measured.values) > 0.3)
+}
+
+/// How many inputs were recorded.
+fn inputs(train: &[Dataset]) -> usize {
+    let of = |record: &Dataset| record.inputs.iter().filter(|it| matches!(it, Source::Measured(_))).count();
+    train.iter().map(of).max().unwrap_or(0)
 }
 
 /// Root mean square of each output's residuals, at least its noise.

@@ -20,16 +20,16 @@ impl Line {
     }
 }
 
+/// The gain of each bin of a spectrum.
+pub type Gains<'a> = &'a mut dyn FnMut(&[Complex<f64>]) -> Vec<Complex<f64>>;
+
 /// The line through a signal's ends, and the deviation from it with each bin of its spectrum multiplied by a gain.
 ///
 /// The deviation is reflected about the ends, so that it neither jumps nor bends there when it is taken as periodic.
 ///
 /// # Panics
 /// If there are fewer than two samples.
-pub fn about_line(
-    values: &[f64],
-    gains: &mut dyn FnMut(&[Complex<f64>]) -> Vec<Complex<f64>>,
-) -> (Line, Vec<f64>) {
+pub fn about_line(values: &[f64], gains: Gains<'_>) -> (Line, Vec<f64>) {
     let n = values.len();
     let line = Line { first: values[0], slope: (values[n - 1] - values[0]) / (n - 1) as f64 };
     let mut buffer: Vec<Complex<f64>> = Vec::with_capacity(2 * n - 2);

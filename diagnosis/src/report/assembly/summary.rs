@@ -5,8 +5,8 @@ use crate::report::findings::{
     Candidate, Effect, Findings, NominalParameter, RecordValue, Signal, Unmodelled, Verdict,
 };
 use crate::report::words::{
-    count, digits, effect_name, fit, interval, list, located, none_beyond, open_signals, percent, sized,
-    small_rest, unit, value,
+    count, digits, effect_name, fit, interval, list, located, none_beyond, open_signals, percent,
+    reservation, sized, small_rest, unit, value,
 };
 
 /// Fit that the noise of the inputs costs, to be worth a sentence.
@@ -143,7 +143,8 @@ fn parameters(findings: &Findings) -> Option<String> {
             format!("{} is {after} instead of {before}", it.name)
         })
         .collect();
-    (!changed.is_empty()).then(|| format!("Parameters: {}.", changed.join("; ")))
+    let reservation = reservation(findings).map_or(String::new(), |it| format!(" {it}"));
+    (!changed.is_empty()).then(|| format!("Parameters: {}.{reservation}", changed.join("; ")))
 }
 
 /// That the data tell some nominal parameters only together.

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use crate::data::check::DataProblem;
 use crate::report::findings::{Findings, NominalParameter, RecordRead};
 use crate::report::words::records::read;
-use crate::report::words::{capitalised, count, digits, interval, number, percent, place, unit};
+use crate::report::words::{capitalised, count, digits, interval, number, percent, place, reservation, unit};
 
 /// Rows that a table shows before the rest is folded away.
 const OPEN_ROWS: usize = 12;
@@ -102,7 +102,10 @@ pub fn nominal_parameters(findings: &Findings) -> Markup {
         @if !all.is_empty() {
             section {
                 h2 { "Nominal parameters" }
-                p.note { "A mismatch is a significant difference that is large enough to matter." }
+                p.note {
+                    "A mismatch is a significant difference that is large enough to matter."
+                    @if let Some(it) = reservation(findings) { " " (it) }
+                }
                 (folded(&all, "parameters", table))
             }
         }

@@ -2,7 +2,7 @@
 
 use super::{digits, percent};
 use crate::decision::criteria::CRITERIA;
-use crate::report::findings::{Findings, SignalAccount};
+use crate::report::findings::{Findings, SignalAccount, Verdict};
 
 /// A ratio to the noise above which its digits mean nothing.
 const FAR: f64 = 1000.0;
@@ -29,6 +29,12 @@ pub fn open_signals(findings: &Findings) -> Vec<OpenSignal> {
     let key = |it: &OpenSignal| if it.share.is_finite() { it.share } else { -1.0 };
     all.sort_by(|a, b| key(b).total_cmp(&key(a)));
     all
+}
+
+/// What to think of fitted parameters while something is missing.
+pub fn reservation(findings: &Findings) -> Option<&'static str> {
+    let missing = findings.verdict == Verdict::Unmodelled || findings.account.iter().any(|it| it.open);
+    missing.then_some("While something is missing from the model, parameters may make up for a part of it.")
 }
 
 /// The unexplained error of one account, if it is open.
@@ -152,6 +158,15 @@ mod tests {
             text,
             "40 % of body.acceleration is still unexplained on the validation data (20 × sensor noise)."
         );
+    }
+
+    #[test]
+    fn parameters_are_facts_only_where_nothing_is_missing() {
+        let mut found = findings(0.001, 0.0, 0.4, 0.6);
+        assert!(reservation(&found).is_some());
+        found.account[0].open = false;
+        assert!(reservation(&found).is_none());
+        assert!(reservation(&Findings { verdict: Verdict::Unmodelled, ..found }).is_some());
     }
 
     #[test]
