@@ -84,7 +84,7 @@ impl<M: Model> Layout<M> {
     /// A model without states needs no solver.
     pub const SOLVER: usize = if Self::STATES == 0 { 0 } else { Solver::<f64>::COUNT };
 
-    /// The model's settings and those of the solver.
+    /// Number of settings, those of the solver included.
     pub const SETTINGS: usize =
         M::Settings::COUNT + if Self::STATES == 0 { 0 } else { <SolverSettings as Settings>::COUNT };
 
@@ -131,19 +131,26 @@ impl<M: Model> Layout<M> {
         }
     }
 
+    /// The model's settings and those of the solver.
+    pub fn settings() -> Vec<SettingDeclaration> {
+        let mut list = M::Settings::declare();
+        if Self::STATES > 0 {
+            list.extend(SolverSettings::declare());
+        }
+        list
+    }
+
     /// All that is declared.
     pub fn declared() -> Declared {
-        let mut settings = M::Settings::declare();
         let starts = M::Settings::starts();
         let mut setting_starts: Vec<Value> = (0..).map_while(|index| starts.get(index)).collect();
         if Self::STATES > 0 {
-            settings.extend(SolverSettings::declare());
             setting_starts.push(SolverMethod::from(M::ABOUT.method).value());
         }
         Declared {
             model: M::ABOUT.name,
             sections: Self::SECTIONS.map(|(section, _)| (section, Self::declarations(section))),
-            settings,
+            settings: Self::settings(),
             own_settings: M::Settings::COUNT,
             setting_starts,
         }

@@ -190,6 +190,7 @@ impl Interface {
         Ok(Self::made_of(M::ABOUT, &declared, (set, starts), &dependency, sampled))
     }
 
+    /// The part that needs no model's type.
     fn made_of(
         about: About,
         declared: &Declared,

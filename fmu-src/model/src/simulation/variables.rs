@@ -3,9 +3,9 @@
 use strut_integrators::Array;
 
 use crate::{
-    Error, Model, Settings, Value,
+    Declaration, Error, Model, Settings, Value,
     bundle::{from_slice, to_array},
-    layout::{Declared, Layout, Section, check_bounds, display, expected},
+    layout::{Layout, Section, check_bounds, display, expected, rate_name},
 };
 
 use super::{Simulation, input::MAX_ORDER};
@@ -95,7 +95,7 @@ impl<M: Model> Simulation<M> {
                     self.state.as_mut_slice()[index] = *value;
                     self.changed();
                 }
-                (section, index) => self.set_rarely(*reference, section, index, *value, access)?,
+                (section, index) => self.set_rarely(section, index, *value, access)?,
             }
         }
         Ok(())
@@ -105,13 +105,12 @@ impl<M: Model> Simulation<M> {
     #[cold]
     fn set_rarely(
         &mut self,
-        reference: u32,
         section: Section,
         index: usize,
         value: f64,
         access: Access,
     ) -> Result<(), Error> {
-        check_settable(&Layout::<M>::declared(), reference, (section, index), value, access)?;
+        check_settable(section, &Layout::<M>::declarations(section)[index], value, access)?;
         match section {
             Section::State => self.state.as_mut_slice()[index] = value,
             Section::Solver => {
@@ -191,14 +190,13 @@ impl<M: Model> Simulation<M> {
     pub fn set_setting(&mut self, reference: u32, value: Value, access: Access) -> Result<(), Error> {
         self.setting(reference, kind_of(&value))?;
         let index = reference as usize;
-        let Declared { settings, own_settings, .. } = Layout::<M>::declared();
-        let declaration = settings[index];
+        let declaration = Layout::<M>::settings()[index];
         if access == Access::Continuous || (access < Access::All && !declaration.tunable) {
             let reason = "it is a parameter that is fixed: set it before initialisation ends";
             return Err(Error::NotSettable { name: declaration.name.into(), reason });
         }
         let shown = display(&value);
-        let done = match index.checked_sub(own_settings) {
+        let done = match index.checked_sub(M::Settings::COUNT) {
             None => self.settings.set(index, value),
             Some(rest) => self.solver_settings.set(rest, value),
         };
@@ -243,13 +241,11 @@ impl<M: Model> Simulation<M> {
 
 /// Refuses a variable that may not be set now, and a value that it cannot have.
 fn check_settable(
-    declared: &Declared,
-    reference: u32,
-    (section, index): (Section, usize),
+    section: Section,
+    declaration: &Declaration,
     value: f64,
     access: Access,
 ) -> Result<(), Error> {
-    let declaration = &declared.section(section)[index];
     let reason = match section {
         Section::Input => return Err(Error::NotFinite { name: declaration.name.clone(), value }),
         Section::Output => "it is an output",
@@ -269,7 +265,9 @@ fn check_settable(
         }
         Section::State | Section::Parameter | Section::Solver => return check_bounds(declaration, value),
     };
-    Err(Error::NotSettable { name: declared.name(reference), reason })
+    let name = &declaration.name;
+    let name = if section == Section::Rate { rate_name(name) } else { name.clone() };
+    Err(Error::NotSettable { name, reason })
 }
 
 /// Name of a value's type in messages; an enumeration's values are integers.
