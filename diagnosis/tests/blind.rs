@@ -11,7 +11,7 @@ use strut_blind::{cases, files, generate};
 /// All of a case's records.
 const ALL: usize = usize::MAX;
 
-/// What is said of a case by the first of its estimation records and the first of its validation records.
+/// The score of a case, diagnosed with its first estimation records and as many of its first validation records.
 fn diagnosed(name: &str, records: usize) -> Score {
     let case = cases::compact().into_iter().find(|case| case.name == name).expect("a case of that name");
     let below = tempfile::tempdir().unwrap();

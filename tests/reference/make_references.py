@@ -154,7 +154,7 @@ def main():
         if case["kind"] == "times":
             complaints += finish(case, *times(case), arguments.check)
 
-    # What is one whole belongs to the first part.
+    # Checks of all cases together belong to the first part.
     if not arguments.cases and number == 1:
         complaints += sanity.complaints()
         sheet, path = numbers(), HERE / "numbers.json"

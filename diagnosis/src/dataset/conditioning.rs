@@ -126,10 +126,10 @@ fn error(values: &[f64], noise: f64, (denoised, factor): (bool, usize), channel:
     let signal = filled(values).unwrap_or_else(|| values.to_vec());
     about_line(&signal, &mut |spectrum| {
         own = gains(spectrum, if denoised { noise } else { 0.0 }, factor);
-        own.iter().map(|gain| Complex::from(*gain)).collect()
+        own.iter().map(Complex::from).collect()
     });
     let drawn = with_noise(&vec![0.0; values.len()], noise, channel);
-    let (line, deviation) = about_line(&drawn, &mut |_| own.iter().copied().map(Complex::from).collect());
+    let (line, deviation) = about_line(&drawn, &mut |_| own.iter().map(Complex::from).collect());
     (0..values.len()).step_by(factor).map(|k| deviation[k] + line.at(k)).collect()
 }
 

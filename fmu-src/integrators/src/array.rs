@@ -94,8 +94,8 @@ impl<const N: usize> Square<[f64; N]> for SMatrix<f64, N, N> {
 }
 
 /// Gauss–Jordan elimination in place with partial pivoting (Golub and Van Loan, Matrix Computations, 4th ed., section 3.4). For
-/// matrices of up to a dozen rows, whose size the compiler knows, loops over all entries are faster than nalgebra's general ways, and
-/// its formulas for up to four rows take the compiler long, for each model again.
+/// matrices of up to a dozen rows, whose size the compiler knows, loops over all entries are faster than nalgebra's elimination. Its
+/// formulas for up to four rows take the compiler long, for each model again.
 fn invert<const N: usize>(matrix: &mut SMatrix<f64, N, N>) -> bool {
     let mut pivots = [0; N];
     for k in 0..N {
@@ -106,7 +106,7 @@ fn invert<const N: usize>(matrix: &mut SMatrix<f64, N, N>) -> bool {
             }
         }
         let head = matrix[(pivot, k)];
-        // Nor is there an inverse of what is not a number.
+        // Entries that are not finite have no inverse either.
         if head == 0.0 || !head.is_finite() {
             return false;
         }
@@ -115,8 +115,9 @@ fn invert<const N: usize>(matrix: &mut SMatrix<f64, N, N>) -> bool {
             matrix.swap_rows(k, pivot);
         }
         matrix[(k, k)] = 1.0;
+        let scale = 1.0 / head;
         for column in 0..N {
-            matrix[(k, column)] *= 1.0 / head;
+            matrix[(k, column)] *= scale;
         }
         for row in 0..N {
             if row != k {

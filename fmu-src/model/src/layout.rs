@@ -157,7 +157,7 @@ impl<M: Model> Layout<M> {
     }
 }
 
-/// All that a model declares, without the model's type: what is made of it is compiled once, and not for each model.
+/// All that a model declares, without the model's type: code that uses it is compiled once, and not for each model.
 pub(crate) struct Declared {
     /// The model's name.
     pub model: &'static str,
@@ -188,12 +188,19 @@ impl Declared {
         let mut index = reference as usize;
         for (section, list) in &self.sections {
             match list.get(index) {
-                Some(declaration) if *section == Section::Rate => return rate_name(&declaration.name),
-                Some(declaration) => return declaration.name.clone(),
+                Some(declaration) => return name_in(*section, declaration),
                 None => index -= list.len(),
             }
         }
         format!("#{reference}")
+    }
+}
+
+/// Name of a section's variable: the rates are declared by the states.
+pub(crate) fn name_in(section: Section, declaration: &Declaration) -> String {
+    match section {
+        Section::Rate => rate_name(&declaration.name),
+        _ => declaration.name.clone(),
     }
 }
 

@@ -20,7 +20,7 @@ impl Line {
     }
 }
 
-/// The gain of each bin of a spectrum.
+/// Chooses the gain of each bin of a spectrum.
 pub type Gains<'a> = &'a mut dyn FnMut(&[Complex<f64>]) -> Vec<Complex<f64>>;
 
 /// The line through a signal's ends, and the deviation from it with each bin of its spectrum multiplied by a gain.

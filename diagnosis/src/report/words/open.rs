@@ -31,10 +31,10 @@ pub fn open_signals(findings: &Findings) -> Vec<OpenSignal> {
     all
 }
 
-/// What to think of fitted parameters while something is missing.
+/// A reservation about fitted parameters while something is missing.
 pub fn reservation(findings: &Findings) -> Option<&'static str> {
     let missing = findings.verdict == Verdict::Unmodelled || findings.account.iter().any(|it| it.open);
-    missing.then_some("While something is missing from the model, parameters may make up for a part of it.")
+    missing.then_some("While an effect is missing from the model, parameters may compensate a part of it.")
 }
 
 /// The unexplained error of one account, if it is open.

@@ -5,7 +5,7 @@ use strut_integrators::Array;
 use crate::{
     Declaration, Error, Model, Settings, Value,
     bundle::{from_slice, to_array},
-    layout::{Layout, Section, check_bounds, display, expected, rate_name},
+    layout::{Layout, Section, check_bounds, display, expected, name_in},
 };
 
 use super::{Simulation, input::MAX_ORDER};
@@ -265,9 +265,7 @@ fn check_settable(
         }
         Section::State | Section::Parameter | Section::Solver => return check_bounds(declaration, value),
     };
-    let name = &declaration.name;
-    let name = if section == Section::Rate { rate_name(name) } else { name.clone() };
-    Err(Error::NotSettable { name, reason })
+    Err(Error::NotSettable { name: name_in(section, declaration), reason })
 }
 
 /// Name of a value's type in messages; an enumeration's values are integers.
