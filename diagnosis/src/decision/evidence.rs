@@ -37,7 +37,8 @@ impl Evidence {
     /// What has to be exceeded, in every gate; the chance must not be. The information criterion alone is never the verdict: small unmodelled
     /// effects pass it on every record.
     ///
-    /// Of `fit_improvement` and `residual_reduction`, one is enough: a large error, or more than half of the missing signal.
+    /// A rise of the fit is enough to matter, however wrong the starting model was. So is more than half of the missing signal, if that is
+    /// worth a name.
     pub const REQUIRED: Self = Self {
         delta_bic: CRITERIA.bic,
         estimation_t: CRITERIA.estimation_t,
@@ -135,16 +136,14 @@ impl Evidence {
     fn smallness(&self) -> Option<String> {
         let Self { variance_explained, fit_improvement, residual_reduction, .. } = *self;
         let required = self.required();
-        if self.always_relevant {
+        if self.always_relevant || fit_improvement > required.fit_improvement {
             None
         } else if variance_explained <= required.variance_explained {
             Some(format!(
                 "below the smallest improvement of interest ({:.1} % of the error)",
                 100.0 * variance_explained
             ))
-        } else if !(fit_improvement > required.fit_improvement
-            || residual_reduction > required.residual_reduction)
-        {
+        } else if residual_reduction <= required.residual_reduction {
             Some(format!(
                 "below the smallest improvement of interest (the fit rises by {fit_improvement:.3}, residual reduction {:.0} %)",
                 100.0 * residual_reduction
@@ -191,13 +190,22 @@ mod tests {
             Evidence { estimation_t: 3.0, validation_p_value: 0.02, ..CLEAR },
             Evidence { p_value: 0.02, validation_p_value: 0.02, ..CLEAR },
             Evidence { validation_t: 2.9, ..CLEAR },
-            Evidence { variance_explained: 0.009, ..CLEAR },
+            Evidence { fit_improvement: 0.014, residual_reduction: 0.6, variance_explained: 0.009, ..CLEAR },
             Evidence { fit_improvement: 0.014, ..CLEAR },
             Evidence { fit_improvement: 0.02, background: true, ..CLEAR },
             Evidence { variance_explained: f64::NEG_INFINITY, ..CLEAR },
         ] {
             assert!(one.refusal().is_some(), "{one:?}");
         }
+    }
+
+    #[test]
+    fn a_starting_model_that_is_far_off_hides_nothing() {
+        let beside_a_wrong_sign = Evidence { variance_explained: 0.002, ..CLEAR };
+        assert_eq!(beside_a_wrong_sign.refusal(), None);
+        let most = Evidence { fit_improvement: 0.014, residual_reduction: 0.6, ..CLEAR };
+        assert_eq!(most.refusal(), None);
+        assert!(Evidence { variance_explained: 0.002, ..most }.refusal().is_some());
     }
 
     #[test]

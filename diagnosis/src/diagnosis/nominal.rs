@@ -35,12 +35,7 @@ pub(super) fn fit(baseline: &mut Baseline<'_>) -> Result<(Estimate, Fitted, Vec<
         start.parameters[*parameter] = *value;
     }
     let mut reversed = Vec::new();
-    let mut starts = vec![start.clone()];
-    if baseline.rig.base().into_iter().any(|index| baseline.is_of_unknown_order(index)) {
-        // A simulation from a mass that nobody gave shows nothing; a balance of forces does not simulate.
-        baseline.sheet = baseline.balanced(&start)?;
-        starts.push(Estimate { parameters: baseline.sheet.clone(), ..start.clone() });
-    }
+    let starts = weighed(baseline, &start)?;
     let mut base = baseline.fitted(&[], &starts, Stop::NOISY)?;
     if !fits(baseline, &base)
         && !baseline.deadline.is_over(Stage::Nominal)
@@ -60,7 +55,24 @@ pub(super) fn fit(baseline: &mut Baseline<'_>) -> Result<(Estimate, Fitted, Vec<
             reversed.push(handle);
         }
     }
+    if !reversed.is_empty() {
+        // What was weighed with the wrong sign has the wrong mass.
+        let mut starts = weighed(baseline, &start)?;
+        starts.push(base.point);
+        base = baseline.fitted(&[], &starts, Stop::NOISY)?;
+    }
     Ok((before, weighted(baseline, base)?, reversed))
+}
+
+/// Where a fit starts: at the values that are given, and, if not even the order of one is known, at those by the balance of forces, which
+/// become the sheet. A simulation from a mass that nobody gave shows nothing; a balance of forces does not simulate.
+fn weighed(baseline: &mut Baseline<'_>, start: &Estimate) -> Result<Vec<Estimate>, String> {
+    let mut starts = vec![start.clone()];
+    if baseline.rig.base().into_iter().any(|index| baseline.is_of_unknown_order(index)) {
+        baseline.sheet = baseline.balanced(start)?;
+        starts.push(Estimate { parameters: baseline.sheet.clone(), ..start.clone() });
+    }
+    Ok(starts)
 }
 
 /// The fit with weights from its residuals, twice: then it is the likeliest for errors of these magnitudes.

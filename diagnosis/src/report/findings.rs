@@ -175,7 +175,7 @@ pub struct NominalParameter {
 }
 
 /// The error of one signal, on the validation data.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Signal {
     /// As in the FMU.
     pub name: String,
@@ -239,7 +239,7 @@ pub struct Answer {
 }
 
 /// Where the power of a signal's error goes: shares of the starting model's that add up to one.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct SignalAccount {
     /// As in the FMU.
     pub signal: String,

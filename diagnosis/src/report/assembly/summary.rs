@@ -30,7 +30,7 @@ pub(super) fn of(findings: &Findings) -> String {
         improvement(findings),
         worse(findings),
         noisy(findings),
-        small_rest(findings),
+        small_rest(findings).map(|it| it.sentence()),
     ];
     parts.into_iter().flatten().filter(|it| !it.is_empty()).collect::<Vec<_>>().join(" ")
 }

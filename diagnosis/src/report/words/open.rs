@@ -43,13 +43,13 @@ pub fn open_signal(findings: &Findings, account: &SignalAccount) -> Option<OpenS
 }
 
 /// The largest remaining error that shows in a plot and exceeds the noise, if all accounts are closed.
-pub fn small_rest(findings: &Findings) -> Option<String> {
+pub fn small_rest(findings: &Findings) -> Option<OpenSignal> {
     if findings.account.iter().any(|it| it.open) {
         return None;
     }
     let all = findings.account.iter().map(|it| unexplained(findings, it));
     let shown = all.filter(|it| it.share > CRITERIA.improvement && it.noise > CRITERIA.above_noise);
-    shown.max_by(|a, b| a.share.total_cmp(&b.share)).map(|it| it.sentence())
+    shown.max_by(|a, b| a.share.total_cmp(&b.share))
 }
 
 fn unexplained(findings: &Findings, account: &SignalAccount) -> OpenSignal {

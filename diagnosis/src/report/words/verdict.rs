@@ -1,6 +1,6 @@
 //! The verdict as a sentence and as a badge.
 
-use super::{effect_name, list, located};
+use super::{effect_name, list, located, percent, small_rest};
 use crate::report::findings::{Effect, Findings, Verdict};
 
 /// Names that a headline lists one by one; of more it gives the number.
@@ -10,10 +10,7 @@ const LISTED: usize = 3;
 pub fn headline(findings: &Findings) -> String {
     let effects: Vec<String> = findings.effects.iter().map(full_name).collect();
     match findings.verdict {
-        Verdict::NoEffect => match disagreeing(findings) {
-            None => "These records show no effect beyond the model.".into(),
-            Some(they_disagree) => format!("{they_disagree} No effect is identified."),
-        },
+        Verdict::NoEffect => rest(findings, "These records show no effect beyond the model.", "effect"),
         Verdict::ParameterMismatch => mismatch(findings),
         Verdict::Identified if effects.is_empty() => "An effect is identified.".into(),
         Verdict::Identified => format!("The model lacks {}.", list(&effects, "and")),
@@ -48,12 +45,22 @@ fn unmodelled(findings: &Findings) -> String {
 }
 
 fn mismatch(findings: &Findings) -> String {
-    let rest = match disagreeing(findings) {
-        None => "The records show no further effect.".to_owned(),
-        Some(they_disagree) => format!("{they_disagree} No further effect is identified."),
-    };
+    let rest = rest(findings, "The records show no further effect.", "further effect");
     let wrong = mismatched(findings).unwrap_or_else(|| "Parameters differ from the starting model.".into());
     format!("{wrong} {rest}")
+}
+
+/// That there is nothing else, if the records agree and leave no error that shows in a plot.
+fn rest(findings: &Findings, nothing: &str, effect: &str) -> String {
+    match (disagreeing(findings), small_rest(findings)) {
+        (Some(they_disagree), _) => format!("{they_disagree} No {effect} is identified."),
+        (None, Some(rest)) => format!(
+            "No {effect} is identified, but {} of {} is unexplained.",
+            percent(rest.share),
+            rest.signal
+        ),
+        (None, None) => nothing.to_owned(),
+    }
 }
 
 /// Of the plant it says what else is wrong, or that nothing is.
@@ -124,7 +131,35 @@ pub fn badge(verdict: Verdict) -> (&'static str, &'static str) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::findings::{Disagreement, RecordValue};
+    use crate::report::findings::{Disagreement, RecordValue, Signal, SignalAccount};
+
+    #[test]
+    fn an_error_that_shows_is_told_where_nothing_is_identified() {
+        let mut found = Findings::of_bad_data("rig", vec![], vec![], vec![]);
+        found.signals =
+            vec![Signal { name: "body.position".into(), fit_without_input_noise: 0.92, ..Signal::default() }];
+        found.account = vec![SignalAccount {
+            signal: "body.position".into(),
+            unexplained: 0.4,
+            noise: 0.001,
+            ..SignalAccount::default()
+        }];
+        let of = |verdict| headline(&Findings { verdict, ..found.clone() });
+        assert_eq!(
+            of(Verdict::NoEffect),
+            "No effect is identified, but 8.0 % of body.position is unexplained."
+        );
+        let told = of(Verdict::ParameterMismatch);
+        assert!(
+            told.ends_with("No further effect is identified, but 8.0 % of body.position is unexplained."),
+            "{told}"
+        );
+        found.signals[0].fit_without_input_noise = 0.99;
+        assert_eq!(
+            headline(&Findings { verdict: Verdict::NoEffect, ..found }),
+            "These records show no effect beyond the model."
+        );
+    }
 
     #[test]
     fn records_of_a_rig_that_was_changed_lack_nothing() {
