@@ -219,6 +219,14 @@ fn a_damper_alone_has_no_spring() {
     assert!((said.value("strut.stiffness") - 200.0).abs() < 50.0, "{}", said.value("strut.stiffness"));
 }
 
+/// A damper's preload takes what a cell shows at rest, and nothing takes what it shows more and more of.
+#[test]
+fn a_cell_that_drifts_is_found_though_its_offset_is_a_preload_s() {
+    let said = Case::of("element-dyno").diagnosed(&[("force.drift", 15.0)]);
+    assert_eq!(said.terms, ["33 force"]);
+    said.covers("force.drift", 15.0, 0.1);
+}
+
 /// The records reach the compression stop only. Records of longer rebound must not meet a stop that nobody has seen.
 #[test]
 fn a_stop_that_is_not_reached_stays_out_of_reach() {

@@ -152,6 +152,30 @@ fn a_spring_that_is_stiffer_in_one_record_is_what_records_without_a_force_disagr
     assert!(["sprung_mass", "strut.damping"].contains(&of(yardstick).as_str()), "{yardstick:?}");
 }
 
+/// A body that is a tenth heavier is like springs and dampers that are weaker: the mass of the sheet stays, and the others tell it.
+#[test]
+fn without_a_force_a_mass_keeps_its_value_and_the_others_are_relative_to_it() {
+    let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
+    let index = |name: &str| rig.plant.parameter(name).unwrap();
+    let mass = rig.parameters[index("sprung_mass")];
+    let sensors = ["body.acceleration", "wheel.acceleration", "suspension.deflection"];
+    let made = |seed: u64| seen(&rig, seed, &[("sprung_mass", 1.1 * mass)], 0.0, &sensors);
+    let records = Split::new(&[made(1)], vec![made(20)]);
+    let options = Options { only: vec!["01".into()], ..Options::default() };
+    let diagnosis = diagnose(&rig, &records, options, &|_| {}).unwrap();
+    assert_eq!(diagnosis.baseline.yardstick, Some(index("sprung_mass")));
+    for (name, factor) in [("sprung_mass", 1.0), ("strut.stiffness", 1.0 / 1.1), ("strut.damping", 1.0 / 1.1)]
+    {
+        let interval =
+            diagnosis.intervals.iter().find(|it| it.handle == Unknown::Parameter(index(name))).unwrap();
+        let share = interval.value / rig.parameters[index(name)];
+        assert!((share / factor - 1.0).abs() < 0.01, "{name}: {share}");
+        // What the records tell is sharp, and the interval has the scale's tolerance all the same.
+        let [told, all] = [interval.half_of_data, interval.half].map(|it| it / interval.value);
+        assert!(told < 0.02 && all > 0.2, "{name}: {told} {all}");
+    }
+}
+
 #[test]
 fn where_nothing_is_hidden_nothing_is_claimed() {
     let (terms, values) = found(&[]);

@@ -6,7 +6,7 @@ use crate::dataset::rate::along;
 use crate::dataset::recorded::{Dataset, Source};
 use crate::decision::criteria::CRITERIA;
 use crate::estimation::deadline::Stage;
-use crate::estimation::fit::Residuals;
+use crate::estimation::fit::{Residuals, contained};
 use crate::estimation::hypothesis::{Baseline, Fitted};
 use crate::estimation::lsq::Stop;
 use crate::estimation::unknowns::{Estimate, Unknown};
@@ -19,9 +19,7 @@ use super::{phi, root_mean_square};
 /// Length of a short stretch of data in seconds, over which no model goes far astray.
 const SHOT: f64 = 1.0;
 
-/// Cost of a hasty fit with an input turned over, in that of the fit without, above which a close one is not worth the time …
-const HOPELESS: f64 = 1.5;
-/// … and cost of the close one below which the input had the wrong sign.
+/// Cost of a fit with an input turned over, in that of the fit without, below which the input had the wrong sign.
 const CLEARLY: f64 = 0.8;
 
 /// The starting model as it was given, the fit of its nominal parameters, and the signals that had to be turned over.
@@ -61,7 +59,11 @@ pub(super) fn fit(baseline: &mut Baseline<'_>) -> Result<(Estimate, Fitted, Vec<
         starts.push(base.point);
         base = baseline.fitted(&[], &starts, Stop::NOISY)?;
     }
-    Ok((before, weighted(baseline, base)?, reversed))
+    let mut base = weighted(baseline, base)?;
+    if let Some(point) = baseline.hold_scale(&base) {
+        base = weighted(baseline, Fitted { point, ..base })?;
+    }
+    Ok((before, base, reversed))
 }
 
 /// Where a fit starts: at the values that are given, and, if not even the order of one is known, at those by the balance of forces, which
@@ -105,23 +107,38 @@ fn shot(baseline: &Baseline<'_>, start: &Estimate) -> Option<Fitted> {
     baseline.fitted(&[], &[point], Stop::NOISY).ok()
 }
 
-/// The fit with a signal turned over, if that is clearly better. A sign is doubted only where something does not fit at all, but
-/// that of one input of several always: where another one does most, all fits roughly with it the wrong way round.
+/// The fit with a signal turned over, if that is clearly better. A sign is doubted where something does not fit at all, and that of an
+/// input where the records want less than nothing of it: where another input does most, all fits roughly with this one the wrong way round.
 fn turned_over(baseline: &Baseline<'_>, base: &Fitted, turned: &Estimate, handle: Unknown) -> Option<Fitted> {
-    let fits = fits(baseline, base);
-    if fits && (matches!(handle, Unknown::Output(..)) || inputs(baseline.train) == 1) {
+    let fitted = |stop: Stop| baseline.fitted(&[], std::slice::from_ref(turned), stop).ok();
+    if !fits(baseline, base) {
+        return fitted(Stop { iterations: 8, ..Stop::NOISY }).filter(|other| other.cost < 0.5 * base.cost);
+    }
+    if matches!(handle, Unknown::Output(..)) || !is_unwanted(baseline, base, handle)? {
         return None;
     }
-    let hasty = Stop { iterations: 8, ..Stop::NOISY };
-    let other = baseline.fitted(&[], std::slice::from_ref(turned), hasty).ok()?;
-    if other.cost < 0.5 * base.cost {
-        return Some(other);
-    }
-    if !fits || other.cost > HOPELESS * base.cost {
-        return None;
-    }
-    let other = baseline.fitted(&[], &[other.point], Stop::NOISY).ok()?;
-    (other.cost < CLEARLY * base.cost && baseline.apart(&other, base) > CRITERIA.apart).then_some(other)
+    fitted(Stop::NOISY)
+        .filter(|other| other.cost < CLEARLY * base.cost && baseline.apart(other, base) > CRITERIA.apart)
+}
+
+/// Whether the errors contain more of what the model would do without an input than would be there if it had none: by a linear look at the
+/// fit, all its coordinates being free.
+fn is_unwanted(baseline: &Baseline<'_>, base: &Fitted, handle: Unknown) -> Option<bool> {
+    let dynamics = baseline.dynamics(&[]).ok()?;
+    let fit = baseline.fit(&*dynamics, baseline.train, base.coordinates.clone());
+    let mut without = base.point.clone();
+    without.set(handle, -1.0);
+    let change = |index: usize, record: &Dataset, section: &Range<usize>| {
+        let predicted = |point: &Estimate| fit.predicted(point, &base.point.starts[index], record, section);
+        let mut change = predicted(&without);
+        for (change, with) in change.iter_mut().flatten().zip(predicted(&base.point).iter().flatten()) {
+            *change -= with;
+        }
+        vec![change]
+    };
+    let normal =
+        contained(&fit.beside(&base.point, &change, std::slice::from_ref(&(0..1))), base.coordinates.len());
+    Some(normal.g[0] > normal.h[(0, 0)])
 }
 
 /// Whether every signal is met at least roughly.
@@ -129,12 +146,6 @@ fn fits(baseline: &Baseline<'_>, fitted: &Fitted) -> bool {
     let records = baseline.train.iter().zip(&fitted.train);
     let mut signals = records.flat_map(|(record, left)| record.measured.iter().zip(left));
     signals.all(|(measured, left)| phi(left, &measured.values) > 0.3)
-}
-
-/// How many inputs were recorded.
-fn inputs(train: &[Dataset]) -> usize {
-    let of = |record: &Dataset| record.inputs.iter().filter(|it| matches!(it, Source::Measured(_))).count();
-    train.iter().map(of).max().unwrap_or(0)
 }
 
 /// Root mean square of each output's residuals, at least its noise.

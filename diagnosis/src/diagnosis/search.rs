@@ -122,8 +122,11 @@ impl Baseline<'_> {
                 Next::Curve(score) => self.unmodelled(found, (&missing, &compared), score)?,
                 Next::Nothing if !self.uses(Component::Ports) => false,
                 Next::Nothing => {
-                    let rest = self.remainder(&found.extended, &missing, &location, &compared);
-                    found.unmodelled.extend(rest);
+                    if let Some(rest) = self.remainder(&found.extended, &missing, &location, &compared) {
+                        let all = &mut found.unmodelled;
+                        let place = place_of_remainder(all.iter().map(|it| it.share)).unwrap_or(all.len());
+                        all.insert(place, rest);
+                    }
                     false
                 }
             };
@@ -368,5 +371,25 @@ impl Found {
         self.accepted.push(accepted);
         self.extended = fitted.clone();
         self.stages.push(fitted);
+    }
+}
+
+/// Where among the descriptions what follows nothing that was recorded comes, by the share that each explains of what was left to it:
+/// before the first one that leaves more than it explains.
+fn place_of_remainder(mut shares: impl Iterator<Item = f64>) -> Option<usize> {
+    shares.position(|share| share < 1.0 - share)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_comes_before_what_explains_less() {
+        let place = |shares: &[f64]| place_of_remainder(shares.iter().copied());
+        assert_eq!(
+            (place(&[]), place(&[0.12]), place(&[0.9]), place(&[0.9, 0.3])),
+            (None, Some(0), None, Some(1))
+        );
     }
 }

@@ -60,6 +60,8 @@ pub struct Baseline<'a> {
     pub sheet: Vec<f64>,
     /// What was known of parameters before: index, value, standard deviation.
     pub known: Vec<(usize, f64, f64)>,
+    /// The parameter that keeps its value where the records do not tell the common scale, by its index; it is among those that are known.
+    pub yardstick: Option<usize>,
     /// Numbers of the effects that are looked at; none: all.
     pub only: Vec<String>,
     /// A component of the method that is left out, for an ablation.
@@ -125,6 +127,7 @@ impl<'a> Baseline<'a> {
             typical: Vec::new(),
             sheet: rig.parameters.clone(),
             known: options.known,
+            yardstick: None,
             only: options.only,
             without: options.without,
             looks: 1.0,

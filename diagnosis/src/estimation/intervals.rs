@@ -1,7 +1,8 @@
 //! How sure the coordinates of a fit are.
 //!
 //! Four things make a coordinate uncertain. Noise: the spread of its scores over blocks of the estimation data. What was known
-//! before, where the data tell no more: the values of a parameter set have a tolerance of their own. Excitations:
+//! before, where the data tell no more: the values of a parameter set have a tolerance of their own, and so
+//! has a common scale that no record tells. Excitations:
 //! errors of a model that is not quite right pull its parameters differently in each; what each excitation on its own would
 //! say is compared, validation data included, and the variance between them, after DerSimonian and Laird (Meta-analysis in
 //! clinical trials, Controlled Clinical Trials 7, 1986), widens the interval. And what pulls alike in all excitations: small
@@ -79,7 +80,9 @@ impl Baseline<'_> {
         let own = fitted.linear.robust_covariance(&fitted.trace.scores);
         let [before, vouched_for] = [false, true].map(|it| fitted.linear.sandwich(&fitted.priors(it)));
         let excitations = self.excitations(fitted)?;
-        let opinions = opinions(&excitations, None);
+        let is_held = |handle: Unknown| self.yardstick.is_some_and(|it| handle == Unknown::Parameter(it));
+        let held = fitted.coordinates.iter().position(|it| is_held(it.handle));
+        let opinions = opinions(&excitations, held);
         let dynamics = self.dynamics(&fitted.terms)?;
         let fit = self.fit(&*dynamics, self.train, fitted.coordinates.clone());
         let count: f64 = self.errors(&fitted.train).effective_counts().iter().sum();
@@ -99,9 +102,10 @@ impl Baseline<'_> {
             let mut half_of_data = variance.sqrt();
             let of = |known: &DMatrix<f64>| NORMAL.powi(2) * known[(index, index)].max(0.0);
             let data = variance / NORMAL.powi(2);
-            let from_parameter_set =
-                is_of_parameter_set(coordinate, &fitted.point, [before[(index, index)], data]);
-            let mut half = (variance + of(&vouched_for)).sqrt();
+            let from_parameter_set = is_held(handle)
+                || is_of_parameter_set(coordinate, &fitted.point, [before[(index, index)], data]);
+            let scale = NORMAL.powi(2) * self.variance_of_scale(handle, value);
+            let mut half = (variance + of(&vouched_for) + scale).sqrt();
             if amounts.contains(&handle) && half_of_data.is_finite() {
                 let promised = 0.5 * (norms[index] * half_of_data).powi(2);
                 let enough = BORNE_OUT * promised.min(fitted.cost * NORMAL.powi(2) / count);
@@ -129,7 +133,9 @@ impl Baseline<'_> {
             }
         };
         let mut intervals: Vec<Interval> = fitted.coordinates.iter().enumerate().map(interval).collect();
-        ratios::compare(&mut intervals, fitted, &excitations);
+        let is_scaled = |index: &usize| self.is_scaled(fitted.coordinates[*index].handle);
+        let scaled: Vec<usize> = (0..intervals.len()).filter(is_scaled).collect();
+        ratios::compare(&mut intervals, &scaled, &excitations);
         Ok(intervals)
     }
 }

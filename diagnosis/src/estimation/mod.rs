@@ -9,4 +9,5 @@ pub mod held;
 pub mod hypothesis;
 pub mod intervals;
 pub mod lsq;
+pub mod scale;
 pub mod unknowns;

@@ -58,12 +58,17 @@ impl Unmodelled {
         let (port, mover, group) = compared.feature(score.candidate)?;
         let own = &missing.setting.ports[port];
         let amounts = compared.amounts(score.candidate);
+        let mut depends_on = words(group, mover, (missing, plant));
+        if group == Group::Time {
+            let own = AGEING[compared.largest(score.candidate)];
+            depends_on.splice(0..0, own.map(str::to_owned));
+        }
         Some(Self {
             place: own.place.clone(),
             unit: own.unit,
             at: at(own),
             features: Some((port, mover, group)),
-            depends_on: words(group, mover, (missing, plant)),
+            depends_on,
             share: score.share,
             validated: score.validated,
             improvement,
@@ -148,6 +153,7 @@ impl Unmodelled {
                 Some(frequency) => format!("a signal that is periodic in time, at {frequency:.2} Hz"),
                 None => "a signal that changes with time".to_owned(),
             },
+            ([motion, "time"], _) => format!("a signal that follows the {motion} and changes with time"),
             ([], _) => "a signal that no recorded signal explains".to_owned(),
             (words, _) => format!("a signal that follows the {}", words.join(" and the ")),
         };
@@ -175,6 +181,9 @@ impl Unmodelled {
         missing.explain(columns.into_iter());
     }
 }
+
+/// What else each of the features of time depends on.
+const AGEING: [Option<&str>; 4] = [None, Some("deflection"), Some("velocity"), Some("velocity")];
 
 /// The words before the name of a sensor's signal.
 const MEASURED: &str = "in the measurement of";

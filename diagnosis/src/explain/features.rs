@@ -31,7 +31,7 @@ pub enum Group {
     Memory,
     /// An oscillator that the motion drives, by its frequency's place among [`RESONANCES`].
     Resonance(usize),
-    /// Products of deflection and velocity.
+    /// Products of deflection and velocity, and friction that is larger here than there.
     DeflectionAndVelocity,
     /// Laws whose size grows or falls with time.
     Time,
@@ -111,6 +111,9 @@ pub fn features(
                 each(&|x, v| x * v.abs()),
                 each(&|x, v| x * (v / fast).tanh()),
                 each(&|x, v| (-(x / width).powi(2)).exp() * v),
+                each(&|_, v| (v / fast).tanh()),
+                each(&|x, v| (-(x / width).powi(2)).exp() * (v / fast).tanh()),
+                each(&|x, v| (-(2.0 * x / width).powi(2)).exp() * (v / fast).tanh()),
             ]
         }
         Group::Time => {

@@ -310,6 +310,13 @@ impl Compared {
         })
     }
 
+    /// The column of a candidate that explains most, by what it reaches.
+    pub fn largest(&self, candidate: usize) -> usize {
+        let reached = self.amounts[candidate].iter().zip(&self.candidates.list[candidate].peaks);
+        let reached = reached.map(|(amount, peak)| amount.abs() * peak);
+        reached.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(column, _)| column)
+    }
+
     /// Amounts of a candidate's columns.
     pub fn amounts(&self, candidate: usize) -> &[f64] {
         &self.amounts[candidate]

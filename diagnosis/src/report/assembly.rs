@@ -23,6 +23,7 @@ use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::estimation::coordinates::SURE;
 use crate::estimation::fit::Residuals;
 use crate::estimation::hypothesis::{Fitted, Term};
+use crate::estimation::intervals::Interval;
 use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::report::findings::{
     Answer, Candidate, Effect, EffectParameter, FORMAT, Findings, FittedValue, NominalParameter, Signal,
@@ -122,16 +123,19 @@ impl Diagnosis<'_> {
                 high: -1.0,
                 mismatch: true,
                 from_parameter_set: false,
+                is_yardstick: false,
                 contradicted: false,
                 equivalent_effects: Vec::new(),
             })
             .collect();
         let base = rig.base();
-        let common =
-            common_factor(self.intervals.iter().filter(|it| it.from_parameter_set).filter_map(|it| {
-                let Unknown::Parameter(index) = it.handle else { return None };
-                Some((it.value / rig.parameters[index], it.half_of_data / rig.parameters[index]))
-            }));
+        let yardstick = self.baseline.yardstick;
+        let is_scaled = |it: &&Interval| self.baseline.is_scaled(it.handle);
+        let common = common_factor(self.intervals.iter().filter(is_scaled).filter_map(|it| {
+            let Unknown::Parameter(index) = it.handle else { return None };
+            let told = yardstick != Some(index);
+            told.then(|| (it.value / rig.parameters[index], it.half_of_data / rig.parameters[index]))
+        }));
         for interval in &self.intervals {
             let after = interval.value;
             if let Unknown::Parameter(index) = interval.handle
@@ -139,11 +143,13 @@ impl Diagnosis<'_> {
             {
                 let (before, declared) = (rig.parameters[index], &rig.plant.parameters[index]);
                 // Of values that the records tell only together, their common factor is the parameter set's matter.
-                let common = if interval.from_parameter_set { common } else { 1.0 };
+                let common = if is_scaled(&interval) { common } else { 1.0 };
                 let change = (after - before).abs().min((after - common * before).abs());
                 let mismatch =
                     holds && change > 1.5 * interval.half_of_data && change > MISMATCH * before.abs();
-                let given = self.baseline.known.iter().find(|(known, _, _)| *known == index);
+                let is_yardstick = yardstick == Some(index);
+                let known = self.baseline.known.iter().find(|(known, _, _)| *known == index);
+                let given = known.filter(|_| !is_yardstick);
                 let contradicted = given.is_some_and(|(_, value, deviation)| {
                     (after - value).abs() > (1.0 - MISMATCH) * SURE * deviation
                 });
@@ -158,6 +164,7 @@ impl Diagnosis<'_> {
                     high: interval.high(),
                     mismatch,
                     from_parameter_set: given.is_none() && interval.from_parameter_set,
+                    is_yardstick,
                     contradicted,
                     equivalent_effects: twins.map(|it| located(&it.name, &it.element)).collect(),
                 });

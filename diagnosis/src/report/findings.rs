@@ -168,6 +168,8 @@ pub struct NominalParameter {
     pub mismatch: bool,
     /// Whether most of the interval is the tolerance of the parameter set: the data tell it only together with others.
     pub from_parameter_set: bool,
+    /// Whether the records tell only ratios to it, so that it keeps the parameter set's value.
+    pub is_yardstick: bool,
     /// Whether the data contradict the value that the user gave with its standard deviation.
     pub contradicted: bool,
     /// Effects that do the same on these records, of a parameter that the starting model is without.

@@ -62,7 +62,16 @@ impl Baseline<'_> {
                     Unknown::Input(_, Fault::Delay) | Unknown::Output(_, Fault::Delay) => {
                         TIMES.iter().flat_map(|time| [*time, -time]).map(probe).collect()
                     }
-                    _ => vec![probe(self.typical_fault(handle))],
+                    // What goes with it, as a drift with an offset, is there or not on its own.
+                    _ => {
+                        let own = self.own_coordinates(term).into_iter().map(|it| it.handle);
+                        let points = own.map(|handle| {
+                            let mut point = at.clone();
+                            point.set(handle, at.get(handle) + self.typical_fault(handle));
+                            point
+                        });
+                        vec![Probe { term: index, points: points.collect() }]
+                    }
                 }
             }
         }

@@ -205,7 +205,7 @@ pub fn sample(verdict: Verdict) -> Findings {
             findings.account =
                 account(&findings.signals, &[("unnamed force over velocity in the strut", 1.0)], 0.4);
             findings.missing.iter_mut().for_each(|it| it.equivalent_places = vec!["actuator.force".into()]);
-            findings.summary = "No known effect explains 37 % of wheel.acceleration on the validation data (37 × sensor \
+            findings.summary = "37 % of wheel.acceleration is explained by no known effect on the validation data (37 × sensor \
                 noise). Parts of 2 other signals are unexplained, too. The description covers 88 % of the missing \
                 signal on the estimation data and 81 % on the validation data."
                 .into();

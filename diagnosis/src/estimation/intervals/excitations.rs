@@ -82,7 +82,7 @@ impl Baseline<'_> {
         let of = |record: &Dataset, estimation: bool, number: usize| {
             let records = std::slice::from_ref(record);
             let starts = self.starts(records);
-            let fit = self.fit(&*dynamics, records, fitted.coordinates.clone());
+            let fit = self.fit(&*dynamics, records, self.released(&fitted.coordinates));
             let point = fit.settled(Estimate { starts, ..fitted.point.clone() });
             let (linear, trace) = fit.linearise(&point);
             let power = 2.0 * fit.cost(&point);

@@ -94,7 +94,7 @@ impl OpenSignal {
                 format!("{part} of {signal} is still unexplained on the validation data{noise}.")
             }
             (Some(part), true) => {
-                format!("No known effect explains {part} of {signal} on the validation data{noise}.")
+                format!("{part} of {signal} is explained by no known effect on the validation data{noise}.")
             }
             (None, _) if self.fit < 0.0 => {
                 format!("The model does not predict {signal} at all on the validation data{noise}.")
@@ -172,7 +172,7 @@ mod tests {
     #[test]
     fn a_description_is_no_explanation() {
         let text = open_signals(&findings(0.001, 0.3, 0.1, 0.6))[0].sentence();
-        assert!(text.starts_with("No known effect explains 40 % of body.acceleration"), "{text}");
+        assert!(text.starts_with("40 % of body.acceleration is explained by no known effect"), "{text}");
     }
 
     #[test]

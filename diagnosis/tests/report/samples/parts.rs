@@ -73,6 +73,7 @@ pub fn base(name: &str, unit: &str, before: f64, after: f64, half: f64, mismatch
         high,
         mismatch,
         from_parameter_set: false,
+        is_yardstick: false,
         contradicted: false,
         equivalent_effects: vec![],
     }
