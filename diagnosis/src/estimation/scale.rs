@@ -10,6 +10,7 @@ use strut_model::unit;
 use crate::estimation::coordinates::TOLERANCE;
 use crate::estimation::hypothesis::{Baseline, Fitted};
 use crate::estimation::unknowns::{Estimate, FreeParameter, Prior, Unknown};
+use crate::screening::rms;
 
 /// Standard deviation of a parameter that keeps its value, over that.
 const KEPT: f64 = 1e-3;
@@ -37,12 +38,13 @@ impl Baseline<'_> {
         (TOLERANCE * exponent * value).powi(2) / estimates
     }
 
-    /// Lets a mass keep its value where the records tell the common scale less well than a data sheet does. Gives the fit's point at
-    /// that scale; none where the scale is known.
+    /// Lets a mass keep its value where no force was recorded, and what is given otherwise tells the common scale less well than a data
+    /// sheet does. Gives the fit's point at that scale; none where the scale is known.
     pub(crate) fn hold_scale(&mut self, fitted: &Fitted) -> Option<Estimate> {
         let scaled = self.scaled();
         let is_known = |(index, _): &(usize, i32)| self.known.iter().any(|(known, _, _)| known == index);
-        if scaled.iter().any(is_known) || self.told(fitted, &scaled) * TOLERANCE.powi(2) >= 1.0 {
+        let is_told = || self.told(fitted, &scaled) * TOLERANCE.powi(2) >= 1.0;
+        if scaled.iter().any(is_known) || self.records_a_force() || is_told() {
             return None;
         }
         let is_mass = |index: usize| self.rig.plant.parameters[index].unit.base == unit::KG.base;
@@ -65,6 +67,17 @@ impl Baseline<'_> {
         Some(point)
     }
 
+    /// Whether a signal with a dimension of mass was recorded, and moves.
+    fn records_a_force(&self) -> bool {
+        let plant = &self.rig.plant;
+        self.train.iter().any(|record| {
+            let outputs = record.measured.iter().map(|it| (&plant.outputs[it.output], &it.values[..]));
+            let inputs = plant.inputs.iter().zip(&record.inputs);
+            let inputs = inputs.filter_map(|(declared, source)| Some((declared, source.measured()?)));
+            outputs.chain(inputs).any(|(declared, values)| declared.unit.base.kg != 0 && rms(values) > 0.0)
+        })
+    }
+
     /// What the data tell of the logarithm of the common scale: the inverse of its variance.
     fn told(&self, fitted: &Fitted, scaled: &[(usize, i32)]) -> f64 {
         let slope = |coordinate: &FreeParameter| {
@@ -81,7 +94,7 @@ impl Baseline<'_> {
         (all - before.sum::<f64>()) * independent / samples.max(1) as f64
     }
 
-    /// Coordinates of which none keeps its value for the others' sake.
+    /// The same coordinates, none of them kept at its value for the others' sake.
     pub(crate) fn released(&self, coordinates: &[FreeParameter]) -> Vec<FreeParameter> {
         let release = |it: &FreeParameter| match it.handle {
             Unknown::Parameter(index) if self.yardstick == Some(index) => {
