@@ -122,7 +122,7 @@ impl Baseline<'_> {
                 Next::Curve(score) => self.unmodelled(found, (&missing, &compared), score)?,
                 Next::Nothing if !self.uses(Component::Ports) => false,
                 Next::Nothing => {
-                    if let Some(rest) = self.remainder(&found.extended, &missing, &location, &compared) {
+                    if let Some(rest) = self.remainder(found, &missing, &location, &compared) {
                         let all = &mut found.unmodelled;
                         let place = place_of_remainder(all.iter().map(|it| it.share)).unwrap_or(all.len());
                         all.insert(place, rest);
@@ -268,7 +268,7 @@ impl Baseline<'_> {
         score: Score,
     ) -> Result<bool, String> {
         let reduction = self.reduction((missing, compared), score);
-        let improvement = self.improvement(&found.extended, reduction);
+        let improvement = self.improvement(&found.extended, reduction) * found.left_by_descriptions();
         // Free features take the shape of what every rig has a little of, too.
         let background = if self.is_open(&found.extended.test) { 1.0 } else { CRITERIA.background };
         let is_small = improvement < background * CRITERIA.improvement;
@@ -310,13 +310,14 @@ impl Baseline<'_> {
     /// A missing signal that no recorded signal explains.
     fn remainder(
         &self,
-        fitted: &Fitted,
+        found: &Found,
         missing: &Missing<'_>,
         location: &Location,
         compared: &Compared,
     ) -> Option<Unmodelled> {
         let best = location.ranked.first().filter(|_| compared.misses >= 1.0)?;
-        let improvement = self.improvement(fitted, 2.0 * best.gain / compared.left);
+        let improvement = self.improvement(&found.extended, 2.0 * best.gain / compared.left);
+        let improvement = improvement * found.left_by_descriptions();
         (improvement >= CRITERIA.improvement).then(|| Unmodelled::remainder(missing, location, best.port))
     }
 
@@ -360,6 +361,13 @@ impl Found {
             tried: Vec::new(),
             retracted: Vec::new(),
         }
+    }
+
+    /// Share of the remaining error that descriptions leave which are not in the model: whatever comes behind them has no more.
+    fn left_by_descriptions(&self) -> f64 {
+        let in_model = |term: Term| self.extended.terms.contains(&term);
+        let outside = self.unmodelled.iter().filter(|it| !it.curve.is_some_and(in_model));
+        outside.map(|it| (1.0 - it.validated.clamp(0.0, 1.0)).sqrt()).product()
     }
 
     /// Takes a confirmed effect into the model, in the place of what is no longer in it: a law that had been found as its limit.

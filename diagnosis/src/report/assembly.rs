@@ -13,11 +13,12 @@ use strut_model::Declaration;
 use unmodelled::missing;
 
 use crate::catalogue::naming::{self, name};
-use crate::confirm::{Accepted, has_no_name};
+use crate::confirm::{Accepted, Tried, has_no_name};
 use crate::data::check::DataProblem;
 use crate::dataset::recorded::Dataset;
 use crate::dataset::witness::same_excitation;
 use crate::decision::choice::Score;
+use crate::decision::evidence::Evidence;
 use crate::decision::verdict::{Facts, verdict};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::estimation::coordinates::SURE;
@@ -300,6 +301,12 @@ impl Diagnosis<'_> {
         .collect()
     }
 
+    /// Whether something that was accepted takes less of the error away than a candidate did.
+    fn explains_less_than(&self, tried: &Tried) -> bool {
+        let reduction = |it: &Evidence| it.residual_reduction;
+        self.found.accepted.iter().any(|it| reduction(&it.evidence) < reduction(&tried.evidence))
+    }
+
     fn candidates(&self) -> Vec<Candidate> {
         let plant = &self.baseline.rig.plant;
         let late = || "not confirmed: the time limit was reached".to_owned();
@@ -319,6 +326,9 @@ impl Diagnosis<'_> {
                     }
                     (Ok(_), None) if !self.baseline.is_sized(tried, &self.found.base) => {
                         "its size may be zero, or is at a bound of the search".into()
+                    }
+                    (Ok(_), None) if self.explains_less_than(tried) => {
+                        "explains hardly more than a simpler effect".into()
                     }
                     (Ok(_), None) => "another effect explains it better".into(),
                 },
