@@ -96,7 +96,8 @@ impl Baseline<'_> {
             let variance =
                 NORMAL.powi(2) * own[(index, index)].max(0.0) + quantile.powi(2) * between + 2.0 * pulled;
             let value = fitted.point.get(coordinate.handle);
-            let (handle, bounds) = (coordinate.handle, coordinate.bounds);
+            let handle = coordinate.handle;
+            let bounds = if is_held(handle) { (0.0, f64::INFINITY) } else { coordinate.bounds };
             let wishes = wishes(value, &all);
             let twins = twins[index].clone();
             let mut half_of_data = variance.sqrt();

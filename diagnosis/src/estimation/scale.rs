@@ -13,7 +13,7 @@ use crate::estimation::unknowns::{Estimate, FreeParameter, Prior, Unknown};
 use crate::screening::rms;
 
 /// Standard deviation of a parameter that keeps its value, over that.
-const KEPT: f64 = 1e-3;
+const KEPT: f64 = 1e-6;
 
 impl Baseline<'_> {
     /// Nominal parameters with a dimension of mass, by their indices, with its exponent.

@@ -7,6 +7,9 @@ use crate::report::findings::{Findings, NominalParameter, RecordRead};
 use crate::report::words::records::read;
 use crate::report::words::{capitalised, count, digits, interval, number, percent, place, reservation, unit};
 
+/// Change below which its sign is no matter.
+const UNCHANGED: f64 = 5e-4;
+
 /// Rows that a table shows before the rest is folded away.
 const OPEN_ROWS: usize = 12;
 
@@ -92,7 +95,10 @@ pub fn nominal_parameters(findings: &Findings) -> Markup {
                         td.number { (low) " … " (high) }
                         td.unit { (unit(&parameter.unit)) }
                         td.number { (change(parameter)) }
-                        td { @if parameter.mismatch { span.no { "mismatch" } } }
+                        td {
+                            @if parameter.mismatch { span.no { "mismatch" } }
+                            @if parameter.is_yardstick { "kept" }
+                        }
                     }
                 } }
             }
@@ -117,8 +123,8 @@ fn change(parameter: &NominalParameter) -> String {
         return "–".into();
     }
     let change = parameter.after / parameter.before - 1.0;
-    let sign = if change > 0.0 { "+" } else { "" };
-    format!("{sign}{}", percent(change))
+    let sign = if change >= UNCHANGED { "+" } else { "" };
+    format!("{sign}{}", percent(if change.abs() < UNCHANGED { change.abs() } else { change }))
 }
 
 /// A place without its preposition, for a narrow column.
