@@ -121,8 +121,8 @@ fn turned_over(baseline: &Baseline<'_>, base: &Fitted, turned: &Estimate, handle
         .filter(|other| other.cost < CLEARLY * base.cost && baseline.apart(other, base) > CRITERIA.apart)
 }
 
-/// Whether the errors contain more of what the model would do without an input than would be there if it had none: by a linear look at the
-/// fit, all its coordinates being free.
+/// Whether the records want less than nothing of an input: the errors contain more than once what the model's signals change by where the
+/// input is left out. A linear look at the fit, all its coordinates being free; none if the model refuses its settings.
 fn is_unwanted(baseline: &Baseline<'_>, base: &Fitted, handle: Unknown) -> Option<bool> {
     let dynamics = baseline.dynamics(&[]).ok()?;
     let fit = baseline.fit(&*dynamics, baseline.train, base.coordinates.clone());
