@@ -140,10 +140,16 @@ fn diagnosed(folder: &Path) -> serde_json::Value {
     serde_json::from_str(&text).expect("the report is JSON")
 }
 
-/// The same with friction, once for all tests.
+/// A record with friction, once for all tests.
+fn recorded_with_friction() -> &'static Path {
+    static FOLDER: OnceLock<PathBuf> = OnceLock::new();
+    FOLDER.get_or_init(|| recorded("8"))
+}
+
+/// What the diagnosis says of it, once for all tests.
 fn with_friction() -> &'static serde_json::Value {
     static REPORT: OnceLock<serde_json::Value> = OnceLock::new();
-    REPORT.get_or_init(|| diagnosed(&recorded("8")))
+    REPORT.get_or_init(|| diagnosed(recorded_with_friction()))
 }
 
 /// That a report names friction, and its amount.
@@ -165,7 +171,7 @@ fn friction_in_a_record_is_found_beside_their_fmu() {
 fn a_wrong_sign_of_the_only_input_hides_no_friction() {
     let turned = folder("8-turned");
     std::fs::create_dir_all(&turned).expect("the target folder can be written");
-    let recorded = recorded("8");
+    let recorded = recorded_with_friction();
     for name in ["damper-train.csv", "damper-test.csv"] {
         let text = std::fs::read_to_string(recorded.join(name)).expect("the record is there");
         let of = |line: &str| match line.split(',').collect::<Vec<_>>()[..] {
@@ -180,7 +186,7 @@ fn a_wrong_sign_of_the_only_input_hides_no_friction() {
     let report = diagnosed(&turned);
     assert_friction(&report);
     let parameters = report["nominal_parameters"].as_array().unwrap();
-    let sign = parameters.iter().find(|it| it["name"] == "f.sign").expect("the sign is told");
+    let sign = parameters.iter().find(|it| it["name"] == "f.sign").expect("the report names the sign");
     assert_eq!(sign["after"], -1.0);
 }
 

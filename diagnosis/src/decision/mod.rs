@@ -3,6 +3,7 @@
 pub mod account;
 pub mod choice;
 pub mod criteria;
+pub mod description;
 pub mod disagreement;
 pub mod evidence;
 pub mod plausible;

@@ -33,7 +33,7 @@ pub(super) fn fit(baseline: &mut Baseline<'_>) -> Result<(Estimate, Fitted, Vec<
         start.parameters[*parameter] = *value;
     }
     let mut reversed = Vec::new();
-    let starts = weighed(baseline, &start)?;
+    let starts: Vec<Estimate> = std::iter::once(start.clone()).chain(weighed(baseline, &start)?).collect();
     let mut base = baseline.fitted(&[], &starts, Stop::NOISY)?;
     if !fits(baseline, &base)
         && !baseline.deadline.is_over(Stage::Nominal)
@@ -53,11 +53,11 @@ pub(super) fn fit(baseline: &mut Baseline<'_>) -> Result<(Estimate, Fitted, Vec<
             reversed.push(handle);
         }
     }
-    if !reversed.is_empty() {
-        // What was weighed with the wrong sign has the wrong mass.
-        let mut starts = weighed(baseline, &start)?;
-        starts.push(base.point);
-        base = baseline.fitted(&[], &starts, Stop::NOISY)?;
+    // A mass that was weighed with the wrong sign is another one.
+    if !reversed.is_empty()
+        && let Some(again) = weighed(baseline, &start)?
+    {
+        base = baseline.fitted(&[], &[again, base.point], Stop::NOISY)?;
     }
     let mut base = weighted(baseline, base)?;
     if let Some(point) = baseline.hold_scale(&base) {
@@ -66,15 +66,14 @@ pub(super) fn fit(baseline: &mut Baseline<'_>) -> Result<(Estimate, Fitted, Vec<
     Ok((before, base, reversed))
 }
 
-/// Where a fit starts: at the values that are given, and, if not even the order of one is known, at those by the balance of forces, which
-/// become the sheet. A simulation from a mass that nobody gave shows nothing; a balance of forces does not simulate.
-fn weighed(baseline: &mut Baseline<'_>, start: &Estimate) -> Result<Vec<Estimate>, String> {
-    let mut starts = vec![start.clone()];
-    if baseline.rig.base().into_iter().any(|index| baseline.is_of_unknown_order(index)) {
-        baseline.sheet = baseline.balanced(start)?;
-        starts.push(Estimate { parameters: baseline.sheet.clone(), ..start.clone() });
+/// A start with the parameters of a balance of forces, which become the sheet; none if the order of each is known. A simulation from a
+/// mass that nobody gave shows nothing; a balance of forces does not simulate.
+fn weighed(baseline: &mut Baseline<'_>, start: &Estimate) -> Result<Option<Estimate>, String> {
+    if !baseline.rig.base().into_iter().any(|index| baseline.is_of_unknown_order(index)) {
+        return Ok(None);
     }
-    Ok(starts)
+    baseline.sheet = baseline.balanced(start)?;
+    Ok(Some(Estimate { parameters: baseline.sheet.clone(), ..start.clone() }))
 }
 
 /// The fit with weights from its residuals, twice: then it is the likeliest for errors of these magnitudes.

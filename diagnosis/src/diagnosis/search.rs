@@ -3,6 +3,7 @@
 use crate::confirm::{Confirmed, Tried, contains_by_name};
 use crate::decision::choice::{Choice, Score, best_of, by_share, choose, likely};
 use crate::decision::criteria::CRITERIA;
+use crate::decision::description::{error_left, place_of_rest};
 use crate::estimation::deadline::Stage;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::unknowns::Estimate;
@@ -124,7 +125,7 @@ impl Baseline<'_> {
                 Next::Nothing => {
                     if let Some(rest) = self.remainder(found, &missing, &location, &compared) {
                         let all = &mut found.unmodelled;
-                        let place = place_of_remainder(all.iter().map(|it| it.share)).unwrap_or(all.len());
+                        let place = place_of_rest(all.iter().map(|it| it.share)).unwrap_or(all.len());
                         all.insert(place, rest);
                     }
                     false
@@ -363,11 +364,11 @@ impl Found {
         }
     }
 
-    /// Share of the remaining error that descriptions leave which are not in the model: whatever comes behind them has no more.
+    /// Share of the model's error that the descriptions leave which are not in it.
     fn left_by_descriptions(&self) -> f64 {
         let in_model = |term: Term| self.extended.terms.contains(&term);
         let outside = self.unmodelled.iter().filter(|it| !it.curve.is_some_and(in_model));
-        outside.map(|it| (1.0 - it.validated.clamp(0.0, 1.0)).sqrt()).product()
+        error_left(outside.map(|it| it.validated))
     }
 
     /// Takes a confirmed effect into the model, in the place of what is no longer in it: a law that had been found as its limit.
@@ -379,25 +380,5 @@ impl Found {
         self.accepted.push(accepted);
         self.extended = fitted.clone();
         self.stages.push(fitted);
-    }
-}
-
-/// Where among the descriptions what follows nothing that was recorded comes, by the share that each explains of what was left to it:
-/// before the first one that leaves more than it explains.
-fn place_of_remainder(mut shares: impl Iterator<Item = f64>) -> Option<usize> {
-    shares.position(|share| share < 1.0 - share)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_left_comes_before_what_explains_less() {
-        let place = |shares: &[f64]| place_of_remainder(shares.iter().copied());
-        assert_eq!(
-            (place(&[]), place(&[0.12]), place(&[0.9]), place(&[0.9, 0.3])),
-            (None, Some(0), None, Some(1))
-        );
     }
 }

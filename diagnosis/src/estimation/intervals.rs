@@ -80,8 +80,7 @@ impl Baseline<'_> {
         let own = fitted.linear.robust_covariance(&fitted.trace.scores);
         let [before, vouched_for] = [false, true].map(|it| fitted.linear.sandwich(&fitted.priors(it)));
         let excitations = self.excitations(fitted)?;
-        let is_held = |handle: Unknown| self.yardstick.is_some_and(|it| handle == Unknown::Parameter(it));
-        let held = fitted.coordinates.iter().position(|it| is_held(it.handle));
+        let held = fitted.coordinates.iter().position(|it| self.is_yardstick(it.handle));
         let opinions = opinions(&excitations, held);
         let dynamics = self.dynamics(&fitted.terms)?;
         let fit = self.fit(&*dynamics, self.train, fitted.coordinates.clone());
@@ -96,17 +95,16 @@ impl Baseline<'_> {
             let variance =
                 NORMAL.powi(2) * own[(index, index)].max(0.0) + quantile.powi(2) * between + 2.0 * pulled;
             let value = fitted.point.get(coordinate.handle);
-            let handle = coordinate.handle;
-            let bounds = if is_held(handle) { (0.0, f64::INFINITY) } else { coordinate.bounds };
+            let (handle, bounds) = (coordinate.handle, self.released(coordinate).bounds);
             let wishes = wishes(value, &all);
             let twins = twins[index].clone();
             let mut half_of_data = variance.sqrt();
             let of = |known: &DMatrix<f64>| NORMAL.powi(2) * known[(index, index)].max(0.0);
             let data = variance / NORMAL.powi(2);
-            let from_parameter_set = is_held(handle)
+            let scale = self.variance_of_scale(handle, value);
+            let from_parameter_set = scale > FROM_SET * data
                 || is_of_parameter_set(coordinate, &fitted.point, [before[(index, index)], data]);
-            let scale = NORMAL.powi(2) * self.variance_of_scale(handle, value);
-            let mut half = (variance + of(&vouched_for) + scale).sqrt();
+            let mut half = (variance + of(&vouched_for) + NORMAL.powi(2) * scale).sqrt();
             if amounts.contains(&handle) && half_of_data.is_finite() {
                 let promised = 0.5 * (norms[index] * half_of_data).powi(2);
                 let enough = BORNE_OUT * promised.min(fitted.cost * NORMAL.powi(2) / count);

@@ -4,6 +4,8 @@
 //! nothing tells (E. Buckingham, On physically similar systems, Physical Review 4 (1914)). One of them keeps its value then, and the
 //! others, and the forces of all effects, are relative to it.
 
+use std::cmp::Reverse;
+
 use nalgebra::DVector;
 use strut_model::unit;
 
@@ -23,34 +25,39 @@ impl Baseline<'_> {
         all.filter(|(index, exponent)| *exponent != 0 && self.rig.parameters[*index] != 0.0).collect()
     }
 
-    /// Whether a nominal parameter is relative to another one that keeps its value.
+    /// Whether a parameter keeps its value, so that others are relative to it.
+    pub fn is_yardstick(&self, handle: Unknown) -> bool {
+        self.yardstick.is_some_and(|it| handle == Unknown::Parameter(it))
+    }
+
+    /// Whether a nominal parameter has the scale of the one that keeps its value.
     pub fn is_scaled(&self, handle: Unknown) -> bool {
         let scaled = || self.scaled().into_iter().map(|(index, _)| Unknown::Parameter(index));
         self.yardstick.is_some() && scaled().any(|it| it == handle)
     }
 
-    /// Variance of a parameter by the scale that the records do not tell, beside what they tell: each nominal parameter is as good an
-    /// estimate of the scale as its data sheet is.
+    /// Variance of a parameter's value by the unknown scale: each nominal parameter is as good an estimate of the scale as its data
+    /// sheet is.
     pub(crate) fn variance_of_scale(&self, handle: Unknown, value: f64) -> f64 {
-        let Unknown::Parameter(index) = handle else { return 0.0 };
-        let estimates = self.yardstick.map_or(f64::INFINITY, |_| self.scaled().len() as f64);
+        let (Unknown::Parameter(index), Some(_)) = (handle, self.yardstick) else { return 0.0 };
+        let estimates = self.scaled().len() as f64;
         let exponent = f64::from(self.rig.plant.parameters[index].unit.base.kg);
         (TOLERANCE * exponent * value).powi(2) / estimates
     }
 
-    /// Lets a mass keep its value where no force was recorded, and what is given otherwise tells the common scale less well than a data
-    /// sheet does. Gives the fit's point at that scale; none where the scale is known.
+    /// Lets a mass keep its value where no force was recorded, and the constants of the model determine the common scale less well than a
+    /// data sheet does. Gives the fit's point at that scale; none where the scale is known.
     pub(crate) fn hold_scale(&mut self, fitted: &Fitted) -> Option<Estimate> {
         let scaled = self.scaled();
         let is_known = |(index, _): &(usize, i32)| self.known.iter().any(|(known, _, _)| known == index);
-        let is_told = || self.told(fitted, &scaled) * TOLERANCE.powi(2) >= 1.0;
-        if scaled.iter().any(is_known) || self.records_a_force() || is_told() {
+        let is_determined = || self.information(fitted, &scaled) * TOLERANCE.powi(2) >= 1.0;
+        if scaled.iter().any(is_known) || self.records_a_force() || is_determined() {
             return None;
         }
         let is_mass = |index: usize| self.rig.plant.parameters[index].unit.base == unit::KG.base;
         let (held, exponent) = *scaled
             .iter()
-            .max_by_key(|(index, _)| (self.rig.stated[*index], is_mass(*index), -(*index as isize)))?;
+            .max_by_key(|(index, _)| (self.rig.stated[*index], is_mass(*index), Reverse(*index)))?;
         let value = self.rig.parameters[held];
         let factor = (value / fitted.point.parameters[held]).powf(f64::from(exponent).recip());
         if !(factor.is_finite() && factor > 0.0) {
@@ -78,8 +85,8 @@ impl Baseline<'_> {
         })
     }
 
-    /// What the data tell of the logarithm of the common scale: the inverse of its variance.
-    fn told(&self, fitted: &Fitted, scaled: &[(usize, i32)]) -> f64 {
+    /// Information of the data on the logarithm of the common scale: the inverse of its variance.
+    fn information(&self, fitted: &Fitted, scaled: &[(usize, i32)]) -> f64 {
         let slope = |coordinate: &FreeParameter| {
             let own = scaled.iter().find(|(index, _)| coordinate.handle == Unknown::Parameter(*index));
             own.map_or(0.0, |(_, exponent)| f64::from(*exponent) * fitted.point.get(coordinate.handle))
@@ -94,15 +101,14 @@ impl Baseline<'_> {
         (all - before.sum::<f64>()) * independent / samples.max(1) as f64
     }
 
-    /// The same coordinates, none of them kept at its value for the others' sake.
-    pub(crate) fn released(&self, coordinates: &[FreeParameter]) -> Vec<FreeParameter> {
-        let release = |it: &FreeParameter| match it.handle {
+    /// A coordinate as it would be if it were not kept at its value for the others' sake.
+    pub(crate) fn released(&self, coordinate: &FreeParameter) -> FreeParameter {
+        match coordinate.handle {
             Unknown::Parameter(index) if self.yardstick == Some(index) => {
                 let prior = Prior::Factor { mean: self.rig.parameters[index], deviation: TOLERANCE };
-                FreeParameter { prior: Some(prior), bounds: (0.0, f64::INFINITY), ..*it }
+                FreeParameter { prior: Some(prior), bounds: (0.0, f64::INFINITY), ..*coordinate }
             }
-            _ => *it,
-        };
-        coordinates.iter().map(release).collect()
+            _ => *coordinate,
+        }
     }
 }

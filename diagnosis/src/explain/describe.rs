@@ -12,7 +12,7 @@ use crate::plant::{Plant, Signals};
 use crate::report::words::digits;
 use crate::signal::spectral::line;
 
-use super::features::{Group, RESONANCES, features};
+use super::features::{AGEING, Group, RESONANCES, features};
 use super::selection::Compared;
 
 /// Kurtosis beyond which a signal comes in bursts: ten percent of the time hold all of it.
@@ -60,8 +60,8 @@ impl Unmodelled {
         let amounts = compared.amounts(score.candidate);
         let mut depends_on = words(group, mover, (missing, plant));
         if group == Group::Time {
-            let own = AGEING[compared.largest(score.candidate)];
-            depends_on.splice(0..0, own.map(str::to_owned));
+            let (motion, _) = AGEING[compared.largest(score.candidate)];
+            depends_on.splice(0..0, motion.map(str::to_owned));
         }
         Some(Self {
             place: own.place.clone(),
@@ -181,9 +181,6 @@ impl Unmodelled {
         missing.explain(columns.into_iter());
     }
 }
-
-/// What else each of the features of time depends on.
-const AGEING: [Option<&str>; 4] = [None, Some("deflection"), Some("velocity"), Some("velocity")];
 
 /// The words before the name of a sensor's signal.
 const MEASURED: &str = "in the measurement of";
@@ -312,6 +309,29 @@ mod tests {
 
     fn signal(of: impl Fn(f64) -> f64) -> Vec<(f64, Vec<f64>)> {
         vec![(0.01, (0..1000).map(|k| of(0.01 * f64::from(k))).collect())]
+    }
+
+    #[test]
+    fn a_law_that_ages_is_described_with_its_motion() {
+        let of = |depends_on: &[&str]| {
+            let it = Unmodelled {
+                place: "strut".into(),
+                unit: "N",
+                at: AT,
+                features: None,
+                depends_on: depends_on.iter().map(|it| (*it).to_owned()).collect(),
+                share: 0.0,
+                validated: 0.0,
+                improvement: 0.0,
+                amount: None,
+                frequency: None,
+                curve: None,
+            };
+            it.description()
+        };
+        assert_eq!(of(&["time"]), "a signal that changes with time at the strut");
+        let told = "a signal that follows the deflection and changes with time at the strut";
+        assert_eq!(of(&["deflection", "time"]), told);
     }
 
     #[test]

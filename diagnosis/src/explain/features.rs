@@ -18,6 +18,17 @@ const LAGS: [f64; 3] = [0.0, 0.01, 0.05];
 /// Shares of a velocity's root mean square within which friction turns over.
 const TURNS: [f64; 3] = [0.02, 0.1, 0.3];
 
+/// A law of deflection, velocity, and a velocity that is small there.
+type Law = fn(f64, f64, f64) -> f64;
+
+/// Laws whose size grows or falls with time, with the motion that each follows.
+pub const AGEING: [(Option<&str>, Law); 4] = [
+    (None, |_, _, _| 1.0),
+    (Some("deflection"), |x, _, _| x),
+    (Some("velocity"), |_, v, _| v),
+    (Some("velocity"), |_, v, small| (v / small).tanh()),
+];
+
 /// What a missing signal may depend on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Group {
@@ -33,7 +44,7 @@ pub enum Group {
     Resonance(usize),
     /// Products of deflection and velocity, and friction that is larger here than there.
     DeflectionAndVelocity,
-    /// Laws whose size grows or falls with time.
+    /// The laws of [`AGEING`].
     Time,
     /// A command, by the input's index: its curve and its rate.
     Command(usize),
@@ -127,7 +138,7 @@ pub fn features(
                 }
                 all
             };
-            vec![timed(&|_, _| 1.0), timed(&|x, _| x), timed(&|_, v| v), timed(&|_, v| (v / fast).tanh())]
+            AGEING.map(|(_, law)| timed(&|x, v| law(x, v, fast))).to_vec()
         }
         Group::Command(input) => {
             let u: Vec<Vec<f64>> = windows

@@ -130,12 +130,11 @@ impl Diagnosis<'_> {
             })
             .collect();
         let base = rig.base();
-        let yardstick = self.baseline.yardstick;
         let is_scaled = |it: &&Interval| self.baseline.is_scaled(it.handle);
         let common = common_factor(self.intervals.iter().filter(is_scaled).filter_map(|it| {
             let Unknown::Parameter(index) = it.handle else { return None };
-            let told = yardstick != Some(index);
-            told.then(|| (it.value / rig.parameters[index], it.half_of_data / rig.parameters[index]))
+            let ratio = || (it.value / rig.parameters[index], it.half_of_data / rig.parameters[index]);
+            (!self.baseline.is_yardstick(it.handle)).then(ratio)
         }));
         for interval in &self.intervals {
             let after = interval.value;
@@ -148,7 +147,7 @@ impl Diagnosis<'_> {
                 let change = (after - before).abs().min((after - common * before).abs());
                 let mismatch =
                     holds && change > 1.5 * interval.half_of_data && change > MISMATCH * before.abs();
-                let is_yardstick = yardstick == Some(index);
+                let is_yardstick = self.baseline.is_yardstick(interval.handle);
                 let known = self.baseline.known.iter().find(|(known, _, _)| *known == index);
                 let given = known.filter(|_| !is_yardstick);
                 let contradicted = given.is_some_and(|(_, value, deviation)| {

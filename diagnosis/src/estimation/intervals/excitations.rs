@@ -79,10 +79,11 @@ impl Baseline<'_> {
     /// The fit on each excitation alone: its Gauss–Newton step is what that one says.
     pub(super) fn excitations(&self, fitted: &Fitted) -> Result<Vec<Excitation>, String> {
         let dynamics = self.dynamics(&fitted.terms)?;
+        let coordinates: Vec<_> = fitted.coordinates.iter().map(|it| self.released(it)).collect();
         let of = |record: &Dataset, estimation: bool, number: usize| {
             let records = std::slice::from_ref(record);
             let starts = self.starts(records);
-            let fit = self.fit(&*dynamics, records, self.released(&fitted.coordinates));
+            let fit = self.fit(&*dynamics, records, coordinates.clone());
             let point = fit.settled(Estimate { starts, ..fitted.point.clone() });
             let (linear, trace) = fit.linearise(&point);
             let power = 2.0 * fit.cost(&point);
