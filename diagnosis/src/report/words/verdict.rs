@@ -134,7 +134,7 @@ mod tests {
     use crate::report::findings::{Disagreement, RecordValue, Signal, SignalAccount};
 
     #[test]
-    fn an_error_that_shows_is_told_where_nothing_is_identified() {
+    fn an_error_that_shows_is_named_where_nothing_is_identified() {
         let mut found = Findings::of_bad_data("rig", vec![], vec![], vec![]);
         found.signals =
             vec![Signal { name: "body.position".into(), fit_without_input_noise: 0.92, ..Signal::default() }];

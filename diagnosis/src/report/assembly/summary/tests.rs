@@ -178,7 +178,7 @@ fn a_signal_without_a_name_has_shares_of_both_data() {
 }
 
 #[test]
-fn a_rest_is_told_once() {
+fn a_rest_is_named_once() {
     let periodic =
         Unmodelled { description: "a signal that is periodic in time".into(), ..Unmodelled::default() };
     let small = Unmodelled { description: "a small one".into(), share: 0.12, ..Unmodelled::default() };
