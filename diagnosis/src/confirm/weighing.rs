@@ -4,7 +4,7 @@ use crate::catalogue::naming::{name, prevalence};
 use crate::catalogue::{Element, Prevalence};
 use crate::dataset::recorded::Dataset;
 use crate::decision::account::account;
-use crate::decision::evidence::Evidence;
+use crate::decision::evidence::{Evidence, Left};
 use crate::diagnosis::component::Component;
 use crate::estimation::comparison::{Errors, Student, student};
 use crate::estimation::coordinates::{IN_TIME, TIMING};
@@ -71,7 +71,6 @@ impl Baseline<'_> {
             residual_reduction: everywhere(term, shares(null, fitted).map(|share| 1.0 - share)),
             background: self.is_usual(term, fitted) && !self.is_open(&null.test),
             expected,
-            always_relevant: false,
         }
     }
 
@@ -131,6 +130,18 @@ impl Baseline<'_> {
             account(power, power, &[], noise, 0.0).is_open(self.signal(row))
         };
         self.uses(Component::Account) && self.errors(left).mean_squares().into_iter().enumerate().any(open)
+    }
+
+    /// Whether an effect could matter that a fit lacks: on both kinds of records, some signal's error is more than its noise.
+    pub(crate) fn may_matter(&self, base: &Fitted, fitted: &Fitted) -> bool {
+        let of = |records: &[Dataset], base: &Residuals, fitted: &Residuals| {
+            let roots = |it: &Residuals| self.errors(it).mean_squares().into_iter().map(f64::sqrt);
+            let rows = roots(base).zip(roots(fitted)).enumerate();
+            rows.into_iter().any(|(row, (before, error))| {
+                Left { error, before, noise: self.floor[row], signal: bent_rms(records, row) }.may_matter()
+            })
+        };
+        of(self.train, &base.train, &fitted.train) && of(self.test, &base.test, &fitted.test)
     }
 
     /// Mean square of a measured output on the validation records.

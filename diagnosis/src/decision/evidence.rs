@@ -4,6 +4,34 @@ use serde::Serialize;
 
 use super::criteria::CRITERIA;
 
+/// What a fit leaves of a signal on some data, in roots of mean squares.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Left {
+    /// Of the fit's error.
+    pub error: f64,
+    /// Of the starting model's error.
+    pub before: f64,
+    /// Of the sensor's noise.
+    pub noise: f64,
+    /// Of what the model has to tell of the signal.
+    pub signal: f64,
+}
+
+impl Left {
+    /// Whether an effect would matter that took all of the error but the noise. Where none would in any signal, a search has
+    /// nothing left to find.
+    pub fn may_matter(&self) -> bool {
+        let taken = self.error.powi(2) - self.noise.powi(2);
+        let evidence = Evidence {
+            variance_explained: taken / self.before.powi(2),
+            fit_improvement: (self.error - self.noise) / self.signal,
+            residual_reduction: taken / self.error.powi(2),
+            ..Evidence::default()
+        };
+        evidence.smallness().is_none()
+    }
+}
+
 /// Why an effect is believed: every gate that it went through.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Evidence {
@@ -29,8 +57,6 @@ pub struct Evidence {
     pub background: bool,
     /// Whether every rig has it: it is not one of many that are tried, so that nothing but the data speaks against it.
     pub expected: bool,
-    /// Whether it matters however little of it the errors show, as with a signal that is very late.
-    pub always_relevant: bool,
 }
 
 impl Evidence {
@@ -50,7 +76,6 @@ impl Evidence {
         residual_reduction: CRITERIA.majority,
         background: false,
         expected: false,
-        always_relevant: false,
     };
 
     /// What has to be exceeded here: a larger size of what every rig has a little of, and any fall of the criterion of what
@@ -136,7 +161,7 @@ impl Evidence {
     fn smallness(&self) -> Option<String> {
         let Self { variance_explained, fit_improvement, residual_reduction, .. } = *self;
         let required = self.required();
-        if self.always_relevant || fit_improvement > required.fit_improvement {
+        if fit_improvement > required.fit_improvement {
             None
         } else if variance_explained <= required.variance_explained {
             Some(format!(
@@ -169,7 +194,6 @@ mod tests {
         residual_reduction: 0.4,
         background: false,
         expected: false,
-        always_relevant: false,
     };
 
     #[test]
@@ -197,6 +221,18 @@ mod tests {
         ] {
             assert!(one.refusal().is_some(), "{one:?}");
         }
+    }
+
+    #[test]
+    fn errors_that_are_noise_leave_nothing_to_find() {
+        let left = Left { error: 0.02, before: 0.5, noise: 0.02, signal: 1.0 };
+        assert!(!left.may_matter());
+        // A visible rise of the fit, or most of an error that is worth a name.
+        assert!(Left { error: 0.036, ..left }.may_matter());
+        assert!(!Left { error: 0.034, before: 2.0, ..left }.may_matter());
+        assert!(Left { error: 0.034, before: 0.1, ..left }.may_matter());
+        assert!(!Left { error: 0.028, before: 0.1, ..left }.may_matter());
+        assert!(!Left { signal: 0.0, before: 0.0, error: 0.0, noise: 0.0 }.may_matter());
     }
 
     #[test]

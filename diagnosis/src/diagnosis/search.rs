@@ -73,7 +73,10 @@ impl Baseline<'_> {
     pub(super) fn identify(&self, found: &mut Found, progress: &(dyn Fn(&str) + Sync)) -> Result<(), String> {
         let (mut errors, mut refinements, mut refused) = (None, 0, found.retracted.clone());
         let mut first = None;
-        while found.accepted.len() < MOST && !self.deadline.is_over(Stage::Search) {
+        // What a first look sees is shown in any case.
+        let is_wanted =
+            |found: &Found| found.missing.is_none() || self.may_matter(&found.base, &found.extended);
+        while found.accepted.len() < MOST && is_wanted(found) && !self.deadline.is_over(Stage::Search) {
             progress("estimating the missing signal");
             let terms = found.extended.terms.clone();
             let at = match terms.is_empty() {
@@ -95,7 +98,7 @@ impl Baseline<'_> {
             }
             let mut next = self.named(found, (&missing, &compared), &mut refused, progress)?;
             let over = self.deadline.is_over(Stage::Search);
-            if !matches!(next, Next::Effect) && refinements < REFINEMENTS && !over {
+            if !matches!(next, Next::Effect) && refinements < REFINEMENTS && is_wanted(found) && !over {
                 // Sensors that disagree by more than their noise decide the comparison until larger errors are assumed.
                 let background = &location.background;
                 let larger = missing.refined(background, &compared.best().unwrap_or_default());

@@ -33,8 +33,8 @@ pub fn gates(evidence: &Evidence) -> [Gate; 6] {
         ESTIMATION | P_VALUE if evidence.is_steady_enough() => {
             Some("the effect removes most of the error; its improvement varies as the error does")
         }
-        EXPLAINED | IMPROVEMENT if evidence.always_relevant => {
-            Some("a delay of this size matters, even with small errors")
+        EXPLAINED if evidence.fit_improvement > limits.fit_improvement => {
+            Some("the fit of a signal rises visibly, however far off the starting model is")
         }
         _ => None,
     };

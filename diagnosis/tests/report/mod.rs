@@ -255,14 +255,11 @@ fn a_gate_that_is_not_passed_is_marked_and_one_that_need_not_be_says_why() {
     findings.effects[0].evidence.variance_explained = 0.5;
     assert!(findings.effects[0].evidence.refusal().is_none());
     assert_eq!(shown(&findings), [false, true]);
-    findings.effects[0].evidence = Evidence {
-        variance_explained: 1e-3,
-        always_relevant: true,
-        ..sample(Verdict::Identified).effects[0].evidence
-    };
+    findings.effects[0].evidence =
+        Evidence { variance_explained: 1e-3, ..sample(Verdict::Identified).effects[0].evidence };
     assert!(findings.effects[0].evidence.refusal().is_none());
     assert_eq!(shown(&findings), [false, true]);
-    assert!(report::html(&findings).contains("a delay of this size matters"));
+    assert!(report::html(&findings).contains("the fit of a signal rises visibly"));
 }
 
 #[test]

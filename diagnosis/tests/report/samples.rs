@@ -142,7 +142,6 @@ pub fn sample(verdict: Verdict) -> Findings {
                 residual_reduction: 0.35,
                 background: true,
                 expected: false,
-                always_relevant: false,
             };
             findings.effects = vec![friction(), cogging];
             findings.summary =

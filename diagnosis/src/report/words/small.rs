@@ -45,7 +45,6 @@ mod tests {
             residual_reduction: 0.52,
             background: false,
             expected: false,
-            always_relevant: false,
         };
         let candidate = |evidence| Candidate {
             id: "16".into(),

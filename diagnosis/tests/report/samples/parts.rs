@@ -50,7 +50,6 @@ pub fn friction() -> Effect {
             residual_reduction: 0.35,
             background: false,
             expected: false,
-            always_relevant: false,
         },
         ambiguous_with: vec![],
         experiment: None,
@@ -115,7 +114,6 @@ pub fn candidates() -> Vec<Candidate> {
             residual_reduction: 0.35,
             background: false,
             expected: false,
-            always_relevant: false,
         };
         Candidate {
             id: id.into(),
