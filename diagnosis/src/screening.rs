@@ -15,7 +15,7 @@ use crate::catalogue::{self, Signal};
 use crate::dataset::recorded::Dataset;
 use crate::estimation::fit::Normal;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
-use crate::estimation::unknowns::{Estimate, Unknown};
+use crate::estimation::unknowns::{Estimate, FreeParameter, Unknown};
 use crate::plant::{Dynamics, Signals};
 use crate::signal::distortion::{AFTER, Correction, Fault};
 
@@ -162,42 +162,49 @@ impl Baseline<'_> {
         Ok(TriedOut { terms, probes, normal })
     }
 
-    /// Where a fit of the term starts, and what it may gain there.
+    /// The share of a probe's best amounts that is within the term's bounds, and where a fit of the term starts: with as much. What
+    /// would have to be negative is not there, and what would have to be too large is held back; of several amounts, all are
+    /// within their bounds or none counts.
     pub(crate) fn start(
         &self,
         term: Term,
         probe: &Probe,
         amounts: &DVector<f64>,
-        gain: f64,
         at: &Estimate,
     ) -> (f64, Estimate) {
         let Some(mut point) = probe.points.first().cloned() else { return (0.0, at.clone()) };
         let own = self.own_coordinates(term);
-        match probe.points.as_slice() {
-            [_, _, ..] => {
-                for coordinate in &own {
-                    let before = at.get(coordinate.handle);
-                    let tried = probe.points.iter().map(|tried| tried.get(coordinate.handle) - before);
-                    let step: f64 = tried.zip(amounts.iter()).map(|(tried, amount)| amount * tried).sum();
-                    let value = before + step;
-                    point.set(coordinate.handle, value.clamp(coordinate.bounds.0, coordinate.bounds.1));
-                }
-                (gain, point)
-            }
-            _ => {
-                let Some(first) = own.first() else { return (gain.max(0.0), point) };
-                let before = at.get(first.handle);
-                let step = amounts[0] * (probe.points[0].get(first.handle) - before);
-                let (low, high) = first.bounds;
-                // What would have to be negative is not there; it is tried from a small amount all the same.
-                let possible = (before + step).clamp(low.min(before), high) != before;
-                let least = 0.1 * (probe.points[0].get(first.handle) - before);
-                let amount = if possible { step } else { least };
-                point.set(first.handle, (before + amount).clamp(low, high));
-                (if possible { gain } else { 0.0 }, point)
-            }
+        let wanted = |handle: Unknown| -> f64 {
+            let each = probe.points.iter().zip(amounts.iter());
+            each.map(|(tried, amount)| amount * (tried.get(handle) - at.get(handle))).sum()
+        };
+        if let [tried] = probe.points.as_slice() {
+            let Some(first) = own.first() else { return (1.0, point) };
+            let (before, wanted) = (at.get(first.handle), wanted(first.handle));
+            let (low, high) = first.bounds;
+            let held = |amount: f64| (before + amount).clamp(low.min(before), high);
+            let within = (held(wanted) - before) / wanted;
+            let is_possible = held(wanted) != before;
+            // What cannot be there is tried from a small amount all the same.
+            let least = 0.1 * (tried.get(first.handle) - before);
+            point.set(first.handle, held(if is_possible { wanted } else { least }));
+            return (if is_possible { within.clamp(0.0, 1.0) } else { 0.0 }, point);
         }
+        let mut within = 1.0;
+        for FreeParameter { handle, bounds: (low, high), .. } in own {
+            let (before, value) = (at.get(handle), at.get(handle) + wanted(handle));
+            if !(low.min(before)..=high.max(before)).contains(&value) {
+                within = 0.0;
+            }
+            point.set(handle, value.clamp(low, high));
+        }
+        (within, point)
     }
+}
+
+/// Share of the largest fall of a sum of squares that a share of the best amount brings: it is a parabola.
+pub(crate) fn of_gain(share: f64) -> f64 {
+    share * (2.0 - share)
 }
 
 /// What another correction of an output changes of a section's signals, which are the plant's and need not be simulated again.

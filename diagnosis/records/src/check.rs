@@ -6,7 +6,7 @@
 mod channel;
 mod lines;
 
-use super::uniform::{median_period, rounded_clock, runs};
+use super::uniform::{RoundedClock, median_period, rounded_clock, runs};
 use super::{Channel, Record};
 use std::ops::Range;
 
@@ -56,8 +56,9 @@ pub struct Checked {
 pub fn check(record: &Record) -> Checked {
     let mut problems = Problems { record: &record.name, found: Vec::new() };
     let mut unusable = vec![Vec::new(); record.channels.len()];
-    if check_time(&record.time, &mut problems) {
-        check_intervals(record, &mut problems);
+    let rounded = rounded_clock(record);
+    if check_time(&record.time, rounded.is_some(), &mut problems) {
+        check_intervals(&record.time, rounded, &mut problems);
         let rest = standstill(record);
         for (i, channel) in record.channels.iter().enumerate() {
             let others = record.channels.iter().enumerate().filter(|&(j, _)| j != i).map(|(_, other)| other);
@@ -82,8 +83,9 @@ impl Problems<'_> {
     }
 }
 
-/// Whether the times increase and are enough for the other checks to make sense.
-fn check_time(time: &[f64], problems: &mut Problems) -> bool {
+/// Whether the times increase and are enough for the other checks to make sense. Those of an even clock may be alike, where they
+/// are rounded.
+fn check_time(time: &[f64], is_rounded: bool, problems: &mut Problems) -> bool {
     if time.len() < FEWEST_SAMPLES {
         let text = format!("only {} samples: at least {FEWEST_SAMPLES} are needed", time.len());
         problems.add("time", true, text);
@@ -104,10 +106,11 @@ fn check_time(time: &[f64], problems: &mut Problems) -> bool {
         problems.add("time", true, text);
         sound = false;
     }
-    if let Some((sample, at, count)) = bad(|a, b| a == b) {
+    if let Some((sample, at, count)) = bad(|a, b| a == b).filter(|_| !is_rounded) {
         let text = format!(
             "{count} samples have the time of the sample before, the first is sample {sample} at {} s: remove \
-             double rows, or export the time with more digits",
+             double rows, or export the time with more digits; if every row is a sample of an even clock, give its rate \
+             (`--sampling-rate`, or `rate` in the map)",
             number(at)
         );
         problems.add("time", true, text);
@@ -126,11 +129,13 @@ fn check_time(time: &[f64], problems: &mut Problems) -> bool {
 }
 
 /// Gaps and jitter.
-fn check_intervals(record: &Record, problems: &mut Problems) {
-    let time = &record.time;
-    let rounded = rounded_clock(record);
-    let Some(period) = rounded.map(|(period, _)| period).or_else(|| median_period(time)) else { return };
-    let intervals = || time.windows(2).map(|pair| (pair[0], (pair[1] - pair[0]) / period));
+fn check_intervals(time: &[f64], rounded: Option<RoundedClock>, problems: &mut Problems) {
+    let Some(period) = rounded.as_ref().map(|it| it.period).or_else(|| median_period(time)) else { return };
+    let length = |sample: usize| match &rounded {
+        Some(clock) => (clock.places[sample + 1] - clock.places[sample]) as f64,
+        None => (time[sample + 1] - time[sample]) / period,
+    };
+    let intervals = || (0..time.len() - 1).map(|sample| (time[sample], length(sample)));
     let gaps: Vec<_> = intervals().filter(|interval| interval.1 > GAP).collect();
     let lost: f64 = gaps.iter().map(|gap| gap.1.round() - 1.0).sum();
     if let Some(longest) = gaps.iter().max_by(|a, b| a.1.total_cmp(&b.1)) {
@@ -146,7 +151,7 @@ fn check_intervals(record: &Record, problems: &mut Problems) {
         );
         problems.add("time", fatal, text);
     }
-    if let Some((period, digit)) = rounded {
+    if let Some(RoundedClock { period, digit, .. }) = rounded {
         let text = format!(
             "the time stamps are rounded to {} s; an even clock of {} Hz is within half a digit of all of them and is used \
              in their place",

@@ -4,19 +4,18 @@
 //! their values. Others are interpolated (monotone cubic). Missing samples in short runs are interpolated linearly; longer runs split
 //! the record into segments. Whatever was done is reported.
 
+mod grid;
+
 use super::check::{describe, number};
 use super::interpolate::{cubic, linear};
 use super::{Channel, DataError, Record};
 use crate::check::DataProblem;
 use std::ops::Range;
 
-/// Deviation from the even grid, in periods, up to which a time stamp counts as on it.
-pub const ON_GRID: f64 = 0.05;
-/// Spread of time stamps about the fitted grid, in units of their last digit, that rounding can make: one digit, and a little for
-/// the error of the fit.
-const ROUNDED: f64 = 1.1;
-/// Decimals of seconds that are looked for in printed times: microseconds.
-const MOST_DECIMALS: i32 = 6;
+use grid::Grid;
+pub use grid::ON_GRID;
+pub(crate) use grid::{RoundedClock, median_period, rounded_clock};
+
 /// Missing samples in a row that are interpolated.
 pub const BRIDGED: usize = 5;
 /// Samples that a segment needs to be used.
@@ -128,73 +127,7 @@ fn no_segment(record: &Record) -> DataError {
     }
 }
 
-/// The even grid behind a record's times.
-struct Grid {
-    start: f64,
-    step: f64,
-    length: usize,
-    /// The grid point of each sample, if all are on the grid.
-    places: Option<Vec<usize>>,
-    /// How far the stamps are spread about the grid, in seconds.
-    spread: f64,
-}
-
 impl Grid {
-    fn of(record: &Record) -> Result<Self, DataError> {
-        let time = &record.time;
-        if !time.iter().all(|t| t.is_finite()) || !time.windows(2).all(|pair| pair[0] < pair[1]) {
-            let text =
-                "the times do not increase from sample to sample: sort the file and remove double rows";
-            return Err(DataError::signal(&record.name, "time", text));
-        }
-        let Some(period) = median_period(time) else {
-            return Err(DataError::signal(&record.name, "time", "there are fewer than two samples"));
-        };
-        let (first, last) = (time[0], time[time.len() - 1]);
-        if (last - first) / period > 20.0 * time.len() as f64 {
-            let text = format!(
-                "{} samples {} s apart are spread over {} s: check the unit and the gaps of the time",
-                time.len(),
-                number(period),
-                number(last - first)
-            );
-            return Err(DataError::signal(&record.name, "time", text));
-        }
-        let places = places(time, period);
-        let fitted = fit(time, &places);
-        let candidates = [snap(fitted).unwrap_or(fitted), fitted];
-        let rounding = rounding(time);
-        let on_grid = candidates.into_iter().find_map(|step| {
-            let offset = |(t, &place): (&f64, &usize)| t - step * place as f64;
-            let (low, high) = time
-                .iter()
-                .zip(&places)
-                .map(offset)
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), offset| {
-                    (low.min(offset), high.max(offset))
-                });
-            let allowed =
-                (2.0 * ON_GRID * step).max(if 2.0 * rounding < step { ROUNDED * rounding } else { 0.0 });
-            (high - low <= allowed).then_some((0.5 * (low + high), step, high - low))
-        });
-        Ok(match on_grid {
-            Some((start, step, spread)) => {
-                // Rounding of the stamps is no reason for a start of 1e-17 s.
-                let start = if (start - first).abs() < 1e-9 * step { first } else { start };
-                Self { start, step, length: places[places.len() - 1] + 1, places: Some(places), spread }
-            }
-            None => {
-                let step = snap(period).unwrap_or(period);
-                let length = ((last - first) / step * (1.0 + 1e-12)) as usize + 1;
-                Self { start: first, step, length, places: None, spread: f64::INFINITY }
-            }
-        })
-    }
-
-    fn time(&self, place: usize) -> f64 {
-        self.start + self.step * place as f64
-    }
-
     /// A channel's values on the grid; NaN where it has none.
     fn place(&self, record: &Record, channel: &Channel) -> Channel {
         let mut values = vec![f64::NAN; self.length];
@@ -223,63 +156,6 @@ impl Grid {
         }
         Channel { name: channel.name.clone(), unit: channel.unit.clone(), values }
     }
-}
-
-/// The period of the even clock behind time stamps that would be uneven but for the rounding of their last digit, and that
-/// digit; none if they are even without it, or not even with it.
-pub(crate) fn rounded_clock(record: &Record) -> Option<(f64, f64)> {
-    let digit = rounding(&record.time);
-    let grid = Grid::of(record).ok()?;
-    let uneven = grid.spread > 2.0 * ON_GRID * grid.step;
-    (grid.places.is_some() && uneven).then_some((grid.step, digit))
-}
-
-/// The last digit of printed times, in seconds: the largest power of ten of which all are multiples. Zero if it is
-/// less than a microsecond.
-fn rounding(time: &[f64]) -> f64 {
-    let is_multiple = |t: &f64, digit: f64| (t / digit - (t / digit).round()).abs() < 1e-4;
-    let digits = (0..=MOST_DECIMALS).map(|decimals| 10_f64.powi(-decimals));
-    digits.into_iter().find(|digit| time.iter().all(|t| is_multiple(t, *digit))).unwrap_or(0.0)
-}
-
-/// Median of the differences of the times; none for fewer than two.
-pub(crate) fn median_period(time: &[f64]) -> Option<f64> {
-    let mut steps: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let middle = steps.len() / 2;
-    (!steps.is_empty()).then(|| *steps.select_nth_unstable_by(middle, f64::total_cmp).1)
-}
-
-/// Number of the grid point of each sample, counted from gap to gap so that no error of the period adds up.
-fn places(time: &[f64], period: f64) -> Vec<usize> {
-    let mut place = 0;
-    let steps = time.windows(2).map(|pair| (((pair[1] - pair[0]) / period).round() as usize).max(1));
-    std::iter::once(0)
-        .chain(steps.map(|step| {
-            place += step;
-            place
-        }))
-        .collect()
-}
-
-/// Slope of the line through the times over their grid points.
-fn fit(time: &[f64], places: &[usize]) -> f64 {
-    let n = time.len() as f64;
-    let mean_time = time.iter().sum::<f64>() / n;
-    let mean_place = places.iter().sum::<usize>() as f64 / n;
-    let (mut covariance, mut variance) = (0.0, 0.0);
-    for (t, &place) in time.iter().zip(places) {
-        let x = place as f64 - mean_place;
-        covariance += x * (t - mean_time);
-        variance += x * x;
-    }
-    covariance / variance
-}
-
-/// The period of a whole number of samples a second, or the whole number of seconds, if within 1e-3.
-fn snap(period: f64) -> Option<f64> {
-    let near = |round: f64| (round > 0.0 && (period / round - 1.0).abs() < 1e-3).then_some(round);
-    let rate = (1.0 / period).round();
-    near(1.0 / rate).or_else(|| near(period.round()))
 }
 
 /// Interpolates short runs of missing samples and marks longer ones, and those at the ends, as not valid.

@@ -21,14 +21,14 @@ use crate::signal::distortion::Correction;
 use crate::signal::spectral::{Complex, about_line, filled};
 
 /// Lowest end of a band in Hz: at its sampling rate, a block of errors has ten samples.
-pub(super) const LOWEST: f64 = 8.0;
+pub(crate) const LOWEST: f64 = 8.0;
 /// Share of the force's power above which nothing is compared: it is 3 % of the force, and would decide about all that is slow.
 const NEGLIGIBLE: f64 = 1e-3;
 /// Share of the force's power that has to lie in the band.
 const COVERED: f64 = 0.9;
 /// Share of the force's power that the position's noise may make up.
 const NOISY: f64 = 0.01;
-/// Ratio of a band's end to that of the next narrower one that is tried.
+/// Ratio of a band's end to that of the next wider one that is tried.
 const NARROWER: f64 = 0.8;
 /// Share of its magnitude below which a velocity is none …
 const STILL: f64 = 0.02;
@@ -47,27 +47,30 @@ pub struct Banded {
 }
 
 /// The records in the widest band in which the position's noise makes up little of the force, if most of the force is in it.
+///
+/// How much the noise makes up, the balance of the next narrower band tells: noise of an acceleration looks like no mass at all,
+/// and a mass that is lost in it would make none of the force.
 pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Banded> {
     let signals = Signals::of(rig, inverse)?;
     // One band for all: in a wider one, what is fast would decide.
     let ends = records.iter().map(|record| Some(relevant(record, signals.force(record)?)));
-    let mut top = ends.collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::min)?.max(LOWEST);
-    let banded = loop {
+    let end = ends.collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::min)?.max(LOWEST);
+    let mut widest: Option<(f64, Vec<Dataset>)> = None;
+    for top in bands(end) {
         let banded: Vec<Dataset> = records.iter().map(|it| below(it, top)).collect();
         let covered = |(record, banded): (&Dataset, &Dataset)| {
             Some(power(signals.force(banded)?) >= COVERED * power(signals.force(record)?))
         };
         if !records.iter().zip(&banded).all(|pair| covered(pair).unwrap_or(false)) {
-            return None;
+            continue;
         }
-        if banded.iter().all(|it| signals.noise(it).is_some_and(|it| it < NOISY)) {
-            break banded;
+        let balance = signals.balance(widest.as_ref().map_or(&banded, |(_, narrower)| narrower))?;
+        if !banded.iter().all(|it| signals.noise(it, &balance).is_some_and(|it| it < NOISY)) {
+            break;
         }
-        if top <= LOWEST {
-            return None;
-        }
-        top = (NARROWER * top).max(LOWEST);
-    };
+        widest = Some((top, banded));
+    }
+    let (top, banded) = widest?;
     let text = format!(
         "{} drives the model and this is compared (inverse dynamics), below {} Hz: beyond, the motion is lost in its noise, or \
          this has less than {} % of its power. At rest nothing is compared: friction holds whatever acts",
@@ -77,6 +80,12 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
     );
     let note = DataProblem { record: "all".into(), signal: inverse.force.clone(), text, fatal: false };
     Some(Banded { records: banded.into_iter().map(|it| signals.moving(it)).collect(), top, note })
+}
+
+/// Ends of the bands that are tried, in Hz, the narrowest first.
+fn bands(end: f64) -> impl Iterator<Item = f64> {
+    let wider = move |top: &f64| (*top < end).then(|| (top / NARROWER).min(end));
+    std::iter::successors(Some(LOWEST), wider)
 }
 
 /// A record below a frequency in Hz, with the exact rates of its motion.
@@ -124,13 +133,21 @@ impl Signals {
         record.measured.iter().find(|it| it.output == self.force).map(|it| &it.values[..])
     }
 
+    /// How much of each term is in the force of some records.
+    fn balance(self, banded: &[Dataset]) -> Option<DVector<f64>> {
+        let each: Vec<DMatrix<f64>> = banded.iter().map(|it| terms(&motion(it), self.velocity)).collect();
+        let columns = each.first()?.ncols();
+        let rows: Vec<_> = each.iter().flat_map(|it| it.row_iter()).collect();
+        let forces = banded.iter().map(|it| self.force(it)).collect::<Option<Vec<_>>>()?.concat();
+        balance(&DMatrix::from_fn(rows.len(), columns, |row, column| rows[row][column]), &forces)
+    }
+
     /// Share of the force's power that the noise of the position makes up by way of mass, damper, spring or friction, where the rig
     /// moves.
-    fn noise(self, banded: &Dataset) -> Option<f64> {
+    fn noise(self, banded: &Dataset, balance: &DVector<f64>) -> Option<f64> {
         let (motion, force) = (motion(banded), self.force(banded)?);
         let size = rms(&motion[self.derivative]);
         let known = terms(&motion, self.velocity);
-        let balance = balance(&known, force)?;
         let noisier = banded.disturbed().map(|it| terms(&self::motion(&it), self.velocity));
         let differences = noisier.map_or_else(|| DVector::zeros(known.nrows()), |it| (it - &known) * balance);
         let rests = resting(&motion[self.velocity], banded.step);

@@ -20,15 +20,21 @@ pub(crate) fn along(rate: &[f64], motion: &[f64]) -> f64 {
     rate.iter().zip(steps).map(|(rate, step)| rate * step).filter(|it| it.is_finite()).sum()
 }
 
-/// A measured rate beside that of the motion.
+/// How a measured rate goes with that of the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Compared {
+pub(crate) struct Agreement {
     /// By how much it is larger.
-    ratio: f64,
+    pub ratio: f64,
     /// By how many seconds it comes later; zero if the motion shows no delay.
     delay: f64,
     /// Their correlation, without the delay.
     correlation: f64,
+}
+
+/// A measured rate beside that of the motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Compared {
+    agreement: Agreement,
     /// Whether the force follows from it more closely than from the motion's rate.
     pub is_better: bool,
 }
@@ -52,66 +58,76 @@ pub(super) fn compared(
     };
     let (slow_position, slow_rate) = (slow(by_position), slow(by_rate));
     let [rate, change] = [signals.velocity, signals.derivative].map(|input| of(&slow_position, input));
-    let agreement = agreement([&rate, &change], &of(&slow_rate, signals.velocity), by_rate.first()?.step)?;
-    Some(Compared { is_better: is_closer && agreement.agrees(), ..agreement })
+    let agreement =
+        Agreement::of([&rate, &change], &of(&slow_rate, signals.velocity), by_rate.first()?.step)?;
+    Some(Compared { is_better: is_closer && agreement.agrees(), agreement })
 }
 
-/// How a measured rate goes with that of the motion, whose own rate is `change`; both were sampled every `step` seconds.
-fn agreement([rate, change]: [&[f64]; 2], measured: &[f64], step: f64) -> Option<Compared> {
-    let product =
-        |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(one, other)| one * other).sum::<f64>();
-    let (rates, changes, both) = (product(rate, rate), product(change, change), product(rate, change));
-    let (with_rate, with_change) = (product(measured, rate), product(measured, change));
-    let power = product(measured, measured);
-    // By least squares, the measured rate is so much of the motion's and of its change: what is late has less of it.
-    let determinant = rates * changes - both * both;
-    let amount = (with_rate * changes - with_change * both) / determinant;
-    let changing = (with_change * rates - with_rate * both) / determinant;
-    let in_time = with_rate.powi(2) / (rates * power);
-    let late = (amount * with_rate + changing * with_change) / power;
-    let delay = -changing / amount;
-    let is_late = 1.0 - late < (1.0 - LATE) * (1.0 - in_time) && delay.abs() > step;
-    let delay = if is_late { delay } else { 0.0 };
-    let correlation = (if is_late { late } else { in_time }).sqrt() * amount.signum();
-    correlation.is_finite().then(|| Compared {
-        ratio: (power / rates).sqrt(),
-        delay,
-        correlation,
-        is_better: false,
-    })
+impl Agreement {
+    /// How a measured rate goes with that of the motion, whose own rate is `change`; both were sampled every `step` seconds.
+    pub fn of([rate, change]: [&[f64]; 2], measured: &[f64], step: f64) -> Option<Self> {
+        let product =
+            |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(one, other)| one * other).sum::<f64>();
+        let (rates, changes, both) = (product(rate, rate), product(change, change), product(rate, change));
+        let (with_rate, with_change) = (product(measured, rate), product(measured, change));
+        let power = product(measured, measured);
+        // By least squares, the measured rate is so much of the motion's and of its change: what is late has less of it.
+        let determinant = rates * changes - both * both;
+        let amount = (with_rate * changes - with_change * both) / determinant;
+        let changing = (with_change * rates - with_rate * both) / determinant;
+        let in_time = with_rate.powi(2) / (rates * power);
+        let late = (amount * with_rate + changing * with_change) / power;
+        let delay = -changing / amount;
+        let is_late = 1.0 - late < (1.0 - LATE) * (1.0 - in_time) && delay.abs() > step;
+        let delay = if is_late { delay } else { 0.0 };
+        let correlation = (if is_late { late } else { in_time }).sqrt() * amount.signum();
+        let ratio = (power / rates).sqrt();
+        correlation.is_finite().then_some(Self { ratio, delay, correlation })
+    }
+
+    /// Whether the two are of one motion.
+    pub fn is_related(&self) -> bool {
+        self.correlation > UNRELATED
+    }
+
+    fn agrees(&self) -> bool {
+        self.is_related() && (self.ratio - 1.0).abs() < RATIO && self.delay == 0.0
+    }
+
+    /// By how much the measured one is late or early, in words; none if it is in time.
+    pub fn late(&self) -> Option<String> {
+        let word = if self.delay > 0.0 { "late" } else { "early" };
+        (self.delay != 0.0).then(|| format!("{} ms {word}", digits(1e3 * self.delay.abs(), 2)))
+    }
 }
 
 impl Compared {
-    fn agrees(&self) -> bool {
-        self.correlation > UNRELATED && (self.ratio - 1.0).abs() < RATIO && self.delay == 0.0
-    }
-
     /// What is to be said of it; nothing of a rate that says the same and tells no more.
     pub fn note(&self, inverse: &Inverse) -> Option<DataProblem> {
         let (signal, position) = (inverse.rate.clone()?, &inverse.position);
-        let late = if self.delay > 0.0 { "late" } else { "early" };
+        let agreement = self.agreement;
         let text = if self.is_better {
             format!(
                 "drives the model together with {position}: {} follows from it more closely than from the position's rate",
                 inverse.force
             )
-        } else if self.agrees() {
+        } else if agreement.agrees() {
             return None;
-        } else if self.correlation <= UNRELATED {
+        } else if !agreement.is_related() {
             format!(
                 "does not go with the rate of {position} (correlation {}): it is not used",
-                digits(self.correlation, 2)
+                digits(agreement.correlation, 2)
             )
-        } else if (self.ratio - 1.0).abs() > RATIO {
+        } else if (agreement.ratio - 1.0).abs() > RATIO {
             format!(
                 "is {} of the rate of {position}: one of the two is wrong, and this one is not used. Check unit and gear ratio of \
                  both",
-                percent(self.ratio)
+                percent(agreement.ratio)
             )
         } else {
             format!(
-                "is {} ms {late}, compared with the rate of {position}: it is not used. Check what filters or computes it",
-                digits(1e3 * self.delay.abs(), 2)
+                "is {}, compared with the rate of {position}: it is not used. Check what filters or computes it",
+                agreement.late().unwrap_or_default()
             )
         };
         Some(DataProblem { record: "all".into(), signal, text, fatal: false })
@@ -132,12 +148,16 @@ mod tests {
         (5.0 * t).sin() + 0.4 * (31.0 * t + 1.0).cos()
     }
 
-    fn seen(measured: &[f64]) -> Compared {
+    fn seen(measured: &[f64]) -> Agreement {
         let change = wave(|t| 5.0 * (5.0 * t).cos() - 12.4 * (31.0 * t + 1.0).sin());
-        agreement([&wave(rate), &change], measured, STEP).unwrap()
+        Agreement::of([&wave(rate), &change], measured, STEP).unwrap()
     }
 
-    fn told(compared: Compared) -> Option<String> {
+    fn told(agreement: Agreement) -> Option<String> {
+        noted(Compared { agreement, is_better: false })
+    }
+
+    fn noted(compared: Compared) -> Option<String> {
         let inverse =
             Rig::published("linear-drive").unwrap().kind.drives.iter().find_map(|it| it.inverse.clone());
         compared.note(&inverse.unwrap()).map(|it| it.text)
@@ -147,7 +167,9 @@ mod tests {
     fn the_same_rate_agrees_and_needs_no_word_unless_it_is_better() {
         let same = seen(&wave(|t| 1.02 * rate(t)));
         assert!(same.agrees() && same.delay == 0.0 && told(same).is_none(), "{same:?}");
-        assert!(told(Compared { is_better: true, ..same }).unwrap().starts_with("drives the model"));
+        assert!(
+            noted(Compared { agreement: same, is_better: true }).unwrap().starts_with("drives the model")
+        );
     }
 
     #[test]

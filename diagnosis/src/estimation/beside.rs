@@ -11,7 +11,7 @@ use crate::estimation::coordinates::POINTS;
 use crate::estimation::fit::Normal;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::unknowns::Unknown;
-use crate::screening::TriedOut;
+use crate::screening::{TriedOut, of_gain};
 use crate::signal::distortion::Fault;
 
 /// Share of a column's square below which it does nothing that the coordinates could not do: it is another name for one of
@@ -60,7 +60,11 @@ impl Baseline<'_> {
                     twins.push(term);
                 }
             }
-            let found = beside.pull(range).filter(|it| it.gain > worth(fitted));
+            let found = beside.pull(range).map(|it| {
+                let (within, _) = self.start(term, probe, &it.amounts, &fitted.point);
+                it.held(within)
+            });
+            let found = found.filter(|it| it.gain > worth(fitted));
             let most = &mut most[probe.term];
             if let Some(found) = found
                 && most.as_ref().is_none_or(|it| found.gain > it.gain)
@@ -82,8 +86,17 @@ fn is_gain(term: Term) -> bool {
 struct Pull {
     /// By how much the sum of squares falls with it.
     gain: f64,
+    /// The amounts of its columns.
+    amounts: DVector<f64>,
     /// How far each coordinate moves with it.
     moved: DVector<f64>,
+}
+
+impl Pull {
+    /// The same by a share of the effect.
+    fn held(self, share: f64) -> Self {
+        Self { gain: of_gain(share) * self.gain, amounts: share * self.amounts, moved: share * self.moved }
+    }
 }
 
 /// How far coordinates move with effects that together explain no more than the remaining errors' sum of squares.
@@ -159,7 +172,8 @@ impl Beside<'_> {
         let step = factor.solve(&right);
         let mut moved = DVector::zeros(own);
         (0..own).for_each(|i| moved[order[i]] = step[i] / norm[i]);
-        let pull = Pull { gain: step.dot(&right), moved };
+        let amounts = DVector::from_fn(columns.len(), |i, _| step[own + i] / norm[own + i]);
+        let pull = Pull { gain: step.dot(&right), amounts, moved };
         Some(pull).filter(|it| it.gain.is_finite() && it.moved.iter().all(|it| it.is_finite()))
     }
 }
@@ -187,6 +201,7 @@ mod tests {
         let pull = beside(&[false; 2]).pull(&(0..1)).unwrap();
         assert!((pull.gain - left.norm_squared()).abs() < 1e-6 * pull.gain, "{}", pull.gain);
         let moved = &pull.moved;
+        assert!((pull.amounts[0] - curvature).abs() < 1e-6);
         assert!(
             (moved[0] - (height - fitted[0])).abs() < 1e-6 && (moved[1] - (slope - fitted[1])).abs() < 1e-6
         );
@@ -198,10 +213,14 @@ mod tests {
     /// Two effects, each of which explains all that remains, explain half of it each.
     #[test]
     fn assumed_effects_together_explain_no_more_than_the_remaining_errors() {
-        let pull = Pull { gain: 2.0, moved: DVector::from_element(1, 3.0) };
+        let one = |value: f64| DVector::from_element(1, value);
+        let pull = Pull { gain: 2.0, amounts: one(1.0), moved: one(3.0) };
         let all = together(vec![pull.clone(), pull.clone()], 2.0);
         assert!(all.iter().all(|it| (it[0].powi(2) - 4.5).abs() < 1e-12), "{all:?}");
         assert_eq!(together(vec![pull.clone()], 8.0)[0], pull.moved);
+        // Half of an effect takes three quarters of what all of it takes.
+        let half = pull.held(0.5);
+        assert_eq!((half.gain, half.moved[0], half.amounts[0]), (1.5, 1.5, 0.5));
     }
 
     /// An offset and a friction are one for a body that never turns back, and two for one that does.

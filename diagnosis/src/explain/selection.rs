@@ -9,11 +9,11 @@ use crate::confirm::has_no_name;
 use crate::decision::choice::Score;
 use crate::decision::criteria::CRITERIA;
 use crate::estimation::hypothesis::{Baseline, Term};
-use crate::estimation::unknowns::{Estimate, FreeParameter, Unknown};
+use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::missing::Missing;
 use crate::missing::innovations::{Column, Columns, Noise, Stretch};
 use crate::missing::motion::Mover;
-use crate::screening::Probe;
+use crate::screening::of_gain;
 
 use super::candidates::{Candidates, Kind};
 use super::features::Group;
@@ -88,10 +88,8 @@ impl Baseline<'_> {
                 Kind::Named { term, probe } => {
                     let amounts = DVector::from_vec(amounts);
                     let at = &missing.point();
-                    let (possible, point) = self.start(*term, probe, &amounts, gain.max(0.0), at);
-                    // What would have to be negative is not there, and what would have to be too large is held back.
-                    let within = self.within(*term, probe, &amounts, (&point, at));
-                    score.share *= if possible > 0.0 { within * (2.0 - within) } else { 0.0 };
+                    let (within, point) = self.start(*term, probe, &amounts, at);
+                    score.share *= if gain > 0.0 { of_gain(within) } else { 0.0 };
                     points[number] = Some(point);
                     if has_no_name(*term) { &mut features } else { &mut named }.push(score);
                 }
@@ -116,35 +114,6 @@ impl Baseline<'_> {
             amounts: all_amounts,
             points,
         })
-    }
-}
-
-impl Baseline<'_> {
-    /// Share of the best amount of a single column that a start within bounds has; of several columns, whether all are
-    /// within bounds.
-    fn within(
-        &self,
-        term: Term,
-        probe: &Probe,
-        amounts: &DVector<f64>,
-        (start, at): (&Estimate, &Estimate),
-    ) -> f64 {
-        let own = self.own_coordinates(term);
-        let moved = |handle: Unknown| -> f64 {
-            let each = probe.points.iter().zip(amounts.iter());
-            each.map(|(tried, amount)| amount * (tried.get(handle) - at.get(handle))).sum()
-        };
-        let possible = |it: &FreeParameter| {
-            let value = at.get(it.handle) + moved(it.handle);
-            value >= it.bounds.0.min(at.get(it.handle)) && value <= it.bounds.1.max(at.get(it.handle))
-        };
-        if probe.points.len() > 1 {
-            return f64::from(own.iter().all(possible));
-        }
-        let (Some(first), [tried]) = (own.first(), probe.points.as_slice()) else { return 1.0 };
-        let wanted = amounts[0] * (tried.get(first.handle) - at.get(first.handle));
-        let had = start.get(first.handle) - at.get(first.handle);
-        if wanted == 0.0 { 1.0 } else { (had / wanted).clamp(0.0, 1.0) }
     }
 }
 

@@ -1,13 +1,18 @@
 //! Columns of one motion against each other: a velocity is the rate of its position whatever the rig's parameters are.
 
-use crate::catalogue::Element;
+use crate::catalogue::{Bounds, Element, distortion};
 use crate::data::check::DataProblem;
+use crate::data::uniform::SHORTEST_SEGMENT;
+use crate::dataset::inverse::LOWEST;
+use crate::dataset::rate::Agreement;
 use crate::dataset::recorded::{Dataset, Source};
 use crate::decision::plausible::{FARTHEST, is_beyond_any_rig, mismatched_rate};
-use crate::report::words::{digits, unit};
+use crate::report::words::{digits, percent, unit};
 use crate::rig::Rig;
 use crate::screening::rms;
 use crate::signal::derivative;
+use crate::signal::distortion::Fault;
+use crate::signal::spectral::{Complex, about_line, filled};
 
 use super::{likeness, mended, readings};
 
@@ -38,7 +43,7 @@ pub(super) fn problems(rig: &Rig, record: &Dataset) -> Vec<DataProblem> {
     for motion in &columns {
         for rate in columns.iter().filter(|rate| is_rate(motion.0, rate.0)) {
             // One wrong column is wrong beside each of its relatives.
-            if let Some(problem) = compared(record, *motion, *rate)
+            if let Some(problem) = compared(record, *motion, *rate).or_else(|| apart(record, *motion, *rate))
                 && !problems.iter().any(|it| it.signal == problem.signal)
             {
                 problems.push(problem);
@@ -111,6 +116,43 @@ fn compared(record: &Dataset, motion: Column<'_>, rate: Column<'_>) -> Option<Da
         unit = unit(rate.1),
     );
     Some(DataProblem { record: record.name.clone(), signal: wrong.0.into(), text, fatal: true })
+}
+
+/// A rate that is another quantity than that of its motion: alike but for a factor that no sensor's gain has.
+fn apart(record: &Dataset, motion: Column<'_>, rate: Column<'_>) -> Option<DataProblem> {
+    let Bounds::Between(least, most) = distortion(Fault::Gain).bounds else { return None };
+    let alike = in_step(record, motion.2, rate.2)?;
+    if !alike.is_related() || (1.0 + least..=1.0 + most).contains(&alike.ratio) {
+        return None;
+    }
+    let text = format!(
+        "is {} of the rate of {}{}: no sensor is that far off. One of the two is another quantity or wrongly scaled. Correct \
+         it by a formula in the map, or take one of them out",
+        percent(alike.ratio),
+        motion.0,
+        alike.late().map_or_else(String::new, |late| format!(", and {late}"))
+    );
+    Some(DataProblem { record: record.name.clone(), signal: rate.0.into(), text, fatal: true })
+}
+
+/// A rate beside that of a motion, both without what is fast: there, a position's rate has no noise yet.
+fn in_step(record: &Dataset, motion: &[f64], rate: &[f64]) -> Option<Agreement> {
+    let slow = |values: &[f64]| -> Option<Vec<f64>> {
+        let (line, rest) = about_line(&filled(values)?, &mut |spectrum| {
+            let end = LOWEST * record.step * spectrum.len() as f64;
+            let gain = |bin: usize| f64::from(bin.min(spectrum.len() - bin) as f64 <= end);
+            (0..spectrum.len()).map(|bin| Complex::from(gain(bin))).collect()
+        });
+        Some(rest.iter().enumerate().map(|(k, it)| line.at(k) + it).collect())
+    };
+    let (mut derived, mut change, mut measured) = (Vec::new(), Vec::new(), Vec::new());
+    for section in record.sections.iter().filter(|it| it.len() >= SHORTEST_SEGMENT) {
+        let own = derivative(&slow(&motion[section.clone()])?, record.step);
+        change.extend(derivative(&own, record.step));
+        derived.extend(own);
+        measured.extend(slow(&rate[section.clone()])?);
+    }
+    Agreement::of([&derived, &change], &measured, record.step)
 }
 
 #[cfg(test)]
