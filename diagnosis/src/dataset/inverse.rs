@@ -48,14 +48,15 @@ pub struct Banded {
 
 /// The records in the widest band in which the position's noise makes up little of the force, if most of the force is in it.
 ///
-/// How much the noise makes up, the balance of the next narrower band tells: noise of an acceleration looks like no mass at all,
-/// and a mass that is lost in it would make none of the force.
+/// How much of the force a motion makes, the balance of the narrowest band tells: noise of an acceleration looks like no mass at
+/// all, and a mass that is lost in it would make none of the force.
 pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Banded> {
     let signals = Signals::of(rig, inverse)?;
     // One band for all: in a wider one, what is fast would decide.
     let ends = records.iter().map(|record| Some(relevant(record, signals.force(record)?)));
     let end = ends.collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::min)?.max(LOWEST);
     let mut widest: Option<(f64, Vec<Dataset>)> = None;
+    let mut narrowest: Option<(DVector<f64>, [f64; 2])> = None;
     for top in bands(end) {
         let banded: Vec<Dataset> = records.iter().map(|it| below(it, top)).collect();
         let covered = |(record, banded): (&Dataset, &Dataset)| {
@@ -64,8 +65,16 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
         if !records.iter().zip(&banded).all(|pair| covered(pair).unwrap_or(false)) {
             continue;
         }
-        let balance = signals.balance(widest.as_ref().map_or(&banded, |(_, narrower)| narrower))?;
-        if !banded.iter().all(|it| signals.noise(it, &balance).is_some_and(|it| it < NOISY)) {
+        let (balance, before) = match &narrowest {
+            Some(known) => known,
+            None => {
+                let balance = signals.balance(&banded)?;
+                let powers = signals.powers(&banded, &balance)?;
+                narrowest.insert((balance, powers))
+            }
+        };
+        let quiet = banded.iter().all(|it| signals.noise(it, balance).is_some_and(|it| it < NOISY));
+        if !quiet || !is_followed(*before, signals.powers(&banded, balance)?) {
             break;
         }
         widest = Some((top, banded));
@@ -80,6 +89,12 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
     );
     let note = DataProblem { record: "all".into(), signal: inverse.force.clone(), text, fatal: false };
     Some(Banded { records: banded.into_iter().map(|it| signals.moving(it)).collect(), top, note })
+}
+
+/// Whether the force grows with its band as the motion's does, by the powers of what a balance makes of the motion and of the
+/// force: a motion that no force goes with is noise, whatever its spectrum.
+fn is_followed([motion, force]: [f64; 2], [wider_motion, wider_force]: [f64; 2]) -> bool {
+    wider_motion - motion <= wider_force - force + NOISY * wider_force
 }
 
 /// Ends of the bands that are tried, in Hz, the narrowest first.
@@ -140,6 +155,15 @@ impl Signals {
         let rows: Vec<_> = each.iter().flat_map(|it| it.row_iter()).collect();
         let forces = banded.iter().map(|it| self.force(it)).collect::<Option<Vec<_>>>()?.concat();
         balance(&DMatrix::from_fn(rows.len(), columns, |row, column| rows[row][column]), &forces)
+    }
+
+    /// Sums over records of the powers of what a balance makes of the motion, and of the force.
+    fn powers(self, banded: &[Dataset], balance: &DVector<f64>) -> Option<[f64; 2]> {
+        let of = |it: &Dataset| {
+            let made = terms(&motion(it), self.velocity) * balance;
+            Some([power(made.as_slice()), power(self.force(it)?)])
+        };
+        banded.iter().map(of).try_fold([0.0; 2], |sum, it| it.map(|it| [sum[0] + it[0], sum[1] + it[1]]))
     }
 
     /// Share of the force's power that the noise of the position makes up by way of mass, damper, spring or friction, where the rig
@@ -295,6 +319,31 @@ mod tests {
         // Half of the force is at 40 Hz, where nothing of the motion is left in such noise.
         assert_eq!(step(20.0, 1e-3), None);
         assert!(step(1e-3, 1e-5).is_some());
+    }
+
+    /// Steps of the position that no force goes with, as a slow clock's stamps make them: their acceleration has no white noise.
+    #[test]
+    fn a_motion_that_no_force_goes_with_is_noise() {
+        let rig = Rig::published("linear-drive").unwrap();
+        let inverse = rig.kind.drives.iter().find_map(|by| by.inverse.clone()).unwrap();
+        let top = |shake: f64| {
+            let mut record = record(&rig, 1.0, 0.0);
+            for (k, force) in record.measured[0].values.iter_mut().enumerate() {
+                // Fast content of the force, which nothing of the motion makes.
+                *force += 3.0 * (TAU * 30.0 * 1e-3 * k as f64).sin();
+            }
+            for source in &mut record.inputs {
+                if let Source::Measured(position) = source {
+                    let shaken =
+                        |(k, it): (usize, &mut f64)| *it += shake * (TAU * 25.0 * 1e-3 * k as f64).sin();
+                    position.iter_mut().enumerate().for_each(shaken);
+                }
+            }
+            banded(&rig, &[record], &inverse).unwrap().top
+        };
+        let (calm, shaken) = (top(0.0), top(1e-3));
+        assert!(calm > 30.0 && shaken < 25.0, "{calm} {shaken}");
+        assert!(is_followed([1.0, 1.0], [2.0, 2.1]) && !is_followed([1.0, 1.0], [2.0, 1.1]));
     }
 
     #[test]

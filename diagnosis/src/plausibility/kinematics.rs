@@ -126,8 +126,9 @@ fn apart(record: &Dataset, motion: Column<'_>, rate: Column<'_>) -> Option<DataP
         return None;
     }
     let text = format!(
-        "is {} of the rate of {}{}: no sensor is that far off. One of the two is another quantity or wrongly scaled. Correct \
+        "{} is {} of the rate of {}{}: no sensor is that far off. One of the two is another quantity or wrongly scaled. Correct \
          it by a formula in the map, or take one of them out",
+        rate.0,
         percent(alike.ratio),
         motion.0,
         alike.late().map_or_else(String::new, |late| format!(", and {late}"))

@@ -24,7 +24,7 @@ const HELD: usize = 4;
 const BY_CHANCE: f64 = 1e-3;
 /// Held stretches that make a fault.
 const FEWEST_HELD: usize = 3;
-/// Share of a record beyond which a signal holds its values by nature: it is a command, or its source is slower.
+/// Share of a record beyond which a signal holds its values by nature: it is a command, which may switch, or its source is slower.
 const BY_NATURE: f64 = 0.2;
 /// Longest run of zeros that is a dropout.
 const DROPOUT: usize = 10;
@@ -152,7 +152,8 @@ fn saturation(time: &[f64], channel: &Channel, extreme: fn(f64, f64) -> f64, wor
     let inner = |run: &Range<usize>| run.len() >= FLAT && run.start > 0 && run.end < values.len();
     let tops: Vec<_> = runs(values, top).into_iter().filter(inner).collect();
     let count: usize = tops.iter().map(Range::len).sum();
-    (count >= FEWEST_FLAT && count > PILED * at(next)).then(|| {
+    let by_nature = count as f64 > BY_NATURE * values.len() as f64;
+    (count >= FEWEST_FLAT && count > PILED * at(next) && !by_nature).then(|| {
         let places = describe(tops.iter().map(|run| format!("{} s", number(time[run.start]))));
         let text = format!(
             "is flat at its {word} value {} {} for {} of the record ({places}): the sensor or its amplifier is \

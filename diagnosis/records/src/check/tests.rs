@@ -365,3 +365,15 @@ fn numbers_for_people() {
         assert_eq!(number(value), text);
     }
 }
+
+#[test]
+fn stamps_alike_by_rounding_are_one_note_and_no_gaps() {
+    let mut record = clean(5, 0.01);
+    record.time.iter_mut().for_each(|t| *t = (100.0 * *t).round() / 100.0);
+    let (signal, text, fatal) = only(&record);
+    assert!(signal == "time" && !fatal && text.contains("rounded to 0.01 s"), "{text}");
+    assert!(text.contains("even clock of 1000 Hz"), "{text}");
+    // Rows that are there twice are no clock's.
+    record.time[700..].iter_mut().for_each(|t| *t -= 0.2);
+    assert!(check(&record).problems.iter().any(|it| it.fatal));
+}

@@ -50,9 +50,11 @@ impl Grid {
             }
         }
         // Coarse stamps do not tell which sample is the next: each row is.
+        let rows = || (0..time.len()).collect::<Vec<_>>();
         if !is_fine
             && all(|a, b| a <= b)
-            && let Some(grid) = Self::on(time, (0..time.len()).collect(), &digits)
+            && !is_printed_exactly(fit(time, &rows()), &digits)
+            && let Some(grid) = Self::on(time, rows(), &digits)
         {
             return Ok(grid);
         }
@@ -127,11 +129,18 @@ fn last_digits(time: &[f64]) -> Vec<f64> {
     let mut before: Option<(i32, f64)> = None;
     for (order, digit) in &mut digits {
         if let Some((lower, finer)) = before {
-            *digit = digit.min(finer * 10_f64.powi(order - lower));
+            *digit = digit.min(finer * 10_f64.powi(order.saturating_sub(lower)));
         }
         before = (*order > i32::MIN).then_some((*order, *digit));
     }
     time.iter().map(|t| digits[&order(t)]).collect()
+}
+
+/// Whether a clock's period is a number of its last digits, so that rounding makes none of its stamps uneven.
+fn is_printed_exactly(period: f64, digits: &[f64]) -> bool {
+    let coarsest = digits.iter().copied().fold(0.0, f64::max);
+    let count = period / coarsest;
+    count.round() >= 1.0 && (count - count.round()).abs() * (digits.len() as f64) < 0.5
 }
 
 /// The largest power of ten, of a second or less, of which all times are multiples; zero if it is less than a microsecond.

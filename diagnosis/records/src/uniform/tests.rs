@@ -148,10 +148,44 @@ fn stamps_that_are_even_but_for_their_last_digit_keep_their_values() {
     assert!(problems.is_empty() && even.len() == 5000, "{problems:?}");
     assert!((even.step * 3004.8 - 1.0).abs() < 1e-4, "{}", 1.0 / even.step);
     assert_eq!(even.channels[0].values, uneven.channels[0].values);
-    let (step, digit) = rounded_clock(&uneven).unwrap();
-    assert_eq!((step, digit), (even.step, 1e-4));
+    let clock = rounded_clock(&uneven).unwrap();
+    assert_eq!((clock.period, clock.digit), (even.step, 1e-4));
     // A clock that jitters by more than its digit is no even one.
     let jittering = rounded.iter().enumerate().map(|(k, t)| t + 1e-4 * [0.0, 1.0, -1.0][k * 7 % 3]).collect();
-    assert_eq!(rounded_clock(&record(jittering)), None);
-    assert_eq!(rounded_clock(&record(self::even(500, 1e-3))), None);
+    assert!(rounded_clock(&record(jittering)).is_none());
+    assert!(rounded_clock(&record(self::even(500, 1e-3))).is_none());
+}
+
+/// As `%.5g` prints them, from zero beyond a hundred seconds: three different last digits, the coarsest longer than a period.
+#[test]
+fn stamps_of_a_number_of_digits_keep_their_values() {
+    let printed = |t: f64| -> f64 {
+        let decimals = 4 - t.max(1e-4).log10().floor() as i32;
+        let unit = 10_f64.powi(decimals.min(6));
+        (t * unit).round() / unit
+    };
+    let stamps: Vec<f64> = (0..20_000).map(|k| printed(f64::from(k) / 128.98)).collect();
+    assert!(stamps.windows(2).any(|pair| pair[0] == pair[1]));
+    let input = record(stamps);
+    let (output, problems) = uniform(&input).unwrap();
+    assert!(problems.is_empty() && output.len() == 20_000, "{problems:?}");
+    assert!((output.step * 128.98 - 1.0).abs() < 1e-5, "{}", 1.0 / output.step);
+    assert_eq!(output.channels[0].values, input.channels[0].values);
+    assert_eq!(rounded_clock(&input).unwrap().digit, 0.01);
+}
+
+#[test]
+fn coarse_stamps_of_an_even_clock_are_alike_and_doubled_rows_are_wrong() {
+    let coarse: Vec<f64> = (0..4000).map(|k| (f64::from(k) / 10.0).floor() / 100.0).collect();
+    let (output, problems) = uniform(&record(coarse)).unwrap();
+    assert_eq!((problems.len(), output.len()), (0, 4000));
+    assert!((output.step - 1e-3).abs() < 1e-7, "{}", output.step);
+    let mut doubled = even(500, 1e-3);
+    (200..210).for_each(|k| doubled.insert(2 * k - 200, doubled[2 * k - 200]));
+    assert!(uniform(&record(doubled)).is_err());
+    // A lost sample is seen although the last digit is as long as a period.
+    let mut lost = even(1000, 1e-2);
+    lost.remove(500);
+    let (output, problems) = uniform(&record(lost)).unwrap();
+    assert_eq!((output.len(), problems.len()), (1000, 1));
 }
