@@ -9,7 +9,7 @@ use crate::confirm::{Accepted, Tried};
 use crate::dataset::recorded::Dataset;
 use crate::dataset::split::Split;
 use crate::decision::choice::Score;
-use crate::estimation::deadline::Deadline;
+use crate::estimation::deadline::{Deadline, Stage};
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::intervals::Interval;
 use crate::estimation::unknowns::{Estimate, Unknown};
@@ -84,7 +84,8 @@ pub fn diagnose<'a>(
     let mut baseline = Baseline::new(rig, records, options);
     progress("fitting the nominal parameters");
     let (before, base, reversed) = nominal::fit(&mut baseline)?;
-    let base = baseline.look_at(base)?;
+    // What no search follows need not be prepared.
+    let base = if baseline.deadline.is_over(Stage::Search) { base } else { baseline.look_at(base)? };
     let mut found = Found::nothing(base);
     let judged = baseline.uses(Component::Confirmation);
     let intervals = loop {

@@ -1,5 +1,7 @@
 //! The search: place, law, confirmation, repeated until no error worth reporting remains.
 
+use crate::catalogue::Prevalence;
+use crate::catalogue::naming::prevalence;
 use crate::confirm::{Confirmed, Tried, contains_by_name};
 use crate::decision::choice::{Choice, Score, best_of, by_share, choose, likely};
 use crate::decision::criteria::CRITERIA;
@@ -200,6 +202,12 @@ impl Baseline<'_> {
             let scores = compared.with_alike(scores);
             let most = if self.uses(Component::Ports) { MOST_FITTED } else { usize::MAX };
             let mut proposals = compared.proposals(&scores, most);
+            // Nominal parameters may have hidden what every rig has: a fit tells, whatever the comparison says.
+            if found.extended.terms.is_empty() {
+                let mut expected = compared.proposals(&self.expected(compared), usize::MAX);
+                expected.retain(|it| !proposals.iter().any(|other| other.term == it.term));
+                proposals.extend(expected);
+            }
             proposals.retain(|it| !refused.contains(&it.term));
             if !proposals.is_empty() {
                 progress(&format!("fitting {} effects", proposals.len()));
@@ -239,6 +247,13 @@ impl Baseline<'_> {
             names.retain(|it| !refused.iter().any(|term| compared.is_of(it, *term)));
         }
         Ok(Next::Nothing)
+    }
+
+    /// The best shapes of the effects that every rig has.
+    fn expected(&self, compared: &Compared) -> Vec<Score> {
+        let ranking = if self.uses(Component::Background) { compared.ranking() } else { Vec::new() };
+        let is_expected = |term: Term| prevalence(term, &self.rig.plant) == Prevalence::Expected;
+        ranking.into_iter().filter(|(term, _)| is_expected(*term)).map(|(_, score)| score).collect()
     }
 
     /// Fits the laws that have the best of those that were tried as a limit, where that leaves the account open.
