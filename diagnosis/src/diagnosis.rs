@@ -1,24 +1,24 @@
 //! From records to findings: nominal fit, search, intervals.
 
 pub mod component;
+mod found;
 mod kept;
 mod nominal;
 mod search;
 
-use crate::confirm::{Accepted, Tried};
 use crate::dataset::recorded::Dataset;
 use crate::dataset::split::Split;
-use crate::decision::choice::Score;
 use crate::estimation::deadline::{Deadline, Stage};
-use crate::estimation::hypothesis::{Baseline, Fitted, Term};
+use crate::estimation::hypothesis::{Baseline, Term};
 use crate::estimation::intervals::Interval;
 use crate::estimation::unknowns::{Estimate, Unknown};
-use crate::explain::describe::{MissingSignal, Unmodelled};
 use crate::plant::Drive;
 use crate::rig::Rig;
 use crate::screening::rms;
 
 use component::Component;
+
+pub use found::Found;
 
 /// A diagnosis that has come to its end.
 pub struct Diagnosis<'a> {
@@ -34,28 +34,6 @@ pub struct Diagnosis<'a> {
     pub intervals: Vec<Interval>,
     /// Signals that had to be turned over before anything fitted.
     pub reversed: Vec<Unknown>,
-}
-
-/// What was found.
-pub struct Found {
-    /// The model with nominal parameters fitted and nothing added.
-    pub base: Fitted,
-    /// The model after each effect, in the order in which they were confirmed.
-    pub stages: Vec<Fitted>,
-    /// The model with all effects.
-    pub extended: Fitted,
-    /// The effects.
-    pub accepted: Vec<Accepted>,
-    /// What is missing and has no name.
-    pub unmodelled: Vec<Unmodelled>,
-    /// The missing signal before anything was explained.
-    pub missing: Option<MissingSignal>,
-    /// What was compared, first of all.
-    pub compared: Vec<(Term, Score)>,
-    /// All that was fitted, the last word on each term.
-    pub tried: Vec<Tried>,
-    /// What was confirmed and taken back.
-    pub retracted: Vec<Term>,
 }
 
 /// What is known, and what is looked for.

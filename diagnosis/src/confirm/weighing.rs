@@ -132,13 +132,16 @@ impl Baseline<'_> {
         self.uses(Component::Account) && self.errors(left).mean_squares().into_iter().enumerate().any(open)
     }
 
-    /// Whether an effect could matter that a fit lacks: on both kinds of records, some signal's error is more than its noise.
-    pub(crate) fn may_matter(&self, base: &Fitted, fitted: &Fitted) -> bool {
+    /// Whether an effect could matter that takes a share of a fit's error power, but for the noise: on both kinds of records, in some
+    /// signal.
+    pub(crate) fn may_matter(&self, base: &Fitted, fitted: &Fitted, share: f64) -> bool {
+        let kept = (1.0 - share).max(0.0).sqrt();
         let of = |records: &[Dataset], base: &Residuals, fitted: &Residuals| {
             let roots = |it: &Residuals| self.errors(it).mean_squares().into_iter().map(f64::sqrt);
             let rows = roots(base).zip(roots(fitted)).enumerate();
             rows.into_iter().any(|(row, (before, error))| {
-                Left { error, before, noise: self.floor[row], signal: bent_rms(records, row) }.may_matter()
+                let left = (kept * error).max(self.floor[row]);
+                Left { error, before, left, signal: bent_rms(records, row) }.may_matter()
             })
         };
         of(self.train, &base.train, &fitted.train) && of(self.test, &base.test, &fitted.test)

@@ -4,27 +4,26 @@ use serde::Serialize;
 
 use super::criteria::CRITERIA;
 
-/// What a fit leaves of a signal on some data, in roots of mean squares.
+/// What a fit leaves of a signal on some data and another effect would leave, in roots of mean squares.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Left {
     /// Of the fit's error.
     pub error: f64,
     /// Of the starting model's error.
     pub before: f64,
-    /// Of the sensor's noise.
-    pub noise: f64,
+    /// Of the error that would be left: of the sensor's noise at least.
+    pub left: f64,
     /// Of what the model has to tell of the signal.
     pub signal: f64,
 }
 
 impl Left {
-    /// Whether an effect would matter that took all of the error but the noise. Where none would in any signal, a search has
-    /// nothing left to find.
+    /// Whether the effect would matter. Where none would in any signal that left nothing but noise, a search has nothing to find.
     pub fn may_matter(&self) -> bool {
-        let taken = self.error.powi(2) - self.noise.powi(2);
+        let taken = self.error.powi(2) - self.left.powi(2);
         let evidence = Evidence {
             variance_explained: taken / self.before.powi(2),
-            fit_improvement: (self.error - self.noise) / self.signal,
+            fit_improvement: (self.error - self.left) / self.signal,
             residual_reduction: taken / self.error.powi(2),
             ..Evidence::default()
         };
@@ -79,14 +78,20 @@ impl Evidence {
     };
 
     /// What has to be exceeded here: a larger size of what every rig has a little of, and any fall of the criterion of what
-    /// every rig has.
+    /// every rig has or where chance is ruled out.
     pub fn required(&self) -> Self {
         let more = if self.background { CRITERIA.background } else { 1.0 };
         Self {
             fit_improvement: more * CRITERIA.improvement,
-            delta_bic: if self.expected { 0.0 } else { CRITERIA.bic },
+            delta_bic: if self.expected || self.is_beyond_chance() { 0.0 } else { CRITERIA.bic },
             ..Self::REQUIRED
         }
+    }
+
+    /// Whether it takes most of the error away, and so steadily on the validation data, which chose nothing, that chance cannot. Errors
+    /// that hang together over a whole record, as those of a drift do, are few for a criterion that counts them.
+    fn is_beyond_chance(&self) -> bool {
+        self.residual_reduction > CRITERIA.majority && self.validation_p_value < CRITERIA.p_value
     }
 
     /// Whether it takes most of the error away, however small that is.
@@ -225,14 +230,23 @@ mod tests {
 
     #[test]
     fn errors_that_are_noise_leave_nothing_to_find() {
-        let left = Left { error: 0.02, before: 0.5, noise: 0.02, signal: 1.0 };
+        let left = Left { error: 0.02, before: 0.5, left: 0.02, signal: 1.0 };
         assert!(!left.may_matter());
         // A visible rise of the fit, or most of an error that is worth a name.
         assert!(Left { error: 0.036, ..left }.may_matter());
         assert!(!Left { error: 0.034, before: 2.0, ..left }.may_matter());
         assert!(Left { error: 0.034, before: 0.1, ..left }.may_matter());
         assert!(!Left { error: 0.028, before: 0.1, ..left }.may_matter());
-        assert!(!Left { signal: 0.0, before: 0.0, error: 0.0, noise: 0.0 }.may_matter());
+        assert!(!Left { signal: 0.0, before: 0.0, error: 0.0, left: 0.0 }.may_matter());
+    }
+
+    #[test]
+    fn where_chance_is_ruled_out_errors_that_hang_together_need_not_be_many() {
+        let drift = Evidence { delta_bic: 2.0, residual_reduction: 0.96, ..CLEAR };
+        assert_eq!(drift.refusal(), None);
+        assert!(Evidence { delta_bic: -1.0, ..drift }.refusal().is_some());
+        assert!(Evidence { residual_reduction: 0.5, ..drift }.refusal().is_some());
+        assert!(Evidence { validation_p_value: 0.02, ..drift }.refusal().is_some());
     }
 
     #[test]

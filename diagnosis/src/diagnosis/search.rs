@@ -5,7 +5,7 @@ use crate::catalogue::naming::prevalence;
 use crate::confirm::{Confirmed, Tried, contains_by_name};
 use crate::decision::choice::{Choice, Score, best_of, by_share, choose, likely};
 use crate::decision::criteria::CRITERIA;
-use crate::decision::description::{error_left, place_of_rest};
+use crate::decision::description::place_of_rest;
 use crate::estimation::deadline::Stage;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::unknowns::Estimate;
@@ -77,7 +77,7 @@ impl Baseline<'_> {
         let mut first = None;
         // What a first look sees is shown in any case.
         let is_wanted =
-            |found: &Found| found.missing.is_none() || self.may_matter(&found.base, &found.extended);
+            |found: &Found| found.missing.is_none() || self.may_matter(&found.base, &found.extended, 1.0);
         while found.accepted.len() < MOST && is_wanted(found) && !self.deadline.is_over(Stage::Search) {
             progress("estimating the missing signal");
             let terms = found.extended.terms.clone();
@@ -106,18 +106,22 @@ impl Baseline<'_> {
                 let larger = missing.refined(background, &compared.best().unwrap_or_default());
                 if larger != *background {
                     (errors, refinements) = (Some(larger), refinements + 1);
-                    first.get_or_insert(next);
+                    first
+                        .get_or_insert_with(|| (next, self.remainder(found, &missing, &location, &compared)));
                     continue;
                 }
             }
             // Free features have to explain the signal with the sensors' own accuracy and with the larger errors.
-            if let Some(first) = first.take().filter(|_| !matches!(next, Next::Effect)) {
+            let mut unrefined = None;
+            if let Some((first, rest)) = first.take().filter(|_| !matches!(next, Next::Effect)) {
+                unrefined = rest;
                 next = match first {
                     Next::Curve(score) if compared.holds(score.candidate) => first,
                     _ => Next::Nothing,
                 };
             }
             (errors, refinements) = (None, 0);
+            let described = found.unmodelled.len();
             let goes_on = match next {
                 Next::Effect => {
                     refused.clone_from(&found.retracted);
@@ -125,13 +129,20 @@ impl Baseline<'_> {
                 }
                 // An unfinished search claims nothing.
                 _ if over => false,
-                Next::Curve(score) => self.unmodelled(found, (&missing, &compared), score)?,
-                Next::Nothing if !self.uses(Component::Ports) => false,
-                Next::Nothing => {
-                    if let Some(rest) = self.remainder(found, &missing, &location, &compared) {
+                Next::Curve(score) if self.unmodelled(found, (&missing, &compared), score)? => true,
+                _ => {
+                    // What a last description has not explained, nothing does.
+                    if self.uses(Component::Ports)
+                        && found.unmodelled.len() == described
+                        && described < PLACES
+                    {
+                        // Larger errors of one sensor hide its own fault; an open account says that it is there.
+                        let open = self.is_open(&found.extended.test);
+                        let rest = self.remainder(found, &missing, &location, &compared);
+                        let rest = rest.or(unrefined.filter(|_| open));
                         let all = &mut found.unmodelled;
                         let place = place_of_rest(all.iter().map(|it| it.share)).unwrap_or(all.len());
-                        all.insert(place, rest);
+                        all.splice(place..place, rest);
                     }
                     false
                 }
@@ -195,8 +206,9 @@ impl Baseline<'_> {
             // the innovations says little: a nominal parameter may have taken the effect's place. A rough shape promises less than
             // its fit holds.
             let open = self.is_open(&found.extended.test);
-            let promised = |it: &Score| self.improvement(&found.extended, if open { 1.0 } else { it.share });
-            if scores.first().is_none_or(|it| promised(it) < CRITERIA.rough * CRITERIA.improvement) {
+            let share = |it: &Score| if open { 1.0 } else { it.share / CRITERIA.rough };
+            let (base, null) = (&found.base, &found.extended);
+            if scores.first().is_none_or(|it| !self.may_matter(base, null, share(it))) {
                 return Ok(curve.map_or(Next::Nothing, Next::Curve));
             }
             let scores = compared.with_alike(scores);
@@ -363,40 +375,5 @@ impl Baseline<'_> {
     /// Root mean square of each signal's error on the estimation records, by its row.
     fn roots(&self, fitted: &Fitted) -> impl Iterator<Item = (usize, f64)> {
         self.errors(&fitted.train).mean_squares().into_iter().map(f64::sqrt).enumerate()
-    }
-}
-
-impl Found {
-    /// Before anything is found.
-    pub(super) fn nothing(base: Fitted) -> Self {
-        Self {
-            extended: base.clone(),
-            base,
-            stages: Vec::new(),
-            accepted: Vec::new(),
-            unmodelled: Vec::new(),
-            missing: None,
-            compared: Vec::new(),
-            tried: Vec::new(),
-            retracted: Vec::new(),
-        }
-    }
-
-    /// Share of the model's error that the descriptions leave which are not in it.
-    fn left_by_descriptions(&self) -> f64 {
-        let in_model = |term: Term| self.extended.terms.contains(&term);
-        let outside = self.unmodelled.iter().filter(|it| !it.curve.is_some_and(in_model));
-        error_left(outside.map(|it| it.validated))
-    }
-
-    /// Takes a confirmed effect into the model, in the place of what is no longer in it: a law that had been found as its limit.
-    fn extend(&mut self, Confirmed { accepted, fitted }: Confirmed) {
-        let stays: Vec<bool> = self.accepted.iter().map(|it| fitted.terms.contains(&it.term)).collect();
-        let (mut of_accepted, mut of_stages) = (stays.iter(), stays.iter());
-        self.accepted.retain(|_| of_accepted.next() == Some(&true));
-        self.stages.retain(|_| of_stages.next() == Some(&true));
-        self.accepted.push(accepted);
-        self.extended = fitted.clone();
-        self.stages.push(fitted);
     }
 }

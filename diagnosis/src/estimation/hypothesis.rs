@@ -116,6 +116,15 @@ impl Fitted {
     }
 }
 
+/// A point with each coordinate within its bounds.
+fn within(point: &Estimate, coordinates: &[FreeParameter]) -> Estimate {
+    let mut point = point.clone();
+    for FreeParameter { handle, bounds: (low, high), .. } in coordinates {
+        point.set(*handle, point.get(*handle).max(*low).min(*high));
+    }
+    point
+}
+
 impl<'a> Baseline<'a> {
     /// What hypotheses are about, before anything is known of it.
     pub fn new(rig: &'a Rig, records: &'a Split, options: Options) -> Self {
@@ -227,8 +236,11 @@ impl Baseline<'_> {
         let dynamics = self.dynamics(terms)?;
         let coordinates = self.coordinates(terms);
         let fit = self.fit(&*dynamics, self.train, coordinates.clone());
-        let minima = starts.iter().filter(|start| fit.cost(start).is_finite());
-        let minima = minima.map(|start| lsq::minimise(&fit, fit.settled(start.clone()), stop));
+        let minima = starts
+            .iter()
+            .map(|start| within(start, &coordinates))
+            .filter(|start| fit.cost(start).is_finite());
+        let minima = minima.map(|start| lsq::minimise(&fit, fit.settled(start), stop));
         let best = minima.min_by(|a, b| a.cost.total_cmp(&b.cost));
         let mut best = best.ok_or("the simulation diverges from every start")?;
         if let Some(point) = self.out_of_reach(&fit, terms, (&best.point, best.cost)) {

@@ -146,6 +146,10 @@ impl Unmodelled {
                 let frequency = self.frequency.unwrap_or_default();
                 format!("a force that remembers the motion, with a resonance near {frequency:.0} Hz")
             }
+            (["memory"], _) if self.at == MEASURED => {
+                "a signal that depends on its own past, as behind a filter,".to_owned()
+            }
+            (["memory"], _) => "a signal that depends on the past motion".to_owned(),
             (["bursts"], _) => {
                 "a signal that comes in bursts and that no recorded signal explains".to_owned()
             }

@@ -50,6 +50,14 @@ impl Look {
         aa > 0.0 && bb > 0.0 && ab * ab > (1.0 - TIED) * aa * bb
     }
 
+    /// The only output in which a seed shows, if it moves no state: what it does, a fault of that output's sensor could do.
+    pub fn shows_only_in(&self, seed: usize) -> Option<usize> {
+        let mut shown = self.outputs.chunks_exact(self.width).enumerate().filter(|(_, row)| row[seed] > 0.0);
+        let moves = self.next.chunks_exact(self.width).any(|row| row[seed] > 0.0);
+        let first = shown.next().filter(|_| !moves).map(|(row, _)| row)?;
+        shown.next().is_none().then_some(first)
+    }
+
     /// The least size of a state that moves a sensor's signal at once as far as it moves; zero if no sensor shows it at once.
     pub fn shown(&self, state: usize, magnitudes: &[f64]) -> f64 {
         let least = self.least(magnitudes, |row| row[state]);

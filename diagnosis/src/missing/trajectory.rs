@@ -143,8 +143,9 @@ impl<'a> Setting<'a> {
                 (!port.is_sensor()).then(|| column - 1)
             })
             .collect();
-        let same = |a: usize, b: usize| match (columns[a], columns[b]) {
-            (Some(a), Some(b)) => look.same(a, b),
+        let same = |a: usize, b: usize| match (columns[a], columns[b], ports[b].entry) {
+            (Some(a), Some(b), _) => look.same(a, b),
+            (Some(a), None, Entry::Sensor(row)) => look.shows_only_in(a) == Some(row),
             _ => a == b,
         };
         let ties =

@@ -315,7 +315,7 @@ impl Diagnosis<'_> {
             let outcome = match tried {
                 _ if self.found.accepted.iter().any(|it| it.term == *term) => "accepted".into(),
                 None if self.is_unfinished() && self.found.tried.is_empty() => late(),
-                None => "not fitted: its share of the missing signal is smaller".into(),
+                None => "not fitted: it explains too little of the missing signal, or features without a name explain more".into(),
                 Some(tried) => match (&tried.fitted, tried.evidence.refusal()) {
                     (Err(error), _) => error.clone(),
                     (Ok(_), Some(refusal)) => refusal,

@@ -22,7 +22,7 @@ const CELL: usize = 11;
 /// A summary of at most a hundred columns.
 pub fn terminal(findings: &Findings) -> String {
     let mut lines = Lines(Vec::new());
-    lines.wrapped("", &format!("{}: {}", badge(findings.verdict).0.to_uppercase(), headline(findings)));
+    lines.wrapped("", &format!("{}: {}", badge(findings).0.to_uppercase(), headline(findings)));
     if !findings.summary.is_empty() {
         lines.wrapped("  ", &findings.summary);
     }

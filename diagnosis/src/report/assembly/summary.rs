@@ -142,8 +142,12 @@ fn parameters(findings: &Findings) -> Option<String> {
     let changed = findings.nominal_parameters.iter().filter(|it| it.mismatch);
     let changed: Vec<String> = changed
         .map(|it| {
-            let (after, before) = (value(it.after, &it.unit), digits(it.before, 4));
-            format!("{} is {after} instead of {before}", it.name)
+            let before = digits(it.before, 4);
+            // At the end of what is possible there is no value, only a limit.
+            if it.after <= it.low && it.high > it.low && it.after >= 0.0 {
+                return format!("{} is less than {} instead of {before}", it.name, value(it.high, &it.unit));
+            }
+            format!("{} is {} instead of {before}", it.name, value(it.after, &it.unit))
         })
         .collect();
     let reservation = reservation(findings).map_or(String::new(), |it| format!(" {it}"));

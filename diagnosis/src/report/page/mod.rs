@@ -19,7 +19,7 @@ const STYLE: &str = include_str!("style.css");
 
 /// The findings as one page of HTML, which needs no other file, no network and no scripts.
 pub fn html(findings: &Findings) -> String {
-    let (word, kind) = badge(findings.verdict);
+    let (word, kind) = badge(findings);
     let page = html! {
         (DOCTYPE)
         html lang="en" {

@@ -113,9 +113,11 @@ fn ambiguous(findings: &Findings) -> String {
     }
 }
 
-/// The verdict in a word or two, with its style's class.
-pub fn badge(verdict: Verdict) -> (&'static str, &'static str) {
-    match verdict {
+/// The verdict in a word or two, with its style's class. Records that leave something open have not shown that nothing is there.
+pub fn badge(findings: &Findings) -> (&'static str, &'static str) {
+    let is_open = || disagreeing(findings).is_some() || small_rest(findings).is_some();
+    match findings.verdict {
+        Verdict::NoEffect if is_open() => ("nothing identified", "doubt"),
         Verdict::NoEffect => ("no effect", "good"),
         Verdict::ParameterMismatch => ("parameter mismatch", "found"),
         Verdict::Identified => ("identified", "found"),
