@@ -131,18 +131,16 @@ impl Baseline<'_> {
                 _ if over => false,
                 Next::Curve(score) if self.unmodelled(found, (&missing, &compared), score)? => true,
                 _ => {
-                    // What a last description has not explained, nothing does.
-                    if self.uses(Component::Ports)
-                        && found.unmodelled.len() == described
-                        && described < PLACES
-                    {
+                    let all = found.unmodelled.iter().map(|it| it.share);
+                    let place = place_of_rest(all).unwrap_or(found.unmodelled.len());
+                    // Behind a curve that explains most, there has been no look at the rest.
+                    let looked_at = found.unmodelled.len() == described || place < found.unmodelled.len();
+                    if self.uses(Component::Ports) && described < PLACES && looked_at {
                         // Larger errors of one sensor hide its own fault; an open account says that it is there.
                         let open = self.is_open(&found.extended.test);
                         let rest = self.remainder(found, &missing, &location, &compared);
                         let rest = rest.or(unrefined.filter(|_| open));
-                        let all = &mut found.unmodelled;
-                        let place = place_of_rest(all.iter().map(|it| it.share)).unwrap_or(all.len());
-                        all.splice(place..place, rest);
+                        found.unmodelled.splice(place..place, rest);
                     }
                     false
                 }
