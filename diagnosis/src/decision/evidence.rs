@@ -27,7 +27,7 @@ impl Left {
             residual_reduction: taken / self.error.powi(2),
             ..Evidence::default()
         };
-        evidence.smallness().is_none()
+        taken > 0.0 && evidence.smallness().is_none()
     }
 }
 

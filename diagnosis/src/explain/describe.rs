@@ -157,6 +157,11 @@ impl Unmodelled {
                 Some(frequency) => format!("a signal that is periodic in time, at {frequency:.2} Hz"),
                 None => "a signal that changes with time".to_owned(),
             },
+            ([motion, "work"], _) => {
+                format!(
+                    "a signal that follows the {motion} and changes with the work done before, as heat makes it,"
+                )
+            }
             ([motion, "time"], _) => format!("a signal that follows the {motion} and changes with time"),
             ([], _) => "a signal that no recorded signal explains".to_owned(),
             (words, _) => format!("a signal that follows the {}", words.join(" and the ")),
@@ -219,6 +224,7 @@ fn words(group: Group, mover: Mover, (missing, plant): (&Missing<'_>, &Plant)) -
         Group::Acceleration => &["acceleration"],
         Group::Memory | Group::Resonance(_) => &["memory"],
         Group::DeflectionAndVelocity => &["deflection", "velocity"],
+        Group::Heat => &["velocity", "work"],
         Group::Time => &["time"],
         Group::Command(_) => &["command"],
         Group::Other(number) => return vec![format!("column {}", missing.records[0].others[number].name)],

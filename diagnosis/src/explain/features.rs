@@ -1,12 +1,18 @@
 //! Features of a port's own motion, of commands and of time, in groups that say what a missing signal depends on.
 
+use std::ops::Range;
+
 use crate::dataset::recorded::Dataset;
 use crate::missing::motion::Motion;
 use crate::missing::trajectory::Window;
 use crate::signal::derivative;
 
-/// Knots of a curve over a variable.
+/// Knots of a curve over a variable …
 const KNOTS: usize = 9;
+/// … and over one of two.
+const FEWER_KNOTS: usize = 7;
+/// Times in seconds in which the heat of a damper's work is gone.
+const COOLING: [f64; 3] = [2.0, 8.0, 30.0];
 /// Time constants of memories in seconds.
 const MEMORIES: [f64; 5] = [0.003, 0.01, 0.03, 0.1, 0.3];
 /// Frequencies of oscillators in Hz, half an octave apart.
@@ -42,8 +48,10 @@ pub enum Group {
     Memory,
     /// An oscillator that the motion drives, by its frequency's place among [`RESONANCES`].
     Resonance(usize),
-    /// Products of deflection and velocity, and friction that is larger here than there.
+    /// Damping and friction that are any curve over the deflection.
     DeflectionAndVelocity,
+    /// Damping and friction in proportion to the work that was done before and has not cooled off yet.
+    Heat,
     /// The laws of [`AGEING`].
     Time,
     /// A command, by the input's index: its curve and its rate.
@@ -69,12 +77,13 @@ impl Group {
     pub const CURVES: [Self; 3] = [Self::Deflection, Self::Velocity, Self::DeflectionAndVelocity];
 
     /// Those of a port's own motion and of time.
-    const OF_MOTION: [Self; 6] = [
+    const OF_MOTION: [Self; 7] = [
         Self::Deflection,
         Self::Velocity,
         Self::Acceleration,
         Self::Memory,
         Self::DeflectionAndVelocity,
+        Self::Heat,
         Self::Time,
     ];
 }
@@ -92,11 +101,11 @@ pub fn features(
         x.iter().zip(&v).map(|(x, v)| x.iter().zip(v).map(|(x, v)| f(*x, *v)).collect()).collect()
     };
     match group {
-        Group::Deflection => hats(&x),
+        Group::Deflection => hats(&x, KNOTS),
         Group::Velocity => {
             let size = size(&v);
             let steps = TURNS.iter().map(|share| each(&|_, v| (v / (share * size)).tanh()));
-            hats(&v).into_iter().chain(steps).collect()
+            hats(&v, KNOTS).into_iter().chain(steps).collect()
         }
         Group::Acceleration => {
             let rate = |(v, window): (&Vec<f64>, &Window)| records[window.record].rate_of(v);
@@ -115,17 +124,20 @@ pub fn features(
             (0..2).map(|part| both.iter().map(|it| it[part].clone()).collect()).collect()
         }
         Group::DeflectionAndVelocity => {
-            let (width, fast) = (size(&x), 0.1 * size(&v));
-            vec![
-                each(&|x, v| x * v),
-                each(&|x, v| x * x * v),
-                each(&|x, v| x * v.abs()),
-                each(&|x, v| x * (v / fast).tanh()),
-                each(&|x, v| (-(x / width).powi(2)).exp() * v),
-                each(&|_, v| (v / fast).tanh()),
-                each(&|x, v| (-(x / width).powi(2)).exp() * (v / fast).tanh()),
-                each(&|x, v| (-(2.0 * x / width).powi(2)).exp() * (v / fast).tanh()),
-            ]
+            let fast = 0.1 * size(&v);
+            let laws = [each(&|_, v| v), each(&|_, v| (v / fast).tanh())];
+            let here = hats(&x, FEWER_KNOTS);
+            let there = laws.iter().flat_map(|law| here.iter().map(|hat| product(hat, law)));
+            std::iter::once(each(&|x, v| x * v.abs())).chain(there).collect()
+        }
+        Group::Heat => {
+            let fast = 0.1 * size(&v);
+            let laws = [each(&|_, v| v), each(&|_, v| (v / fast).tanh())];
+            let power = each(&|_, v| v * v);
+            let span = |it: &Window| (it.record, it.samples.clone(), it.step);
+            let spans: Vec<Span> = windows.iter().map(span).collect();
+            let heat = COOLING.map(|time| heated(&power, time, &spans));
+            heat.iter().flat_map(|heat| laws.iter().map(|law| product(heat, law))).collect()
         }
         Group::Time => {
             let fast = 0.1 * size(&v);
@@ -179,15 +191,21 @@ fn size(signals: &[Vec<f64>]) -> f64 {
     (signals.iter().flatten().map(|it| it * it).sum::<f64>() / count).sqrt().max(f64::MIN_POSITIVE)
 }
 
+/// The product of two signals, sample by sample, over all windows.
+fn product(one: &[Vec<f64>], other: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let of = |(one, other): (&Vec<f64>, &Vec<f64>)| one.iter().zip(other).map(|(a, b)| a * b).collect();
+    one.iter().zip(other).map(of).collect()
+}
+
 /// Hat functions between quantiles of a variable: any curve that is straight between them.
-fn hats(signals: &[Vec<f64>]) -> Vec<Vec<Vec<f64>>> {
+fn hats(signals: &[Vec<f64>], count: usize) -> Vec<Vec<Vec<f64>>> {
     let mut sorted: Vec<f64> = signals.iter().flatten().copied().collect();
     sorted.sort_by(f64::total_cmp);
     let Some(last) = sorted.len().checked_sub(1) else { return Vec::new() };
-    let mut knots: Vec<f64> = (0..KNOTS)
+    let mut knots: Vec<f64> = (0..count)
         .map(|knot| {
             // Denser at the ends, where few samples are and most is to be seen.
-            let share = 0.5 - 0.5 * (std::f64::consts::PI * knot as f64 / (KNOTS - 1) as f64).cos();
+            let share = 0.5 - 0.5 * (std::f64::consts::PI * knot as f64 / (count - 1) as f64).cos();
             sorted[(share * last as f64).round() as usize]
         })
         .collect();
@@ -219,17 +237,42 @@ fn followed(values: &[f64], lag: f64, step: f64) -> Vec<f64> {
         .collect()
 }
 
-/// `y' = v − y/τ`.
-fn relaxed(velocity: &[f64], time: f64, step: f64) -> Vec<f64> {
+/// `y' = u − y/τ`.
+fn relaxed(input: &[f64], time: f64, step: f64) -> Vec<f64> {
     let decay = (-step / time).exp();
     let mut y = 0.0;
-    velocity
+    input
         .iter()
-        .map(|v| {
-            y = decay * y + time * (1.0 - decay) * v;
+        .map(|u| {
+            y = decay * y + time * (1.0 - decay) * u;
             y
         })
         .collect()
+}
+
+/// A stretch of a record: the record's number, its samples, and their distance in seconds.
+type Span = (usize, Range<usize>, f64);
+
+/// Heat of a power, `y' = p − y/τ`, over stretches of records, from none at each record's first one; where a record was not looked
+/// at, the power is the mean of the stretch before.
+fn heated(power: &[Vec<f64>], time: f64, spans: &[Span]) -> Vec<Vec<f64>> {
+    let mut all: Vec<Vec<f64>> = Vec::with_capacity(power.len());
+    let mut before: Option<(&Span, f64, f64)> = None;
+    for (power, span) in power.iter().zip(spans) {
+        let (record, samples, step) = span;
+        let same = before.filter(|((last, ..), ..)| last == record);
+        let start = same.map_or(0.0, |((_, last, _), heat, mean)| {
+            let kept = (-(samples.start.saturating_sub(last.end) as f64) * step / time).exp();
+            kept * heat + time * (1.0 - kept) * mean
+        });
+        let left = (1..=power.len()).map(|k| start * (-(k as f64) * step / time).exp());
+        let heat: Vec<f64> =
+            relaxed(power, time, *step).iter().zip(left).map(|(own, left)| own + left).collect();
+        let mean = power.iter().sum::<f64>() / power.len().max(1) as f64;
+        before = Some((span, heat.last().copied().unwrap_or(start), mean));
+        all.push(heat);
+    }
+    all
 }
 
 /// `y'' + 2 ζ ω y' + ω² y = −v'`: an oscillator's restoring and damping force per mass, `ω² y` and `2 ζ ω y'`.
@@ -246,4 +289,35 @@ fn resonance(velocity: &[f64], frequency: f64, step: f64) -> [Vec<f64>; 2] {
         damping.push(2.0 * DAMPING * omega * rate);
     }
     [restoring, damping]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Constant power warms up by `p τ (1 − exp(−t/τ))`, also over stretches that were not looked at; another record is cold.
+    #[test]
+    fn heat_goes_on_from_stretch_to_stretch() {
+        const STEP: f64 = 0.01;
+        let spans = [(0, 0..100, STEP), (0, 100..250, STEP), (0, 400..500, STEP), (1, 0..100, STEP)];
+        let power: Vec<Vec<f64>> = spans.iter().map(|(_, samples, _)| vec![3.0; samples.len()]).collect();
+        let heat = heated(&power, 2.0, &spans);
+        for ((_, samples, _), heat) in spans.iter().zip(&heat) {
+            for (sample, heat) in samples.clone().zip(heat) {
+                let exact = 6.0 * (1.0 - (-((sample + 1) as f64) * STEP / 2.0).exp());
+                assert!((heat - exact).abs() < 1e-9, "{sample}: {heat} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn hats_add_up_to_one() {
+        let signals = vec![(0..200).map(|k| (0.1 * f64::from(k)).sin()).collect::<Vec<f64>>()];
+        for count in [FEWER_KNOTS, KNOTS] {
+            let all = hats(&signals, count);
+            assert_eq!(all.len(), count);
+            let sum = |sample: usize| all.iter().map(|hat| hat[0][sample]).sum::<f64>();
+            assert!((0..200).all(|sample| (sum(sample) - 1.0).abs() < 1e-12));
+        }
+    }
 }
