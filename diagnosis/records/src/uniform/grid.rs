@@ -10,8 +10,10 @@ pub const ON_GRID: f64 = 0.05;
 /// Spread of time stamps about the fitted grid, in units of their last digit, that rounding can make: one digit, and a little for
 /// the error of the fit.
 const ROUNDED: f64 = 1.1;
-/// Decimals of seconds that are looked for in printed times: microseconds.
-const MOST_DECIMALS: i32 = 6;
+/// Decimals of seconds that are looked for in printed times: nanoseconds.
+const MOST_DECIMALS: i32 = 9;
+/// Last digits in a time, at most, of which a double shows whether their number is whole.
+const MOST_DIGITS: f64 = 1e11;
 
 /// The even grid behind a record's times.
 pub(super) struct Grid {
@@ -113,7 +115,7 @@ pub(crate) fn rounded_clock(record: &Record) -> Option<RoundedClock> {
 }
 
 /// The last digit of each printed time, in seconds: the largest power of ten of which all times of the same order are multiples.
-/// Zero if it is less than a microsecond. Programs print either a number of decimals or a number of digits, so that from one
+/// Zero if it is less than a nanosecond. Programs print either a number of decimals or a number of digits, so that from one
 /// order to the next the digit is the same or the next one.
 fn last_digits(time: &[f64]) -> Vec<f64> {
     let order = |t: &f64| if *t == 0.0 { i32::MIN } else { t.abs().log10().floor() as i32 };
@@ -143,9 +145,12 @@ fn is_printed_exactly(period: f64, digits: &[f64]) -> bool {
     count.round() >= 1.0 && (count - count.round()).abs() * (digits.len() as f64) < 0.5
 }
 
-/// The largest power of ten, of a second or less, of which all times are multiples; zero if it is less than a microsecond.
+/// The largest power of ten, of a second or less, of which all times are multiples; zero if it is less than a nanosecond.
 fn common_digit(times: &[f64]) -> f64 {
-    let is_multiple = |t: &f64, digit: f64| (t / digit - (t / digit).round()).abs() < 1e-4;
+    let is_multiple = |t: &f64, digit: f64| {
+        let count = t / digit;
+        count.abs() < MOST_DIGITS && (count - count.round()).abs() < 1e-4
+    };
     let digits = (0..=MOST_DECIMALS).map(|decimals| 10_f64.powi(-decimals));
     digits.into_iter().find(|digit| times.iter().all(|t| is_multiple(t, *digit))).unwrap_or(0.0)
 }

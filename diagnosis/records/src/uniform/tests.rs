@@ -160,8 +160,8 @@ fn stamps_that_are_even_but_for_their_last_digit_keep_their_values() {
 #[test]
 fn stamps_of_a_number_of_digits_keep_their_values() {
     let printed = |t: f64| -> f64 {
-        let decimals = 4 - t.max(1e-4).log10().floor() as i32;
-        let unit = 10_f64.powi(decimals.min(6));
+        let decimals = 4 - t.max(1e-5).log10().floor() as i32;
+        let unit = 10_f64.powi(decimals);
         (t * unit).round() / unit
     };
     let stamps: Vec<f64> = (0..20_000).map(|k| printed(f64::from(k) / 128.98)).collect();
