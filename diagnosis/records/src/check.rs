@@ -58,7 +58,7 @@ pub fn check(record: &Record) -> Checked {
     let mut unusable = vec![Vec::new(); record.channels.len()];
     let rounded = rounded_clock(record);
     if check_time(&record.time, rounded.is_some(), &mut problems) {
-        check_intervals(&record.time, rounded, &mut problems);
+        check_intervals(&record.time, rounded.as_ref(), &mut problems);
         let rest = standstill(record);
         for (i, channel) in record.channels.iter().enumerate() {
             let others = record.channels.iter().enumerate().filter(|&(j, _)| j != i).map(|(_, other)| other);
@@ -129,9 +129,9 @@ fn check_time(time: &[f64], is_rounded: bool, problems: &mut Problems) -> bool {
 }
 
 /// Gaps and jitter.
-fn check_intervals(time: &[f64], rounded: Option<RoundedClock>, problems: &mut Problems) {
-    let Some(period) = rounded.as_ref().map(|it| it.period).or_else(|| median_period(time)) else { return };
-    let length = |sample: usize| match &rounded {
+fn check_intervals(time: &[f64], rounded: Option<&RoundedClock>, problems: &mut Problems) {
+    let Some(period) = rounded.map(|it| it.period).or_else(|| median_period(time)) else { return };
+    let length = |sample: usize| match rounded {
         Some(clock) => (clock.places[sample + 1] - clock.places[sample]) as f64,
         None => (time[sample + 1] - time[sample]) / period,
     };
@@ -155,7 +155,7 @@ fn check_intervals(time: &[f64], rounded: Option<RoundedClock>, problems: &mut P
         let text = format!(
             "the time stamps are rounded to {} s; an even clock of {} Hz is within half a digit of all of them and is used \
              in their place",
-            number(digit),
+            number(*digit),
             number(1.0 / period)
         );
         problems.add("time", false, text);
