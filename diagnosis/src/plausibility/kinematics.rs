@@ -127,7 +127,7 @@ fn apart(record: &Dataset, motion: Column<'_>, rate: Column<'_>) -> Option<DataP
     }
     let text = format!(
         "{} is {} of the rate of {}{}: no sensor is that far off. One of the two is another quantity or wrongly scaled. Correct \
-         it by a formula in the map, or take one of them out",
+         it in the map (`scale`, `delay`), or take one of them out",
         rate.0,
         percent(alike.ratio),
         motion.0,
