@@ -1,5 +1,7 @@
 //! All records of a diagnosis, read in the way in which a rig can be compared with them.
 
+use rayon::prelude::*;
+
 use crate::data::Origin;
 use crate::data::check::DataProblem;
 use crate::data::map::Map;
@@ -78,8 +80,10 @@ fn within(rig: &Rig, inverse: &Inverse, by_position: Loaded, by_rate: Option<Loa
 /// Reads all records as the rig is driven; `rate` is the output whose column drives it, too, as the rate of its motion.
 fn forward(rig: &Rig, origins: &[&Origin], map: &Map, rate: Option<&str>) -> Result<Loaded, String> {
     let (mut records, mut problems, mut read) = (Vec::new(), Vec::new(), Vec::new());
-    for origin in origins {
-        let imported = import(rig, origin, map, rate)?;
+    let all: Vec<_> = origins.par_iter().map(|origin| import(rig, origin, map, rate)).collect();
+    // Of several that cannot be read, the first one is told.
+    for imported in all {
+        let imported = imported?;
         problems.extend(imported.problems);
         records.extend(imported.recorded);
         read.push(imported.read);

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use crate::data::check::DataProblem;
 use crate::dataset::recorded::Dataset;
 use crate::diagnosis::{Diagnosis, Options, diagnose};
@@ -34,9 +36,16 @@ impl Split {
 
     /// Records as they were measured.
     pub fn new(train: &[Dataset], measured: Vec<Dataset>) -> Self {
-        let conditioned = |records: &[Dataset]| records.iter().map(Dataset::conditioned).collect::<Vec<_>>();
-        let whole = train.iter().chain(&measured).map(|it| it.joined().conditioned()).collect();
-        Self { train: conditioned(train), test: conditioned(&measured), measured, whole }
+        let both = |record: &Dataset| {
+            let (own, joined) = (record.conditioned(), record.joined());
+            let is_whole = joined.sections == record.sections;
+            let whole = if is_whole { own.clone() } else { joined.conditioned() };
+            (own, whole)
+        };
+        let all = train.par_iter().chain(&measured).map(both);
+        let (mut own, whole): (Vec<Dataset>, Vec<Dataset>) = all.unzip();
+        let test = own.split_off(train.len());
+        Self { train: own, test, measured, whole }
     }
 
     /// The same in shorter stretches, each with states of its own at the start; none if the rig's models keep to long ones.
