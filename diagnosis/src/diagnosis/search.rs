@@ -131,17 +131,10 @@ impl Baseline<'_> {
                 _ if over => false,
                 Next::Curve(score) if self.unmodelled(found, (&missing, &compared), score)? => true,
                 _ => {
-                    let all = found.unmodelled.iter().map(|it| it.share);
-                    let place = place_of_rest(all).unwrap_or(found.unmodelled.len());
-                    // Behind a curve that explains most, there has been no look at the rest.
-                    let looked_at = found.unmodelled.len() == described || place < found.unmodelled.len();
-                    if self.uses(Component::Ports) && described < PLACES && looked_at {
-                        // Larger errors of one sensor hide its own fault; an open account says that it is there.
-                        let open = self.is_open(&found.extended.test);
-                        let rest = self.remainder(found, &missing, &location, &compared);
-                        let rest = rest.or(unrefined.filter(|_| open));
-                        found.unmodelled.splice(place..place, rest);
-                    }
+                    // Larger errors of one sensor hide its own fault; an open account says that it is there.
+                    let open = self.is_open(&found.extended.test);
+                    let rest = self.remainder(found, &missing, &location, &compared);
+                    self.place_rest(found, described, rest.or(unrefined.filter(|_| open)));
                     false
                 }
             };
@@ -334,6 +327,17 @@ impl Baseline<'_> {
         let confirmed = self.confirmed(&found.base, &tried)?;
         found.tried.extend(tried);
         Ok(confirmed)
+    }
+
+    /// Puts a rest without an explanation among the descriptions, of which there were so many before the round.
+    fn place_rest(&self, found: &mut Found, described: usize, rest: Option<Unmodelled>) {
+        let all = &mut found.unmodelled;
+        let place = place_of_rest(all.iter().map(|it| it.share)).unwrap_or(all.len());
+        // Behind a curve that explains most, there has been no look at the rest.
+        let looked_at = all.len() == described || place < all.len();
+        if self.uses(Component::Ports) && described < PLACES && looked_at {
+            all.splice(place..place, rest);
+        }
     }
 
     /// A missing signal that no recorded signal explains.
