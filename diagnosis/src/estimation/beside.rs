@@ -8,6 +8,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use crate::confirm::worth;
 use crate::decision::criteria::CRITERIA;
 use crate::estimation::coordinates::POINTS;
+use crate::estimation::deadline::Stage;
 use crate::estimation::fit::Normal;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::unknowns::Unknown;
@@ -38,6 +39,10 @@ impl Baseline<'_> {
     /// # Errors
     /// If the model refuses its settings.
     pub fn assumed(&self, fitted: &Fitted) -> Result<Assumed, String> {
+        // Where the time was up before a look at the rig, nobody knows how large an effect is there.
+        if self.typical.is_empty() && self.deadline.is_over(Stage::Search) {
+            return Ok(Assumed { pulls: Vec::new(), twins: vec![Vec::new(); fitted.coordinates.len()] });
+        }
         let TriedOut { terms, probes, normal: Normal { h, g, .. } } = self.tried_out(fitted)?;
         let mut most: Vec<Option<Pull>> = vec![None; terms.len()];
         let amounts: Vec<Unknown> = fitted.terms.iter().flat_map(|term| self.sizes(*term)).collect();
