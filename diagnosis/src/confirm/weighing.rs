@@ -137,9 +137,8 @@ impl Baseline<'_> {
     pub(crate) fn may_matter(&self, base: &Fitted, fitted: &Fitted, share: f64) -> bool {
         let kept = (1.0 - share).max(0.0).sqrt();
         let of = |records: &[Dataset], base: &Residuals, fitted: &Residuals| {
-            let roots = |it: &Residuals| self.errors(it).mean_squares().into_iter().map(f64::sqrt);
-            let rows = roots(base).zip(roots(fitted)).enumerate();
-            rows.into_iter().any(|(row, (before, error))| {
+            let roots = |it: &Residuals| self.errors(it).roots().into_iter();
+            roots(base).zip(roots(fitted)).enumerate().any(|(row, (before, error))| {
                 let left = (kept * error).max(self.floor[row]);
                 Left { error, before, left, signal: bent_rms(records, row) }.may_matter()
             })
@@ -157,7 +156,7 @@ impl Baseline<'_> {
     /// over a short stretch, a moving drive's position is mostly a straight line.
     fn phi_gains(&self, null: &Fitted, fitted: &Fitted) -> [f64; 2] {
         let of = |records: &[Dataset], null: &Residuals, fitted: &Residuals| {
-            let roots = |it: &Residuals| self.errors(it).mean_squares().into_iter().map(f64::sqrt);
+            let roots = |it: &Residuals| self.errors(it).roots().into_iter();
             let rows = roots(null).zip(roots(fitted)).enumerate();
             let gains = rows.map(|(row, (before, after))| (before - after) / bent_rms(records, row));
             gains.fold(0.0, f64::max)

@@ -81,7 +81,7 @@ fn within(rig: &Rig, inverse: &Inverse, by_position: Loaded, by_rate: Option<Loa
 fn forward(rig: &Rig, origins: &[&Origin], map: &Map, rate: Option<&str>) -> Result<Loaded, String> {
     let (mut records, mut problems, mut read) = (Vec::new(), Vec::new(), Vec::new());
     let all: Vec<_> = origins.par_iter().map(|origin| import(rig, origin, map, rate)).collect();
-    // Of several that cannot be read, the first one is told.
+    // The error of the first file that cannot be read, whichever thread is ready first.
     for imported in all {
         let imported = imported?;
         problems.extend(imported.problems);

@@ -16,7 +16,7 @@ pub struct Found {
     pub extended: Fitted,
     /// The effects.
     pub accepted: Vec<Accepted>,
-    /// What is missing and has no name.
+    /// Missing signals without a name.
     pub unmodelled: Vec<Unmodelled>,
     /// The missing signal before anything was explained.
     pub missing: Option<MissingSignal>,
@@ -51,7 +51,7 @@ impl Found {
         error_left(outside.map(|it| it.validated))
     }
 
-    /// Takes a confirmed effect into the model, in the place of what is no longer in it: a law that had been found as its limit.
+    /// Takes a confirmed effect into the model, in the place of a law that is its limit.
     pub(super) fn extend(&mut self, Confirmed { accepted, fitted }: Confirmed) {
         let stays: Vec<bool> = self.accepted.iter().map(|it| fitted.terms.contains(&it.term)).collect();
         let (mut of_accepted, mut of_stages) = (stays.iter(), stays.iter());

@@ -106,8 +106,12 @@ impl Baseline<'_> {
                 let larger = missing.refined(background, &compared.best().unwrap_or_default());
                 if larger != *background {
                     (errors, refinements) = (Some(larger), refinements + 1);
-                    first
-                        .get_or_insert_with(|| (next, self.remainder(found, &missing, &location, &compared)));
+                    first.get_or_insert_with(|| {
+                        // Larger errors of one sensor hide its own fault; an open account says that it is there.
+                        let open = self.is_open(&found.extended.test);
+                        let rest = || self.remainder(found, &missing, &location, &compared);
+                        (next, open.then(rest).flatten())
+                    });
                     continue;
                 }
             }
@@ -131,10 +135,8 @@ impl Baseline<'_> {
                 _ if over => false,
                 Next::Curve(score) if self.unmodelled(found, (&missing, &compared), score)? => true,
                 _ => {
-                    // Larger errors of one sensor hide its own fault; an open account says that it is there.
-                    let open = self.is_open(&found.extended.test);
                     let rest = self.remainder(found, &missing, &location, &compared);
-                    self.place_rest(found, described, rest.or(unrefined.filter(|_| open)));
+                    self.place_rest(found, described, rest.or(unrefined));
                     false
                 }
             };
@@ -329,7 +331,7 @@ impl Baseline<'_> {
         Ok(confirmed)
     }
 
-    /// Puts a rest without an explanation among the descriptions, of which there were so many before the round.
+    /// Puts a rest without an explanation among the descriptions. `described`: their number before the round.
     fn place_rest(&self, found: &mut Found, described: usize, rest: Option<Unmodelled>) {
         let all = &mut found.unmodelled;
         let place = place_of_rest(all.iter().map(|it| it.share)).unwrap_or(all.len());
@@ -376,6 +378,6 @@ impl Baseline<'_> {
 
     /// Root mean square of each signal's error on the estimation records, by its row.
     fn roots(&self, fitted: &Fitted) -> impl Iterator<Item = (usize, f64)> {
-        self.errors(&fitted.train).mean_squares().into_iter().map(f64::sqrt).enumerate()
+        self.errors(&fitted.train).roots().into_iter().enumerate()
     }
 }

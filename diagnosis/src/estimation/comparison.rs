@@ -34,6 +34,11 @@ impl Errors<'_> {
             .collect()
     }
 
+    /// Root mean square of each signal, and not below its noise.
+    pub fn roots(&self) -> Vec<f64> {
+        self.mean_squares().into_iter().map(f64::sqrt).collect()
+    }
+
     /// Number of independent samples of each signal.
     pub fn effective_counts(&self) -> Vec<f64> {
         (0..self.floor.len())

@@ -62,7 +62,7 @@ impl<'a> Contest<'a> {
     pub fn new(baseline: &'a Baseline<'a>, models: Vec<Rival>, bounds: Bounds) -> Option<Self> {
         let (like, chosen) = (baseline.train.first()?, models.first()?);
         let errors = baseline.errors(&chosen.fitted.train);
-        let roots: Vec<f64> = errors.mean_squares().into_iter().map(f64::sqrt).collect();
+        let roots = errors.roots();
         let known = |row: usize| {
             let all = chosen.fitted.train.iter().flat_map(|record| &record[row]);
             all.filter(|it| it.is_finite()).count() as f64

@@ -113,7 +113,9 @@ pub fn features(
         }
         Group::Memory => MEMORIES
             .iter()
-            .map(|time| v.iter().zip(windows).map(|(v, window)| relaxed(v, *time, window.step)).collect())
+            .map(|time| {
+                v.iter().zip(windows).map(|(v, window)| relaxed(v, 0.0, *time, window.step)).collect()
+            })
             .collect(),
         Group::Resonance(number) => {
             let both: Vec<[Vec<f64>; 2]> = v
@@ -237,10 +239,10 @@ fn followed(values: &[f64], lag: f64, step: f64) -> Vec<f64> {
         .collect()
 }
 
-/// `y' = u − y/τ`.
-fn relaxed(input: &[f64], time: f64, step: f64) -> Vec<f64> {
+/// `y' = u − y/τ`, from a start.
+fn relaxed(input: &[f64], start: f64, time: f64, step: f64) -> Vec<f64> {
     let decay = (-step / time).exp();
-    let mut y = 0.0;
+    let mut y = start;
     input
         .iter()
         .map(|u| {
@@ -265,9 +267,7 @@ fn heated(power: &[Vec<f64>], time: f64, spans: &[Span]) -> Vec<Vec<f64>> {
             let kept = (-(samples.start.saturating_sub(last.end) as f64) * step / time).exp();
             kept * heat + time * (1.0 - kept) * mean
         });
-        let left = (1..=power.len()).map(|k| start * (-(k as f64) * step / time).exp());
-        let heat: Vec<f64> =
-            relaxed(power, time, *step).iter().zip(left).map(|(own, left)| own + left).collect();
+        let heat = relaxed(power, start, time, *step);
         let mean = power.iter().sum::<f64>() / power.len().max(1) as f64;
         before = Some((span, heat.last().copied().unwrap_or(start), mean));
         all.push(heat);

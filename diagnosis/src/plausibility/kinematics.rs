@@ -159,6 +159,34 @@ fn in_step(record: &Dataset, motion: &[f64], rate: &[f64]) -> Option<Agreement> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plant::Between;
+
+    /// A sensor may be some percent off or late; a tenth of the rate is another quantity.
+    #[test]
+    fn a_rate_of_another_size_is_no_sensors_gain() {
+        const STEP: f64 = 0.01;
+        let record = Dataset {
+            name: "run.csv".into(),
+            step: STEP,
+            inputs: vec![],
+            between: Between::Lines,
+            measured: vec![],
+            others: vec![],
+            errors: vec![],
+            sections: std::iter::once(0..2000).collect(),
+        };
+        let wave = |of: fn(f64) -> f64| (0..2000).map(|k| of(STEP * f64::from(k))).collect::<Vec<f64>>();
+        let position = wave(|t| (5.0 * t).sin() + 0.1 * (13.0 * t).cos());
+        let rate = |t: f64| 5.0 * (5.0 * t).cos() - 1.3 * (13.0 * t).sin();
+        let seen = |scale: f64, late: f64| {
+            let rate: Vec<f64> = (0..2000).map(|k| scale * rate(STEP * f64::from(k) - late)).collect();
+            apart(&record, ("position", "m", &position), ("velocity", "m/s", &rate))
+        };
+        let tenth = seen(0.1, 0.04).unwrap();
+        assert!(tenth.fatal && tenth.signal == "velocity", "{tenth:?}");
+        assert!(tenth.text.starts_with("velocity is 10 % of the rate of position, and 4"), "{}", tenth.text);
+        assert_eq!((seen(1.2, 0.0), seen(0.8, 0.02)), (None, None));
+    }
 
     #[test]
     fn a_rate_has_the_name_of_its_motion() {

@@ -143,7 +143,7 @@ fn parameters(findings: &Findings) -> Option<String> {
     let changed: Vec<String> = changed
         .map(|it| {
             let before = digits(it.before, 4);
-            // At the end of what is possible there is no value, only a limit.
+            // At its lower bound a parameter has no value, only a limit.
             if it.after <= it.low && it.high > it.low && it.after >= 0.0 {
                 return format!("{} is less than {} instead of {before}", it.name, value(it.high, &it.unit));
             }

@@ -121,6 +121,27 @@ fn what_the_records_say_of_a_parameter_beyond_its_value_is_told() {
 }
 
 #[test]
+fn a_parameter_at_its_lower_bound_has_a_limit_and_no_value() {
+    let at = |after: f64| NominalParameter {
+        name: "moving_mass".into(),
+        unit: "kg".into(),
+        before: 20.0,
+        after,
+        low: 1e-6,
+        high: 0.36,
+        mismatch: true,
+        from_parameter_set: false,
+        is_yardstick: false,
+        contradicted: false,
+        equivalent_effects: vec![],
+    };
+    let text =
+        |after| of(&Findings { nominal_parameters: vec![at(after)], ..findings(Verdict::ParameterMismatch) });
+    assert!(text(1e-6).contains("moving_mass is less than 0.36"), "{}", text(1e-6));
+    assert!(text(0.2).contains("moving_mass is 0.2") && !text(0.2).contains("less than"), "{}", text(0.2));
+}
+
+#[test]
 fn an_effect_that_only_the_validation_data_show_is_the_nearest_one() {
     let shows = Evidence {
         delta_bic: 0.8,
