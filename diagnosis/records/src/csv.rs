@@ -3,7 +3,8 @@
 //! The separator is `;`, a tab, `,` or blanks. But for `,` the numbers may have a decimal comma. Lines that start with `#`
 //! are comments. An empty cell, `NaN` or `NA` is a missing sample. Units may also stand in round brackets, or in a row of
 //! their own below the names. A column of dates and times of day is one of seconds. Lines that a logger writes above the
-//! names are passed over ([`layout`]); columns of text are left out, with the place of the first text.
+//! names are passed over ([`layout`]), and so are names that come again between the samples; columns of text are left out,
+//! with the place of the first text. Columns without names are called by their numbers: `column 1`.
 
 mod layout;
 
@@ -21,15 +22,23 @@ pub(crate) fn parse(file: &str, bytes: &[u8], reading: &Reading) -> Result<Table
     let text = decode(file, bytes)?;
     let layout = Layout::find(file, &text, reading.skip_rows)?;
     let mut columns = header(file, &layout)?;
+    let mut samples: Vec<StringRecord> = Vec::new();
     for row in rows(&text, layout.separator) {
         let row = row.map_err(|e| DataError::file(file, format!("not a table: {e}")))?;
-        let line = row.position().map_or(1, csv::Position::line);
         let is_blank = row.iter().all(|cell| cell.trim().is_empty());
-        if line >= layout.first && !is_comment(&row) && !is_blank {
-            add_row(file, line, layout.separator, &row, &mut columns)?;
+        if layout::line(&row) >= layout.first && !is_comment(&row) && !is_blank {
+            samples.push(row);
         }
     }
+    let repeated = layout.repeated(&samples);
+    let is_header = |index: usize| repeated.iter().any(|range| range.contains(&index));
+    for (_, row) in samples.iter().enumerate().filter(|(index, _)| !is_header(*index)) {
+        add_row(file, layout::line(row), layout.separator, row, &mut columns)?;
+    }
     let mut table = Table { name: file.to_owned(), ..Table::default() };
+    if !repeated.is_empty() {
+        table.notes.push(format!("the names of the columns come again {} times: left out", repeated.len()));
+    }
     for Column { name, unit, values, why, .. } in columns {
         match why {
             Some(why) => table.unread.push(Unread { name, unit, why }),
@@ -189,6 +198,7 @@ fn add_row(
         }
         let (value, wanted) = match &column.stamps {
             Some(stamps) => (stamps.seconds(cell), "a time as in the first row: write all in one way"),
+            None if column.values.is_empty() => (number(cell, separator), "a number"),
             None => (number(cell, separator), "a number: leave missing samples empty"),
         };
         match value {

@@ -1,7 +1,7 @@
 //! Records from HDF5, MATLAB's MAT-files of version 7.3 among them.
 //!
-//! Numeric datasets of one dimension (n, n×1 or 1×n), by their names, and those in groups, which are MATLAB's structs. An
-//! attribute `unit` or `units` is the unit. Text, matrices, and what MATLAB keeps under `#refs#` are left out.
+//! Numeric datasets of one dimension (n, n×1 or 1×n) and the columns of matrices, by their names, and those in groups, which are
+//! MATLAB's structs. An attribute `unit` or `units` is the unit. Text, and what MATLAB keeps under `#refs#`, are left out.
 
 use super::DataError;
 use super::table::Table;
@@ -44,9 +44,9 @@ fn walk(
     for dataset in datasets {
         if let Some(values) = numbers(&dataset)? {
             let own = dataset.name().rsplit('/').next().unwrap_or_default().to_owned();
-            let path = path.iter().cloned().chain([own]).collect();
+            let path: Vec<String> = path.iter().cloned().chain([own]).collect();
             let unit = UNITS.iter().find_map(|name| text(&dataset, name)).unwrap_or_default();
-            vectors.push(Vector { path, unit, values });
+            vectors.extend(columns(&dataset, &path, &unit, values));
         }
     }
     for inner in groups {
@@ -65,12 +65,23 @@ fn text(dataset: &Dataset, name: &str) -> Option<String> {
     dataset.attribute(name).ok()?.read_string().ok().map(|it| it.trim_matches(['\0', ' ']).to_owned())
 }
 
-/// A vector's numbers; none if it is no vector, or not of real numbers.
+/// The columns of a dataset. MATLAB stores the transposed of what it shows: the order of its numbers is that of its own files.
+fn columns(dataset: &Dataset, path: &[String], unit: &str, values: Vec<f64>) -> Vec<Vector> {
+    let size = |place: usize| dataset.shape().get(place).map_or(1, |it| *it as usize);
+    let (outer, inner) = (size(0), size(1));
+    if dataset.attribute("MATLAB_class").is_ok() {
+        return vectors::of_matrix(path, unit, [inner, outer], values);
+    }
+    let column_by_column = (0..inner).flat_map(|column| values.iter().skip(column).step_by(inner).copied());
+    vectors::of_matrix(path, unit, [outer, inner], column_by_column.collect())
+}
+
+/// A dataset's numbers; none if it has more than two dimensions, is a scalar, or not of real numbers.
 fn numbers(dataset: &Dataset) -> Result<Option<Vec<f64>>, hdf5_reader::error::Error> {
-    let is_vector = dataset.shape().iter().filter(|length| **length != 1).count() == 1;
+    let is_table = dataset.shape().len() <= 2 && dataset.shape().iter().any(|length| *length != 1);
     let class = text(dataset, "MATLAB_class");
     let is_empty = dataset.attribute("MATLAB_empty").is_ok();
-    if !is_vector || is_empty || class.is_some_and(|class| !NUMERIC.contains(&&*class)) {
+    if !is_table || is_empty || class.is_some_and(|class| !NUMERIC.contains(&&*class)) {
         return Ok(None);
     }
     macro_rules! read {

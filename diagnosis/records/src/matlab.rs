@@ -1,7 +1,7 @@
 //! Records from MATLAB's MAT-files of version 5 to 7: MathWorks, MAT-File Format, R2023b. Those of version 7.3 are HDF5.
 //!
-//! Real numeric vectors (n×1 or 1×n), by their names, and those in the fields of structs; scalars, matrices, text and
-//! objects are left out. There are no units: SI is assumed unless the map says otherwise.
+//! Real numeric vectors (n×1 or 1×n) and the columns of matrices, by their names, and those in the fields of structs; scalars, text
+//! and objects are left out. There are no units: SI is assumed unless the map says otherwise.
 
 use super::DataError;
 use super::bytes::Bytes;
@@ -81,14 +81,17 @@ fn matrix(
         if path.len() <= DEEPEST && sizes.iter().product::<f64>() == 1.0 {
             fields(&mut parts, path, vectors)?;
         }
-    } else if flags & COMPLEX == 0 && sizes.iter().filter(|&&size| size != 1.0).count() == 1 {
+    } else if flags & COMPLEX == 0
+        && let [rows, columns] = sizes[..]
+    {
         let (kind, data) = parts.next()?.ok_or_else(damaged)?;
         let values = numbers(kind, data, parts.big_endian).ok_or_else(damaged)?;
-        if values.len() as f64 != sizes.iter().product::<f64>() {
+        if values.len() as f64 != rows * columns {
             return Err(damaged());
         }
-        if !values.is_empty() {
-            vectors.push(Vector { path: path.clone(), unit: String::new(), values });
+        // A scalar is no signal.
+        if values.len() > 1 {
+            vectors.extend(vectors::of_matrix(path, "", [rows as usize, columns as usize], values));
         }
     }
     path.pop();

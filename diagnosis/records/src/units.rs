@@ -265,12 +265,19 @@ fn symbol(name: &str) -> Option<Size> {
         let entry = table.iter().find(|entry| entry.0 == name)?;
         Some(Size { factor: entry.1, dimension: entry.2 })
     };
-    find(&PLAIN, name).or_else(|| find(&PREFIXED, name)).or_else(|| {
+    let exact = find(&PLAIN, name).or_else(|| find(&PREFIXED, name)).or_else(|| {
         PREFIXES.iter().find_map(|&(prefix, factor)| {
             let base = find(&PREFIXED, name.strip_prefix(prefix)?)?;
             Some(Size { factor: factor * base.factor, ..base })
         })
-    })
+    });
+    // A word means the same in capitals: `Sec`, `BAR`. Of two letters, m and M are a thousandth and a million.
+    let word = || {
+        let mut all = PLAIN.iter().chain(&PREFIXED).filter(|it| it.0.chars().count() > 2);
+        let entry = all.find(|it| it.0.eq_ignore_ascii_case(name))?;
+        Some(Size { factor: entry.1, dimension: entry.2 })
+    };
+    exact.or_else(word)
 }
 
 #[cfg(test)]
@@ -299,6 +306,8 @@ mod tests {
             ("kip", "N", 4448.2216152605),
             ("ms", "s", 1e-3),
             ("min", "s", 60.0),
+            ("Sec", "s", 1.0),
+            ("LBF", "N", 4.4482216152605),
             ("deg", "rad", PI / 180.0),
             ("rpm", "rad/s", PI / 30.0),
             ("bar", "Pa", 1e5),

@@ -1,6 +1,8 @@
 //! Where the table is in a file of text: what separates its columns, which row names them, which has their units, and where
 //! the numbers begin. Loggers write lines of their own above.
 
+use std::ops::Range;
+
 use super::super::{DataError, timestamp::Timestamps, units};
 use super::{is_comment, number, rows, title, unit};
 use csv::StringRecord;
@@ -55,7 +57,9 @@ impl Layout {
             })?,
             None => titles(rows, first, separator),
         };
-        let Some((names, below)) = names(titles) else { return Err(no_names(file, rows, first)) };
+        let Some((names, below)) = names(titles) else {
+            return unnamed(rows, first, separator).ok_or_else(|| no_names(file, rows, first));
+        };
         let names = uncommented(names);
         let has_units = names.iter().any(|cell| !title(cell.trim()).1.is_empty());
         let units = below.iter().max_by_key(|row| known_units(row)).filter(|row| known_units(row) > 0);
@@ -64,7 +68,33 @@ impl Layout {
     }
 }
 
-fn line(row: &StringRecord) -> u64 {
+impl Layout {
+    /// Where the names come again between the samples, with the lines of text around them: some machines write them every second.
+    pub fn repeated(&self, samples: &[StringRecord]) -> Vec<Range<usize>> {
+        let is_sample = |row: &StringRecord| {
+            row.len().abs_diff(self.names.len()) <= 1 && values(row, self.separator).next().is_some()
+        };
+        let is_names = |row: &StringRecord| {
+            let same = |(one, other): (&str, &str)| one.trim() == other.trim();
+            row.len() == self.names.len() && !is_sample(row) && row.iter().zip(&self.names).all(same)
+        };
+        let around = |index: usize| {
+            let start = samples[..index].iter().rposition(is_sample).map_or(0, |last| last + 1);
+            let after = samples[index..].iter().position(is_sample);
+            start..after.map_or(samples.len(), |next| index + next)
+        };
+        let mut repeated: Vec<Range<usize>> = Vec::new();
+        for (index, _) in samples.iter().enumerate().filter(|(_, row)| is_names(row)) {
+            if repeated.last().is_none_or(|last| !last.contains(&index)) {
+                repeated.push(around(index));
+            }
+        }
+        repeated
+    }
+}
+
+/// The line that a row begins in.
+pub(super) fn line(row: &StringRecord) -> u64 {
     row.position().map_or(1, csv::Position::line)
 }
 
@@ -130,6 +160,15 @@ fn titles(rows: &[StringRecord], first: usize, separator: u8) -> &[StringRecord]
         }
     }
     &rows[start..first]
+}
+
+/// A table without names, as many controllers write it, if nothing but comments is above its numbers.
+fn unnamed(rows: &[StringRecord], first: usize, separator: u8) -> Option<Layout> {
+    let cells = (0..rows[first].len()).filter(|column| !rows[first][*column].trim().is_empty());
+    let names: Vec<String> = cells.map(|column| format!("column {}", column + 1)).collect();
+    let names = names.into();
+    let layout = Layout { separator, names, units: None, first: line(&rows[first]) };
+    rows[..first].iter().all(is_comment).then_some(layout)
 }
 
 /// The row below lines that are skipped, and those between it and the numbers.
@@ -198,14 +237,11 @@ fn no_table(file: &str, heads: &[(u8, Vec<StringRecord>)]) -> DataError {
 
 /// That no row above the numbers names the columns.
 fn no_names(file: &str, rows: &[StringRecord], first: usize) -> DataError {
-    let text = match first.checked_sub(1).map(|above| &rows[above]) {
-        None => "the first row has to name the columns: `time [s]`, `force [N]`, …".into(),
-        Some(above) => format!(
-            "the numbers begin here, with {} cells in a row, and the row above has {}: write a row that names the columns \
-             above the numbers, or give the lines above the names: `skip_rows = 12` in the map, or --skip-rows",
-            rows[first].len(),
-            above.len()
-        ),
-    };
+    let above = rows[..first].last().map_or(0, StringRecord::len);
+    let text = format!(
+        "the numbers begin here, with {} cells in a row, and the row above has {above}: write a row that names the columns above \
+         the numbers, or give the lines above the names: `skip_rows = 12` in the map, or --skip-rows",
+        rows[first].len(),
+    );
     DataError::Cell { file: file.into(), line: line(&rows[first]), column: 1, text }
 }

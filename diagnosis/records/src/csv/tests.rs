@@ -85,7 +85,6 @@ fn errors_say_where() {
         error("t,F\n0,1\n1\n").starts_with("run.csv, line 3, column 1: the row has 1 cells, the header 2")
     );
     assert!(error("t,F\n0,1,2\n").starts_with("run.csv, line 2, column 2: the row has 3 cells"));
-    assert!(error("0,1\n1,2\n").contains("has to name the columns"));
     assert!(
         error("t|F\n0|1\n")
             .starts_with("run.csv, line 1, column 1: no table of numbers in the first 2 rows (`t|F` …)")
@@ -178,10 +177,7 @@ fn what_a_logger_writes_above_the_names_is_passed_over() {
         ]);
         assert_eq!(names(&record), ["Sample Number []", "CHANNEL0 []"]);
         assert!((record.time[2] - 0.002).abs() < 1e-12);
-        assert_eq!(
-            record.unread[0].why,
-            "`DAQ Start` in line 4 is not a number: leave missing samples empty"
-        );
+        assert_eq!(record.unread[0].why, "`DAQ Start` in line 4 is not a number");
     }
 }
 
@@ -268,4 +264,36 @@ proptest! {
     fn noise_is_no_panic(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
         let _ = parse("run.csv", &bytes, &Reading::default());
     }
+}
+
+#[test]
+fn columns_without_names_go_by_their_numbers() {
+    let message = error("0,1\n1,2\n");
+    assert!(message.contains("no column of time among column 1, column 2"), "{message}");
+    let time = Some(TimeColumn { column: "column 1".into(), unit: Some("s".into()) });
+    let reading = Reading { time, ..Reading::default() };
+    let record = parse("log.txt", b"# a log of the rig\n0.0 1.5\n0.1 2.5\n0.2 3.5\n", &reading).unwrap();
+    let [channel] = &record.channels[..] else { panic!("one channel") };
+    assert_eq!((channel.name.as_str(), &channel.values[..]), ("column 2", &[1.5, 2.5, 3.5][..]));
+    // One name above three columns is not a row of names.
+    let message = error("force\n0,1,2\n1,2,3\n");
+    assert!(message.contains("write a row that names the columns"), "{message}");
+}
+
+#[test]
+fn names_that_come_again_are_no_samples() {
+    let block = |first: f64| {
+        let samples = [0.0, 0.25, 0.5, 0.75].map(|later| format!("2.5\t{}\n", first + later)).concat();
+        format!("Data Acquisition\t\t\tTime:\t{first}\tSec\nStroke\tTime\nmm\tSec\n{samples}")
+    };
+    let record = read(&[0.0, 1.0, 2.0].map(block).concat());
+    assert_eq!(record.time, (0..12).map(|k| 0.25 * f64::from(k)).collect::<Vec<f64>>());
+    assert_eq!((record.channels[0].unit.as_str(), record.channels[0].values[11]), ("mm", 2.5));
+    assert_eq!(record.notes, ["the names of the columns come again 2 times: left out"]);
+}
+
+#[test]
+fn a_column_of_text_is_said_to_be_one() {
+    let record = read("time [s],F,state\n0,1,UP\n1,2,DOWN\n");
+    assert_eq!(record.unread[0].why, "`UP` in line 2 is not a number");
 }

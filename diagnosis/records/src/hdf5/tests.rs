@@ -6,7 +6,10 @@ const GROUPS: &[u8] = include_bytes!("../../../tests/data/groups.h5");
 
 #[test]
 fn what_hdf5storage_and_h5py_write() {
-    for (bytes, titles) in [(MATLAB, ["counts", "force"]), (GROUPS, ["counts [mm]", "force [kN]"])] {
+    let columns = ["matrix column 1", "matrix column 2", "matrix column 3"];
+    let of_matlab = ["counts", "force"].to_vec();
+    let of_groups = [&["counts [mm]", "force [kN]"][..], &columns].concat();
+    for (bytes, titles) in [(MATLAB, of_matlab), (GROUPS, of_groups)] {
         let record = parse("run", bytes, &Reading::default()).unwrap();
         assert_eq!(record.channels.iter().map(crate::Channel::title).collect::<Vec<_>>(), titles);
         assert_eq!(record.time.len(), 50);

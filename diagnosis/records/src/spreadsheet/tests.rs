@@ -26,7 +26,7 @@ fn the_first_sheet_with_a_table_below_what_a_logger_writes() {
         record.channels.iter().map(crate::Channel::title).collect::<Vec<_>>(),
         ["Force [lbf]", "Counts [mm]"]
     );
-    assert_eq!(record.unread[0].why, "`start` in line 5 is not a number: leave missing samples empty");
+    assert_eq!(record.unread[0].why, "`start` in line 5 is not a number");
     assert!(
         record.notes[0].starts_with("the sheet Data was read, and not Info, Dates"),
         "{:?}",
