@@ -89,6 +89,18 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
     Some(Banded { records: banded.into_iter().map(|it| signals.moving(it)).collect(), top, note })
 }
 
+/// That no band is left in which a motion could drive the model.
+pub fn refused(inverse: &Inverse) -> DataProblem {
+    let Inverse { force, position, .. } = inverse;
+    let text = format!(
+        "does not drive the model: its steps or noise, or gaps between the samples, would make more than {} % of {force}. So the force \
+         drives it, and the motion is compared: what does not move the rig for long, such as friction, shows less that way. A finer \
+         position, or a column of the velocity, helps",
+        100.0 * NOISY
+    );
+    DataProblem { record: "all".into(), signal: position.clone(), text, fatal: false }
+}
+
 /// Ends of the bands that are tried, in Hz, the narrowest first.
 fn bands(end: f64) -> impl Iterator<Item = f64> {
     let wider = move |top: &f64| (*top < end).then(|| (top / NARROWER).min(end));
@@ -111,6 +123,8 @@ pub(super) fn below(record: &Dataset, top: f64) -> Dataset {
 pub(super) struct Signals {
     /// The output that is compared.
     force: usize,
+    /// The input that is measured.
+    pub position: usize,
     /// The input that makes most of the motion's noise: what the mass resists, or the damper.
     pub derivative: usize,
     /// The input that tells whether anything moves.
@@ -123,6 +137,7 @@ impl Signals {
         let is_rate = |declared: &Declaration| rig.rate_of(&declared.name) == Some(position);
         Some(Self {
             force: rig.plant.output(&inverse.force)?,
+            position,
             derivative: rig.plant.input(&inverse.derivative)?,
             velocity: rig.plant.inputs.iter().position(is_rate)?,
         })

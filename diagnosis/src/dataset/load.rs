@@ -47,34 +47,54 @@ fn as_driven(
     map: &Map,
     has: impl Fn(&str) -> bool,
 ) -> Result<Loaded, String> {
+    let mut refused: Vec<DataProblem> = Vec::new();
     for by in rig.ways(&has) {
         rig.drive_by(&by, &has)?;
         let Some(inverse) = &by.inverse else { break };
         let rate = inverse.rate.as_deref().filter(|rate| rig.kind.called(rate).any(&has));
         let by_rate = rate.and_then(|rate| forward(rig, origins, map, Some(rate)).ok());
-        if let Ok(by_position) = forward(rig, origins, map, None)
-            && let Some(loaded) = within(rig, inverse, by_position, by_rate)
-        {
-            return Ok(loaded);
+        if let Ok(by_position) = forward(rig, origins, map, None) {
+            match within(rig, inverse, by_position, by_rate) {
+                Ok(loaded) => return Ok(loaded),
+                Err(notes) => refused.extend(notes),
+            }
         }
     }
-    forward(rig, origins, map, None)
+    let mut loaded = forward(rig, origins, map, None)?;
+    loaded.problems.splice(0..0, refused);
+    Ok(loaded)
 }
 
 /// Records in the band in which their motion is known: by the rate that a sensor of its own measures, if that goes with the position,
 /// and the force follows from it more closely.
-fn within(rig: &Rig, inverse: &Inverse, by_position: Loaded, by_rate: Option<Loaded>) -> Option<Loaded> {
+///
+/// # Errors
+/// If there is no such band: what is to be said of it.
+fn within(
+    rig: &Rig,
+    inverse: &Inverse,
+    by_position: Loaded,
+    by_rate: Option<Loaded>,
+) -> Result<Loaded, Vec<DataProblem>> {
     let banded = |loaded: &Loaded| inverse::banded(rig, &loaded.records, inverse);
     let (one, two) = (banded(&by_position), by_rate.as_ref().and_then(banded));
     let tops = [&one, &two].into_iter().flatten().map(|it| it.top);
-    let top = tops.reduce(f64::min)?;
-    let seen = by_rate.as_ref().and_then(|it| compared(rig, inverse, &by_position.records, &it.records, top));
-    let is_used = two.is_some() && seen.as_ref().is_some_and(|it| it.is_better);
-    let (loaded, banded) = if is_used { (by_rate?, two?) } else { (by_position, one?) };
+    let top = tops.reduce(f64::min);
+    let seen = by_rate
+        .as_ref()
+        .zip(top)
+        .and_then(|(it, top)| compared(rig, inverse, &by_position.records, &it.records, top));
+    let notes = seen.as_ref().and_then(|it| it.note(inverse));
+    let used = match (by_rate, two) {
+        (Some(by_rate), Some(two)) if seen.is_some_and(|it| it.is_better) => Some((by_rate, two)),
+        _ => one.map(|one| (by_position, one)),
+    };
+    let Some((loaded, banded)) = used else {
+        return Err(notes.into_iter().chain([inverse::refused(inverse)]).collect());
+    };
     // What drives the model comes first: it matters more than single samples.
-    let notes = seen.and_then(|it| it.note(inverse));
     let problems = notes.into_iter().chain([banded.note]).chain(loaded.problems).collect();
-    Some(Loaded { records: banded.records, problems, ..loaded })
+    Ok(Loaded { records: banded.records, problems, ..loaded })
 }
 
 /// Reads all records as the rig is driven; `rate` is the output whose column drives it, too, as the rate of its motion.

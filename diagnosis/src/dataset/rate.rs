@@ -2,10 +2,11 @@
 //! them the force follows more closely.
 
 use super::inverse::{LOWEST, Signals, below, motion};
-use super::recorded::Dataset;
+use super::recorded::{Dataset, without_line};
 use crate::data::check::DataProblem;
 use crate::report::words::{digits, percent};
 use crate::rig::{Inverse, Rig};
+use crate::signal::integral;
 
 /// Correlation below which a rate is not that of the motion at all.
 const UNRELATED: f64 = 0.7;
@@ -51,20 +52,33 @@ pub(super) fn compared(
     let left =
         |records: &[Dataset]| records.iter().map(|it| signals.left(&below(it, top))).sum::<Option<f64>>();
     let is_closer = left(by_rate)? < left(by_position)?;
-    // Where a position's rate has no noise yet.
-    let slow = |records: &[Dataset]| records.iter().map(|it| motion(&below(it, LOWEST))).collect::<Vec<_>>();
-    let of = |motions: &[Vec<Vec<f64>>], input: usize| {
-        motions.iter().flat_map(|it| it[input].iter().copied()).collect::<Vec<f64>>()
-    };
-    let (slow_position, slow_rate) = (slow(by_position), slow(by_rate));
-    let [rate, change] = [signals.velocity, signals.derivative].map(|input| of(&slow_position, input));
-    let agreement =
-        Agreement::of([&rate, &change], &of(&slow_rate, signals.velocity), by_rate.first()?.step)?;
+    let mut all: [Vec<f64>; 3] = Default::default();
+    for (plain, with_rate) in by_position.iter().zip(by_rate) {
+        let parts = summed(signals, &below(plain, LOWEST), &below(with_rate, LOWEST))?;
+        all.iter_mut().zip(parts).for_each(|(all, part)| all.extend(part));
+    }
+    let [position, rate, summed] = &all;
+    let agreement = Agreement::of([position, rate], summed, by_rate.first()?.step)?;
     Some(Compared { is_better: is_closer && agreement.agrees(), agreement })
 }
 
+/// A record's position, the measured rate, and what that adds up to, each without the straight line through each section. The steps
+/// of a coarse position are all of its rate, and little of the position itself.
+fn summed(signals: Signals, by_position: &Dataset, by_rate: &Dataset) -> Option<[Vec<f64>; 3]> {
+    let position = motion(by_position).into_iter().nth(signals.position)?;
+    let rate = motion(by_rate).into_iter().nth(signals.velocity)?;
+    let mut all: [Vec<f64>; 3] = Default::default();
+    for section in &by_position.sections {
+        let (position, rate) = (position.get(section.clone())?, rate.get(section.clone())?);
+        let parts = [position.to_vec(), rate.to_vec(), integral(rate, by_rate.step)];
+        all.iter_mut().zip(parts).for_each(|(all, part)| all.extend(without_line(&part)));
+    }
+    Some(all)
+}
+
 impl Agreement {
-    /// How a measured rate goes with that of the motion, whose own rate is `change`; both were sampled every `step` seconds.
+    /// How a measured rate goes with that of the motion, whose own rate is `change`; both were sampled every `step` seconds. The same
+    /// of what the measured rate adds up to, and the motion itself.
     pub fn of([rate, change]: [&[f64]; 2], measured: &[f64], step: f64) -> Option<Self> {
         let product =
             |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(one, other)| one * other).sum::<f64>();
@@ -161,6 +175,18 @@ mod tests {
         let inverse =
             Rig::published("linear-drive").unwrap().kind.drives.iter().find_map(|it| it.inverse.clone());
         compared.note(&inverse.unwrap()).map(|it| it.text)
+    }
+
+    /// Of 2 mm steps in a motion of 10 mm, the rate is lost; what the measured one adds up to is the motion.
+    #[test]
+    fn a_coarse_position_does_not_belie_its_rate() {
+        let fine = wave(|t| 0.01 * (5.0 * t).sin());
+        let coarse: Vec<f64> = fine.iter().map(|x| 2e-3 * (x / 2e-3).round()).collect();
+        let rate = wave(|t| 0.05 * (5.0 * t).cos());
+        let whole = |values: &[f64]| without_line(values);
+        let summed = integral(&rate, STEP);
+        let found = Agreement::of([&whole(&coarse), &rate], &whole(&summed), STEP).unwrap();
+        assert!(found.agrees() && (found.ratio - 1.0).abs() < 0.02, "{found:?}");
     }
 
     #[test]

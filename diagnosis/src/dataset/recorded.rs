@@ -211,7 +211,7 @@ impl Dataset {
 }
 
 /// The known values without the straight line that is nearest to them.
-fn without_line(values: &[f64]) -> Vec<f64> {
+pub(super) fn without_line(values: &[f64]) -> Vec<f64> {
     let known: Vec<(f64, f64)> =
         (0..).map(f64::from).zip(values.iter().copied()).filter(|(_, value)| value.is_finite()).collect();
     let n = known.len().max(1) as f64;
