@@ -47,6 +47,8 @@ pub struct Interval {
     pub half: f64,
     /// The same if what was known before were exact: what the data alone tell, beside the scale of the parameter set.
     pub half_of_data: f64,
+    /// The same if no effect that is not in the model pulled at it, either: whether it moved at all, whatever moved it.
+    pub half_of_noise: f64,
     /// Whether what was known before makes most of its uncertainty: the data tell it only together with others.
     pub from_parameter_set: bool,
     /// What each record on its own would choose, estimation records first.
@@ -92,8 +94,8 @@ impl Baseline<'_> {
             let all: Vec<Opinion> = opinions.iter().map(|excitation| excitation[index]).collect();
             let (between, quantile) = between(&all, own[(index, index)]);
             let pulled: f64 = pulls.iter().map(|pull| pull[index].powi(2)).sum();
-            let variance =
-                NORMAL.powi(2) * own[(index, index)].max(0.0) + quantile.powi(2) * between + 2.0 * pulled;
+            let noise = NORMAL.powi(2) * own[(index, index)].max(0.0) + quantile.powi(2) * between;
+            let variance = noise + 2.0 * pulled;
             let value = fitted.point.get(coordinate.handle);
             let (handle, bounds) = (coordinate.handle, self.released(coordinate).bounds);
             let wishes = wishes(value, &all);
@@ -124,6 +126,7 @@ impl Baseline<'_> {
                 value,
                 half,
                 half_of_data,
+                half_of_noise: noise.sqrt(),
                 from_parameter_set,
                 wishes,
                 yardstick,

@@ -18,6 +18,7 @@ use crate::data::check::DataProblem;
 use crate::dataset::recorded::Dataset;
 use crate::dataset::witness::same_excitation;
 use crate::decision::choice::Score;
+use crate::decision::criteria::CRITERIA;
 use crate::decision::evidence::Evidence;
 use crate::decision::verdict::{Facts, verdict};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
@@ -136,6 +137,7 @@ impl Diagnosis<'_> {
             let ratio = || (it.value / rig.parameters[index], it.half_of_data / rig.parameters[index]);
             (!self.baseline.is_yardstick(it.handle)).then(ratio)
         }));
+        let mut most_moved: Option<(usize, f64)> = None;
         for interval in &self.intervals {
             let after = interval.value;
             if let Unknown::Parameter(index) = interval.handle
@@ -145,8 +147,12 @@ impl Diagnosis<'_> {
                 // Of values that the records tell only together, their common factor is the parameter set's matter.
                 let common = if is_scaled(&interval) { common } else { 1.0 };
                 let change = (after - before).abs().min((after - common * before).abs());
-                let mismatch =
-                    holds && change > 1.5 * interval.half_of_data && change > MISMATCH * before.abs();
+                let matters = holds && change > MISMATCH * before.abs();
+                let mismatch = matters && change > 1.5 * interval.half_of_data;
+                let moved = change / (1.5 * interval.half_of_noise);
+                if matters && moved > 1.0 && most_moved.is_none_or(|(_, most)| moved > most) {
+                    most_moved = Some((list.len(), moved));
+                }
                 let is_yardstick = self.baseline.is_yardstick(interval.handle);
                 let known = self.baseline.known.iter().find(|(known, _, _)| *known == index);
                 let given = known.filter(|_| !is_yardstick);
@@ -169,6 +175,12 @@ impl Diagnosis<'_> {
                     equivalent_effects: twins.map(|it| located(&it.name, &it.element)).collect(),
                 });
             }
+        }
+        // Parameters that take most of the error are not right, whatever else could have moved the one that moved most.
+        let is_theirs = left < (1.0 - CRITERIA.majority) * signals.len() as f64;
+        let is_named = !self.found.accepted.is_empty() || list.iter().any(|it| it.mismatch);
+        if let Some((most, _)) = most_moved.filter(|_| is_theirs && !is_named) {
+            list[most].mismatch = true;
         }
         list
     }
