@@ -1,4 +1,4 @@
-"""Cases of a damper that a coil sets, one for each way in which its drive is known."""
+"""Cases of a damper on a bench: set by a coil, one for each way in which its drive is known, and in a loose clevis."""
 
 import math
 
@@ -27,8 +27,11 @@ MOTION = {
 }
 
 
+INPUTS = {name: MOTION.get(name, REST) for name in ElementDyno.inputs}
+
+
 def coil(by, signal, rated, description):
-    inputs = {name: MOTION.get(name, REST) for name in ElementDyno.inputs} | {f"control.{by.lower()}": signal}
+    inputs = INPUTS | {f"control.{by.lower()}": signal}
     return single(f"element-dyno-{by.lower()}", ElementDyno, inputs, stop=3.0, every=15, changed=DAMPER | rated,
                   settings={"controlled_by": by}, description=description)
 
@@ -38,4 +41,7 @@ CASES = [
          {"control.rated_current": 1.5, "control.rated_voltage": 1.0}, "A coil's current, which turns its direction."),
     coil("Voltage", {"sines": [[1.0, 2.1, 0.2]], "steps": [[2.5, 0.0], [-1.5, 1.0005]]},
          {"control.rated_current": 1.0, "control.rated_voltage": 2.0}, "A coil's voltage."),
+    single("element-dyno-clevis", ElementDyno, INPUTS, stop=3.0, every=15, settings={"controlled_by": "Nothing"},
+           changed={name: value for name, value in DAMPER.items() if not name.startswith("control.")} | {"clevis.gap": 8e-4},
+           description="A damper in a loose clevis."),
 ]

@@ -213,6 +213,17 @@ pub(super) const EFFECTS: &[Effect] = &[
         ..PLAIN
     },
     Effect {
+        id: "12c",
+        element: Element::STRUT,
+        name: "play in the clevis",
+        equation: "F = F_strut(x - e, u), u = dz(e, g)/T, e' = v - u, T = 0.5 ms",
+        onset: Onset::Threshold,
+        parts: &[part("clevis.gap", Scale::DEFLECTION, (1e-4, 1.0), &[0.02, 0.045, 0.1, 0.2])],
+        literature: &["Nordin2002"],
+        experiment: "turn round slowly at several places: the force rests over the play, whatever the stroke",
+        ..PLAIN
+    },
+    Effect {
         id: "13",
         element: Element::STRUT,
         name: "top-mount compliance",

@@ -19,6 +19,7 @@ use normal::Elimination;
 /// milliseconds, or act only after long.
 const FORGOTTEN: &[&str] = &[
     "hysteresis.",
+    "clevis.",
     "actuator.",
     "frame.",
     "enveloping.",

@@ -101,7 +101,9 @@ pub(crate) fn rates<M: Model>(
                     fastest = fastest.max(ACCURATE / STABLE * fastest_of(&at(sliding)));
                 }
             }
-            name if name.starts_with("hysteresis.") || name.ends_with(".follower") => {
+            name if ["hysteresis.", "clevis."].iter().any(|it| name.starts_with(it))
+                || name.ends_with(".follower") =>
+            {
                 let by = if name.ends_with(".follower") { BEYOND_BANDS } else { DISPLACED };
                 for (at, inputs) in [(&rest, &first), (&moved, &moving)] {
                     fastest = fastest.max(fastest_of(&jacobian_at(&displaced(at, by), inputs).0));

@@ -3,7 +3,7 @@
 use strut_model::Real;
 
 /// Time in s within which the follower comes back to the band: short beside all that valves and wheels do.
-const CATCHES_UP: f64 = 5e-4;
+pub(super) const CATCHES_UP: f64 = 5e-4;
 
 /// What becomes of a quantity x behind a backlash of `half_width` h, and the rate of the `follower` y; the quantity itself and
 /// zero where there is none (docs/effects.md, 28 and 41).

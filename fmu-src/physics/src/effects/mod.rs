@@ -8,6 +8,7 @@
 
 mod asymmetry;
 mod backlash;
+mod clevis;
 mod cogging;
 mod constant;
 mod coulomb;
@@ -36,6 +37,7 @@ mod yield_force;
 
 pub use asymmetry::Asymmetry;
 pub use backlash::behind_backlash;
+pub use clevis::{Clevis, ClevisState};
 pub use cogging::Cogging;
 pub use constant::with_constant;
 pub use coulomb::{Coulomb, RotaryCoulomb};

@@ -7,6 +7,7 @@ use strut_model::{
     About, Choice, Equation, Experiment, Instant, Kind, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
+use crate::effects::{Clevis, ClevisState};
 use crate::elements::{Control, ControlState, Hysteresis, HysteresisState, Load, Strut, Tire};
 use crate::signals::RoadMotion;
 
@@ -70,15 +71,19 @@ pub struct Parameters<R> {
     pub hysteresis: Hysteresis<R>,
     /// What sets its damper
     pub control: Control<R>,
+    /// What the strut is clamped in
+    pub clevis: Clevis<R>,
 }
 
-/// What the strut remembers.
+/// What strut and clevis remember.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct State<R> {
     /// Memory of the strut
     pub hysteresis: HysteresisState<R>,
     /// What sets its damper
     pub control: ControlState<R>,
+    /// What the strut is clamped in
+    pub clevis: ClevisState<R>,
 }
 
 /// What follows from the parameters.
@@ -139,6 +144,10 @@ impl Model for ElementDyno {
             Equation {
                 text: "further effects of the strut and its memory: as in QuarterCar",
                 source: "docs/effects.md: 02-14, 32, G",
+            },
+            Equation {
+                text: "loose clevis: x - e and dz(e, g)/T for x and v of the strut, e' = v - dz(e, g)/T, T = 0.5 ms",
+                source: "docs/effects.md: 12c",
             },
             Equation {
                 text: "controlled: d + d_s m for d and F_y + F_s m for F_y, m = s/(1 + kappa s), T s' + s = |i|/i_r or |u|/u_r",
@@ -210,20 +219,22 @@ impl Model for ElementDyno {
         let (deflection, further) = (-position, now.derived.active_effects);
         let (force, state) = match self.element {
             Element::Strut => {
-                let motion = [now.time, deflection, -velocity];
+                let ([left, speed], clevis) = p.clevis.behind(now.state.clevis, [deflection, -velocity]);
+                let motion = [now.time, left, speed];
                 let (strut, control) = match self.share(now.input.control, p) {
                     Some(share) => p.control.acting_on(&p.strut, now.state.control, share),
                     None => (Cow::Borrowed(&p.strut), Control::rest()),
                 };
                 let (force, hysteresis) =
                     strut.force_with_states(&p.hysteresis, &now.state.hysteresis, motion, further);
-                (-force, State { hysteresis, control })
+                (-force, State { hysteresis, control, clevis })
             }
             Element::Tire => {
                 let force = p.tire.force(position, velocity, further);
                 let held =
                     if self.lift_off { now.derived.tire.lift_off().applied(force, position) } else { force };
-                (held, State { hysteresis: HysteresisState::rest(), control: Control::rest() })
+                let clevis = ClevisState { deflection: R::from(0.0) };
+                (held, State { hysteresis: HysteresisState::rest(), control: Control::rest(), clevis })
             }
         };
         (state, Output { force, deflection })
