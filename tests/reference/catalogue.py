@@ -9,6 +9,7 @@ import cases_full_car
 import cases_kogut
 import cases_konieczny
 import cases_of_time
+import cases_pneumatic
 import cases_sensors
 import cases_sprung_mass
 import cases_tum
@@ -21,6 +22,7 @@ from force_controllers import ForcePid, ForceTwoDof, ForceTwoDofLpv
 from full_car import FullCar
 from linear_drive import LinearDrive
 from linear_motor import LinearMotor
+from pneumatic import PneumaticCylinder
 from pump import PumpHydraulicActuator, PumpHydraulicActuatorLinear
 from quarter_car import QuarterCar
 from roads import FourWheelRoad, Road
@@ -47,6 +49,7 @@ MODELS = {model.__name__: model for model in (
     LqrController,
     ModalSkyhook,
     MrRotaryBrake,
+    PneumaticCylinder,
     PumpHydraulicActuator,
     PumpHydraulicActuatorLinear,
     QuarterCar,
@@ -65,7 +68,7 @@ MODELS = {model.__name__: model for model in (
 )}
 
 CASES = [case for module in (cases, cases_ajala, cases_drive, cases_dyno, cases_effects, cases_full_car, cases_kogut,
-                             cases_konieczny, cases_of_time, cases_sensors, cases_sprung_mass, cases_tum) for case in module.CASES]
+                             cases_konieczny, cases_of_time, cases_pneumatic, cases_sensors, cases_sprung_mass, cases_tum) for case in module.CASES]
 
 
 def model_of(case):

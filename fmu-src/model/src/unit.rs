@@ -202,6 +202,8 @@ units! {
     A_S_PER_M = "A.s/m" { a: 1, m: -1, s: 1 };
     /// Ampere squared second: what an I²t limiter accumulates.
     A2_S = "A2.s" { a: 2, s: 1 };
+    /// Per volt: the opening that a voltage asks for.
+    PER_V = "1/V" { kg: -1, m: -2, s: 3, a: 1 };
     /// Per volt and second.
     PER_V_S = "1/(V.s)" { kg: -1, m: -2, s: 2, a: 1 };
     /// Per square newton: the weight of a force in a quadratic cost.

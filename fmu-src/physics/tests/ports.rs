@@ -27,6 +27,7 @@ fn all() -> impl Iterator<Item = Ports> {
         rigs::ServoSuspensionIdentified
         rigs::ElementDyno
         rigs::LinearDrive
+        rigs::PneumaticCylinder
         actuators::LinearMotor
         actuators::ServoHydraulicActuator
         actuators::PumpHydraulicActuator
@@ -78,6 +79,8 @@ fn the_ports_are_these() {
          actuator.cylinder.preload, actuator.cylinder.flow_offset",
         "ElementDyno: strut.preload, tire.preload",
         "LinearDrive: constant_load",
+        "PneumaticCylinder: constant_load, actuator.cylinder.chamber_a.flow_offset, \
+         actuator.cylinder.chamber_b.flow_offset",
         "ServoHydraulicActuator: cylinder.preload, cylinder.flow_offset",
         "PumpHydraulicActuator: pump.load, pump.flow_offset, piston.preload",
         "ExcitationMotor: constant_load",

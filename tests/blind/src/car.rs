@@ -88,7 +88,7 @@ pub struct Motion {
     pub tire_force: Vec<f64>,
     /// Difference of the cylinder's chambers, in Pa.
     pub pressure: Vec<f64>,
-    /// Of pump actuators and semi-active rigs all that is measured, by the names and in the units of the record.
+    /// Of pump actuators, semi-active rigs and pneumatic cylinders all that is measured, by the names and in the units of the record.
     pub signals: BTreeMap<&'static str, Vec<f64>>,
 }
 

@@ -31,6 +31,8 @@ pub enum Plant {
     PumpDyno,
     /// Two arms on a pivot with a spring and a brake between them, on an eccentric (Kogut).
     SasRig,
+    /// A mass on a guide that a pneumatic cylinder moves in closed loop; the voltage of its valve is recorded.
+    PneumaticCylinder,
 }
 
 impl Plant {
@@ -60,6 +62,7 @@ impl Plant {
             Self::GuidedMass => "mass on a spring",
             Self::PumpDyno => "pump actuator on a dyno",
             Self::SasRig => "semi-active rig",
+            Self::PneumaticCylinder => "pneumatic cylinder in closed loop",
         }
     }
 }

@@ -68,6 +68,9 @@ const OF_PUMP: [&str; 6] = ["30p", "32a", "32b", "32c", "23", "25"];
 /// heavier and stiffer, and nobody could tell.
 const OF_SAS: [&str; 3] = ["01p", "19p", "23"];
 
+/// Effects of a pneumatic cylinder.
+const OF_PNEUMATIC: [&str; 5] = ["16", "28c", "30c", "15c", "29c"];
+
 /// Effects of a strut on a dyno.
 const ON_DYNO: [&str; 10] = ["01", "03", "03b", "04", "05", "06", "07", "08", "09", "32"];
 
@@ -265,6 +268,12 @@ fn other_rigs(seed: u64, all: &mut Vec<Case>) {
     ] {
         let case = standard(format!("mr-{name}-{seed}"), effects, seed);
         all.push(Case { plant: Plant::MrDyno, noise_db: Some(60.0), ..case });
+    }
+    for id in [&["none"][..], &OF_PNEUMATIC].concat() {
+        let case = standard(format!("pneumatic-{id}-{seed}"), hidden(id), seed);
+        // Its noise is 0.3 % of each signal.
+        let (plant, noise_db) = (Plant::PneumaticCylinder, Some(50.0));
+        all.push(Case { plant, noise_db, duration: 10.0, ..case });
     }
     // On the semi-active rig, the wheel arm follows the eccentric and all that is in its record.
     for (rig, plant, noise, of_parts, of_sensors) in [

@@ -2,6 +2,7 @@
 
 mod drive;
 mod parts;
+mod pneumatic;
 mod pump;
 mod sas;
 mod sensor;
@@ -32,6 +33,8 @@ pub enum Place {
     Pump,
     /// Between two arms.
     Pivot,
+    /// Valve or chambers of a pneumatic cylinder.
+    Cylinder,
     /// In a sensor; the element of the effect is its signal.
     Sensor,
 }
@@ -134,7 +137,8 @@ pub const RATE_ERROR: f64 = 0.01;
 
 /// Everything that can be hidden.
 pub fn entries() -> impl Iterator<Item = &'static Entry> {
-    let of_plants = [strut::ENTRIES, parts::ENTRIES, drive::ENTRIES, pump::ENTRIES, sas::ENTRIES];
+    let of_plants =
+        [strut::ENTRIES, parts::ENTRIES, drive::ENTRIES, pump::ENTRIES, sas::ENTRIES, pneumatic::ENTRIES];
     of_plants.into_iter().chain([sensor::ENTRIES, unnamed::ENTRIES]).flatten()
 }
 

@@ -47,6 +47,7 @@ fn start(made: &Generated) -> String {
         Plant::LinearDrive => ("BlindLinearDrive", "LinearDrive", "start", ""),
         Plant::GuidedMass => ("BlindGuidedMass", "LinearDrive", "start", ""),
         Plant::PumpDyno => ("BlindPumpActuator", "PumpHydraulicActuator", "Ajala", ""),
+        Plant::PneumaticCylinder => ("BlindPneumaticCylinder", "PneumaticCylinder", "start", ""),
         Plant::SasRig => (
             "BlindSasRig",
             "SasRig",
@@ -113,6 +114,18 @@ mod tests {
         let truth = std::fs::read_to_string(folder.join("sealed/truth.json")).unwrap();
         let truth: Truth = serde_json::from_str(&truth).unwrap();
         assert_eq!((&truth.case, &truth.effects[0].id), (&case, &made.truth.effects[0].id));
+    }
+
+    #[test]
+    fn a_pneumatic_cylinder_starts_with_what_no_drawing_tells() {
+        let plant = Plant::PneumaticCylinder;
+        let case = Case { duration: 4.0, plant, ..Case::standard("case", vec![], 5) };
+        let text = start(&crate::generate(&case).unwrap());
+        assert!(
+            text.contains("model = \"PneumaticCylinder\"") && text.matches("value = ").count() == 3,
+            "{text}"
+        );
+        assert!(text.contains("actuator.valve.conductance = { value = 1e-8, unit = \"m5/(N.s)\""), "{text}");
     }
 
     #[test]

@@ -72,6 +72,7 @@ pub fn generate(case: &Case) -> Result<Generated, String> {
     // It is told what was commanded, and commands nothing itself.
     oracle.car.regulator = None;
     oracle.sas.drag = None;
+    oracle.pneumatic.control = None;
     let foreseen = |by: &[Excitation]| by.iter().map(|it| foreseen(case, &oracle, it)).collect::<Vec<_>>();
     // A loop has the motor say what the position does: who would foresee both has no error to compare with.
     let oracle = if case.plant == Plant::LinearDrive {
@@ -105,7 +106,7 @@ fn changed(mut base: Vec<Value>, effects: &[Present]) -> Vec<Value> {
 /// An excitation with all that was commanded, of what the rig did, too.
 fn commanded(rig: &Rig, excitation: &Excitation, motion: &Motion) -> Excitation {
     let mut all = excitation.clone();
-    if rig.car.regulator.is_some() || rig.is_braked() {
+    if rig.car.regulator.is_some() || rig.is_braked() || rig.is_looped() {
         all.command = Profile::through(&motion.command, RATE);
     }
     all
@@ -119,7 +120,12 @@ fn recorded(case: &Case, rig: &Rig, excitation: &Excitation, motion: &Motion) ->
         let rest = true_signal(case.plant, motion, name)[0];
         Profile::through(&shown.iter().map(|x| x - rest).collect::<Vec<_>>(), case.rate)
     };
-    let command = if case.plant.is_commanded() { through(1) } else { Profile::still() };
+    let command = match case.plant {
+        _ if case.plant.is_commanded() => through(1),
+        // Its voltage is all that drives it.
+        Plant::PneumaticCylinder => through(0),
+        _ => Profile::still(),
+    };
     Excitation { name: excitation.name, road: through(0), command }
 }
 

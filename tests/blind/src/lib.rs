@@ -1,8 +1,8 @@
 //! The blind benchmark: measured-looking data of rigs with hidden causes, and the score of whoever names them.
 //!
 //! It shares no code with the models or with the diagnosis: its own equations ([`car`], [`servo`], [`dyno`],
-//! [`drive`], [`pump`], [`sas`], [`strut`]), its own integrator at 20 kHz, friction that sticks ([`friction`]) instead of a tanh, exact
-//! delays, its own [`sensors`]. [`catalogue`] says what can be hidden, [`case`](mod@case) what is asked for,
+//! [`drive`], [`pneumatic`], [`pump`], [`sas`], [`strut`]), its own integrator at 20 kHz, friction that sticks ([`friction`])
+//! instead of a tanh, exact delays, its own [`sensors`]. [`catalogue`] says what can be hidden, [`case`](mod@case) what is asked for,
 //! [`generate()`] makes it.
 
 pub mod ablation;
@@ -17,6 +17,7 @@ pub mod files;
 pub mod four_wheels;
 pub mod friction;
 pub mod generate;
+pub mod pneumatic;
 pub mod pump;
 pub mod random;
 pub mod rig;

@@ -13,6 +13,7 @@ use crate::drive::{Drive, Loop};
 use crate::dyno;
 use crate::excitation::Profile;
 use crate::friction::{Contact, Limit};
+use crate::pneumatic::Pneumatic;
 use crate::pump::Pump;
 use crate::random::Random;
 use crate::sas::Sas;
@@ -47,6 +48,8 @@ pub struct Rig {
     pub pump: Pump,
     /// The arms of a semi-active rig.
     pub sas: Sas,
+    /// A pneumatic cylinder with its valve and its mass.
+    pub pneumatic: Pneumatic,
     /// Effects of time alone.
     pub timed: Timed,
     /// Seed of their phases and bursts, which differ from record to record.
@@ -115,8 +118,8 @@ impl Rig {
         };
         let sensors = signals(plant, Sensors::Full).into_iter();
         let sensors = sensors.map(|(name, _)| (name.to_owned(), Sensor::default())).collect();
-        let (pump, sas, timed) = (Pump::new(of), Sas::new(of), Timed::default());
-        Self { plant, car, drive, pump, sas, timed, seed: 0, sensors }
+        let (pump, sas, pneumatic) = (Pump::new(of), Sas::new(of), Pneumatic::new(of));
+        Self { plant, car, drive, pump, sas, pneumatic, timed: Timed::default(), seed: 0, sensors }
     }
 
     /// Adds the small effects that no model knows, `level` times.
@@ -130,6 +133,7 @@ impl Rig {
             }
             Plant::PumpDyno => return self.pump.clutter(level, random),
             Plant::SasRig => return self.sas.clutter(level, random),
+            Plant::PneumaticCylinder => return self.pneumatic.clutter(level, random),
             _ => {}
         }
         let strut = &mut self.car.strut;
@@ -143,6 +147,11 @@ impl Rig {
         self.plant == Plant::SasRig && self.sas.drag.is_some()
     }
 
+    /// Whether a loop commands the voltage that is recorded.
+    pub fn is_looped(&self) -> bool {
+        self.plant == Plant::PneumaticCylinder && self.pneumatic.control.is_some()
+    }
+
     /// Makes the sensors as slow and as late as such sensors are, `level` times.
     pub fn clutter_sensors(&mut self, level: f64, random: &mut Random) {
         for (name, sensor) in &mut self.sensors {
@@ -154,14 +163,16 @@ impl Rig {
     }
 
     /// What the parts do under an excitation: of a car the road and its command, of a dyno the motion of its end, of
-    /// a drive the position that it shall follow, of a mass on a spring its force, of a pump actuator its piston's velocity and its torque, of a semi-active rig the
-    /// eccentric and its brake. What happens in time does so at the times of a record.
+    /// a drive the position that it shall follow, of a mass on a spring its force, of a pump actuator its piston's velocity and its
+    /// torque, of a semi-active rig the eccentric and its brake, of a pneumatic cylinder the position that it shall follow and a
+    /// dither on its valve's voltage. What happens in time does so at the times of a record.
     pub fn run(&self, road: &Profile, command: &Profile, duration: f64, record: &str) -> Motion {
         match self.plant {
             Plant::LinearDrive => self.drive.run(road, duration),
             Plant::GuidedMass => self.drive.pushed(road, duration),
             Plant::PumpDyno => self.pump.run(road, command, duration),
             Plant::SasRig => self.sas.run(road, command, duration),
+            Plant::PneumaticCylinder => self.pneumatic.run(road, command, duration),
             Plant::StrutDyno | Plant::MrDyno => {
                 let limits: Vec<Limit> = self.car.contacts.iter().map(|contact| contact.limit).collect();
                 dyno::run(&self.car.strut, &limits, road, duration)

@@ -216,7 +216,8 @@ fn is_known_otherwise(effect: &Present, report: &Report) -> bool {
     match number(&effect.id) {
         _ if effect.id == "33g" => another("constant_load"),
         "21" => another("tire.damping"),
-        "29" => another("actuator.spool.gain"),
+        _ if effect.id == "15c" => another("guide.damping"),
+        "29" => another("actuator.spool.gain") || another("actuator.valve.conductance"),
         "30" => another("actuator.cylinder.leakage"),
         "32a" => another("gas.charge_pressure"),
         "32b" => another("valve.rebound.pressure_drop"),

@@ -1,8 +1,8 @@
-//! The guides that keep body and wheel of a rig upright.
+//! The guides that keep body and wheel of a rig upright, and that of a drive's carriage.
 
 use strut_model::{Real, Variables};
 
-use crate::effects::{Coulomb, VelocityCurve, switched_on};
+use crate::effects::{Cogging, Coulomb, Stribeck, VelocityCurve, switched_on};
 
 /// The vertical guide of a body: a force that resists its absolute velocity, TUM 4.3.3 and eq. 12; damping and
 /// unnamed force after docs/effects.md, 15, 16 and G; a constant force as a port of diagnosis.
@@ -60,6 +60,33 @@ impl<R: Real> WheelGuide<R> {
     /// How many effects are on.
     pub fn active_effects(&self) -> R {
         switched_on([self.damping, self.preload, self.coulomb.force])
+    }
+}
+
+/// The guide of a drive's carriage: TUM eq. 12, and docs/effects.md, 02, 15, 16, 27 and G.
+#[derive(Variables, Clone, Copy, Debug, PartialEq)]
+pub struct DriveGuide<R> {
+    /// Friction
+    pub coulomb: Coulomb<R>,
+    /// Breakaway
+    pub stribeck: Stribeck<R>,
+    /// Viscous friction, eddy currents included
+    #[var(unit = N_S_PER_M, start = 0.0, min = 0.0)]
+    pub damping: R,
+    /// Cogging
+    pub cogging: Cogging<R>,
+    /// Unnamed force
+    pub curve: VelocityCurve<R>,
+}
+
+impl<R: Real> DriveGuide<R> {
+    /// The force against a motion.
+    #[inline]
+    pub fn resistance(&self, position: R, velocity: R) -> R {
+        let sliding = self.coulomb.force + self.stribeck.excess(velocity);
+        let friction = Coulomb { force: sliding, ..self.coulomb };
+        let passive = || self.damping * velocity + self.cogging.force(position) + self.curve.force(velocity);
+        friction.added_to(passive, velocity)
     }
 }
 

@@ -8,6 +8,7 @@ mod guide;
 mod hydraulics;
 mod hysteresis;
 mod mode;
+mod pneumatics;
 mod servo_cylinder;
 mod strut;
 mod tire;
@@ -17,10 +18,11 @@ pub use actuation::{Actuation, ActuationState};
 pub use anti_roll_bar::AntiRollBar;
 pub use control::{Control, ControlState};
 pub use corner::{Corner, Moving};
-pub use guide::{Guide, WheelGuide};
+pub use guide::{DriveGuide, Guide, WheelGuide};
 pub use hydraulics::{Gas, Piston, PistonWithPreload, Pump, PumpWithLosses};
 pub use hysteresis::{Hysteresis, HysteresisState};
 pub use mode::Mode;
+pub use pneumatics::{AirFlows, PneumaticServo, Pressures};
 pub use servo_cylinder::{
     Cylinder, Flow, Fluid, Hydraulics, ServoCylinder, ServoValve, Spool, Supply, ValveLaw,
 };

@@ -7,7 +7,8 @@ use strut_model::{
     About, Choice, Equation, Experiment, Instant, Kind, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
-use crate::effects::{Cogging, Coulomb, Progression, Stribeck, VelocityCurve};
+use crate::effects::Progression;
+use crate::elements::DriveGuide;
 
 /// A carriage on a guide whose motor gives the force that is asked for. What commands it stays outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,33 +50,6 @@ pub struct Parameters<R> {
     pub constant_load: R,
     /// Amplifier
     pub amplifier: Amplifier<R>,
-}
-
-/// What the guide resists with.
-#[derive(Variables, Clone, Copy, Debug, PartialEq)]
-pub struct DriveGuide<R> {
-    /// Friction
-    pub coulomb: Coulomb<R>,
-    /// Breakaway
-    pub stribeck: Stribeck<R>,
-    /// Viscous friction, eddy currents included
-    #[var(unit = N_S_PER_M, start = 0.0, min = 0.0)]
-    pub damping: R,
-    /// Cogging
-    pub cogging: Cogging<R>,
-    /// Unnamed force
-    pub curve: VelocityCurve<R>,
-}
-
-impl<R: Real> DriveGuide<R> {
-    /// The force against a motion.
-    #[inline]
-    fn resistance(&self, position: R, velocity: R) -> R {
-        let sliding = self.coulomb.force + self.stribeck.excess(velocity);
-        let friction = Coulomb { force: sliding, ..self.coulomb };
-        let passive = || self.damping * velocity + self.cogging.force(position) + self.curve.force(velocity);
-        friction.added_to(passive, velocity)
-    }
 }
 
 /// A spring between carriage and ground.

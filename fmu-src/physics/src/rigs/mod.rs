@@ -3,6 +3,7 @@
 mod element_dyno;
 mod full_car;
 mod linear_drive;
+mod pneumatic_cylinder;
 mod quarter_car;
 mod sas_rig;
 mod servo_suspension;
@@ -12,6 +13,7 @@ mod sprung_mass;
 pub use element_dyno::ElementDyno;
 pub use full_car::FullCar;
 pub use linear_drive::LinearDrive;
+pub use pneumatic_cylinder::PneumaticCylinder;
 pub use quarter_car::QuarterCar;
 pub use sas_rig::{SasRig, SpringLever};
 pub use servo_suspension::ServoSuspension;

@@ -10,10 +10,11 @@ use crate::rig::Rig;
 pub(super) struct Excitation {
     /// Its name in the file's.
     pub(super) name: &'static str,
-    /// The road, the motion of a dyno's end, what a drive shall follow, the force on a mass in N, or the lift of an eccentric, in m; the velocity of a pump
-    /// actuator's piston, in m/s.
+    /// The road, the motion of a dyno's end, what a drive or a pneumatic cylinder shall follow, the force on a mass in N, or the lift
+    /// of an eccentric, in m; the velocity of a pump actuator's piston, in m/s.
     pub(super) road: Profile,
-    /// What the actuator is commanded; a brake's rate beyond its drag, in N m s/rad.
+    /// What the actuator is commanded; a brake's rate beyond its drag, in N m s/rad; a dither on the voltage of a pneumatic
+    /// valve, in V.
     pub(super) command: Profile,
 }
 
@@ -86,6 +87,17 @@ pub(super) fn excitations(case: &Case, plain: &Rig) -> (Vec<Excitation>, Vec<Exc
             ("road", road(random, time, 120.0), still()),
             ("sweep", sweep(time, 0.0, 40.0), still()),
         ],
+        // The loop alone is slow; with the dither the pressures change by a bar.
+        Plant::PneumaticCylinder => {
+            let followed = |random: &mut Random, peak: f64| multisine(random, time, 1.0, peak);
+            [
+                ("multisine", followed(random, 0.04), multisine(random, time, 0.0, 3.5)),
+                ("prbs", followed(random, 0.05), prbs(random, time, 0.04, 1.8)),
+                ("steps", steps(random, time, 0.5, 0.05), steps(random, time, 0.03, 3.0)),
+                ("road", road(random, time, 0.04), multisine(random, time, 0.0, 3.0)),
+                ("sweep", followed(random, 0.05), sweep(time, 0.0, 1.5)),
+            ]
+        }
         Plant::LinearDrive => [
             ("multisine", multisine(random, time, 1.6, 0.10), still()),
             ("triangle", triangle(time, 5.0, 0.10).plus(&multisine(random, time, 1.6, 0.01)), still()),
@@ -97,6 +109,9 @@ pub(super) fn excitations(case: &Case, plain: &Rig) -> (Vec<Excitation>, Vec<Exc
     .map(|(name, road, command)| Excitation { name, road, command });
     if case.plant == Plant::SasRig {
         all.iter_mut().for_each(|excitation| keep_contact(case, plain, excitation));
+    }
+    if case.plant == Plant::PneumaticCylinder {
+        all.iter_mut().for_each(|excitation| keep_within(case, plain, excitation));
     }
     if case.plant.is_car() {
         let lifting = case.effects.iter().any(|hidden| hidden.id == "20");
@@ -149,5 +164,27 @@ fn keep_contact(case: &Case, plain: &Rig, excitation: &mut Excitation) {
             break;
         }
         excitation.road = excitation.road.scaled(0.75 / share);
+    }
+}
+
+/// Scales the position that a pneumatic cylinder shall follow, and the dither on its valve's voltage, so that a fifth of the stroke is left at each
+/// end and no chamber is pressed above the supply's pressure.
+fn keep_within(case: &Case, plain: &Rig, excitation: &mut Excitation) {
+    let cylinder = &plain.pneumatic;
+    for _ in 0..8 {
+        let motion = plain.run(&excitation.road, &excitation.command, case.reach(), excitation.name);
+        let travel = motion.signals["position"].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let filled = ["chamber_a.pressure", "chamber_b.pressure"].map(|name| {
+            let pressures = &motion.signals[name];
+            let most = pressures.iter().copied().fold(0.0, f64::max);
+            (most - pressures[0]) / (cylinder.supply - pressures[0])
+        });
+        let share = filled.into_iter().fold(travel / (0.4 * cylinder.stroke), f64::max);
+        if share <= 1.0 {
+            break;
+        }
+        let factor = 0.95 / share;
+        excitation.road = excitation.road.scaled(factor);
+        excitation.command = excitation.command.scaled(factor);
     }
 }

@@ -47,7 +47,11 @@ fn lengths(rig: &Rig, plant: Plant, motion: &Motion) -> Vec<f64> {
         }
         // What moves is its lower end.
         Plant::StrutDyno | Plant::MrDyno => motion.road.iter().map(|height| strut.length(-height)).collect(),
-        Plant::LinearDrive | Plant::GuidedMass | Plant::PumpDyno | Plant::SasRig => vec![],
+        Plant::LinearDrive
+        | Plant::GuidedMass
+        | Plant::PumpDyno
+        | Plant::SasRig
+        | Plant::PneumaticCylinder => vec![],
     }
 }
 

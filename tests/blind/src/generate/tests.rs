@@ -131,6 +131,7 @@ fn plant_of(id: &str) -> Plant {
         "16m" | "08n" | "U9m" => Plant::GuidedMass,
         "30p" | "32a" | "32b" | "32c" => Plant::PumpDyno,
         "01p" | "19p" => Plant::SasRig,
+        "15c" | "28c" | "29c" | "30c" => Plant::PneumaticCylinder,
         _ => Plant::LinearQuarter,
     }
 }

@@ -15,12 +15,13 @@ const OF_DRIVE: [&str; 3] = ["02g", "27", "33g"];
 const OF_MASS: [&str; 3] = ["16m", "08n", "U9m"];
 const OF_PUMP: [&str; 4] = ["30p", "32a", "32b", "32c"];
 const OF_SAS: [&str; 2] = ["01p", "19p"];
+const OF_PNEUMATIC: [&str; 4] = ["15c", "28c", "29c", "30c"];
 
 /// Whether a plant has the part that the effect sits in, and does not have the effect anyway.
 fn is_possible(plant: Plant, entry: &Entry) -> bool {
     let id = entry.id;
     let elsewhere = |own: &[&str]| {
-        let all = [&OF_SERVO[..], &OF_DRIVE, &OF_MASS, &OF_PUMP, &OF_SAS].concat();
+        let all = [&OF_SERVO[..], &OF_DRIVE, &OF_MASS, &OF_PUMP, &OF_SAS, &OF_PNEUMATIC].concat();
         all.contains(&id) && !own.contains(&id)
     };
     let of_record = entry.place == Place::Sensor && !["41", "41h", "42"].contains(&id);
@@ -42,12 +43,14 @@ fn is_possible(plant: Plant, entry: &Entry) -> bool {
             | Place::Frame
             | Place::Actuator
             | Place::Pump
-            | Place::Pivot => false,
+            | Place::Pivot
+            | Place::Cylinder => false,
         },
         Plant::LinearDrive => OF_DRIVE.contains(&id) || id == "16" || of_record,
         Plant::GuidedMass => OF_MASS.contains(&id) || of_record,
         Plant::PumpDyno => OF_PUMP.contains(&id) || of_command || of_record,
         Plant::SasRig => OF_SAS.contains(&id) || of_command || of_record,
+        Plant::PneumaticCylinder => OF_PNEUMATIC.contains(&id) || id == "16" || of_record,
     }
 }
 
@@ -95,8 +98,12 @@ impl Rig {
             "13" => strut.bush = Some((0.0, 1.0 / first)),
             "14" => strut.linkage = first,
             "15" => self.car.guide_damping = first,
+            "15c" => self.pneumatic.damping = first,
             "16" if self.plant == Plant::LinearDrive => {
                 drive.contacts.push(contact(GUIDE, Limit::Coulomb(first)));
+            }
+            "16" if self.plant == Plant::PneumaticCylinder => {
+                self.pneumatic.contacts.push(contact(GUIDE, Limit::Coulomb(first)));
             }
             "16" => self.car.contacts.push(contact(GUIDE, Limit::Coulomb(first))),
             "16m" => drive.contacts.push(contact(GUIDE, Limit::Coulomb(first))),
@@ -117,6 +124,9 @@ impl Rig {
             "26s" => actuator.slew = 1.0 / first,
             "27" => drive.cogging = Some((first, values[1], values[2])),
             "28" | "28h" | "29" | "30" => put_in_valve(self.car.servo.as_mut(), entry.id, first),
+            "28c" => self.pneumatic.overlap = first,
+            "29c" => self.pneumatic.conductance = first,
+            "30c" => self.pneumatic.leakage = first,
             "30p" => self.pump.leakage = first,
             "32a" => self.pump.charge = first,
             "32b" => self.pump.valves[1].drop.iter_mut().for_each(|drop| *drop *= first),

@@ -132,6 +132,14 @@ const GUIDED_MASS: [Published; 3] = [
     ("ground_spring.stiffness", "N/m", 6000.0),
 ];
 
+/// What of a pneumatic cylinder no drawing tells: 8 kg on a level guide, a valve that lets 0.42 m³/min of free air pass at 7 bar.
+/// No seed has one.
+const PNEUMATIC: [Published; 3] = [
+    ("moving_mass", "kg", 8.0),
+    ("guide.damping", "N.s/m", 40.0),
+    ("actuator.valve.conductance", "m5/(N.s)", 1e-8),
+];
+
 /// What the linear rigs do not have.
 const BEYOND_LINEAR: [&str; 4] =
     ["strut.asymmetry.ratio", "strut.coulomb.force", "guide.coulomb.force", "tire.quadratic"];
@@ -146,6 +154,7 @@ pub fn start(plant: Plant) -> Vec<Value> {
         Plant::GuidedMass => &GUIDED_MASS,
         Plant::PumpDyno => &AJALA,
         Plant::SasRig => &KOGUT,
+        Plant::PneumaticCylinder => &PNEUMATIC,
     };
     let wanted = |name: &str| plant != Plant::StrutDyno || name.starts_with("strut.");
     let value = |(name, unit, value): &Published| {

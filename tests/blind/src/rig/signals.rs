@@ -26,6 +26,15 @@ pub fn signals(plant: Plant, sensors: Sensors) -> Vec<(&'static str, &'static st
                 ("wheel_arm.acceleration", "rad/s2"),
             ];
         }
+        Plant::PneumaticCylinder => {
+            return vec![
+                ("valve.voltage", "V"),
+                ("position", "m"),
+                ("acceleration", "m/s2"),
+                ("chamber_a.pressure", "Pa"),
+                ("chamber_b.pressure", "Pa"),
+            ];
+        }
         Plant::StrutDyno | Plant::MrDyno => return vec![("motion.position", "m"), ("force", "N")],
         Plant::LinearDrive => return vec![("force", "N"), ("position", "m")],
         Plant::GuidedMass => return vec![("force", "N"), ("position", "m"), ("acceleration", "m/s2")],

@@ -67,6 +67,7 @@ impl<'a> Spot<'a> {
             Place::Actuator => self.is_actuator(),
             Place::Pump => place.starts_with("pump"),
             Place::Pivot => place.starts_with("pivot"),
+            Place::Cylinder => place.starts_with("cylinder") || place.starts_with("valve"),
             Place::Sensor => place == effect.signal,
         }
     }

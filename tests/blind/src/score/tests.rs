@@ -311,6 +311,33 @@ fn a_pivots_friction_and_a_brake_are_the_plants() {
     assert_eq!(of(("01p", Place::Pivot, ""), "33", "relative.angle").2, Some(false));
 }
 
+/// Damping and conductance are parameters of its model; its valve and its chambers are places of their own.
+#[test]
+fn a_pneumatic_cylinders_causes_are_the_plants() {
+    let of = |effect: (&str, Place, &str), report: &str| {
+        let mut truth = truth(&[effect]);
+        truth.case.plant = Plant::PneumaticCylinder;
+        let judged = score(&truth, report).unwrap();
+        (judged.outcome, judged.location_right)
+    };
+    let right = (Outcome::Correct, Some(true));
+    for (id, element) in [("28", "valve"), ("30", "cylinder")] {
+        assert_eq!(of((&format!("{id}c"), Place::Cylinder, ""), &named(&[(id, element, &[])])), right);
+    }
+    assert_eq!(of(("28c", Place::Cylinder, ""), &named(&[("30", "cylinder", &[])])).0, Outcome::WrongName);
+    assert_eq!(of(("28c", Place::Cylinder, ""), &named(&[("33", "chamber_a.pressure", &[])])).1, Some(false));
+    let another = |name: &str| {
+        format!(
+            r#"{{"verdict": "parameter_mismatch",
+            "nominal_parameters": [{{"name": "{name}", "low": 1, "high": 2, "mismatch": true}}]}}"#
+        )
+    };
+    let (damping, conductance) = (("15c", Place::Guide, ""), ("29c", Place::Cylinder, ""));
+    assert_eq!(of(damping, &another("guide.damping")).0, Outcome::Correct);
+    assert_eq!(of(conductance, &another("actuator.valve.conductance")).0, Outcome::Correct);
+    assert_eq!(of(conductance, &another("guide.damping")).0, Outcome::Missed);
+}
+
 #[test]
 fn a_constant_load_is_no_offset_of_a_sensor() {
     let load = ("33g", Place::Guide, "");

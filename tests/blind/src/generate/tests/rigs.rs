@@ -127,6 +127,39 @@ fn the_sum_of_the_torques_on_the_body_arm_is_in_the_record() {
     }
 }
 
+/// The balance of the forces on a cylinder's mass, in the record, and what its loop keeps it within.
+#[test]
+fn a_cylinders_mass_obeys_newton_within_its_stroke() {
+    for id in ["15c", "28c", "30c"] {
+        let made = clean(Plant::PneumaticCylinder, vec![Hidden::new(id)]);
+        let of = |name: &str| made.truth.base.iter().find(|value| value.name == name).unwrap().value;
+        let told = &made.truth.effects[0].parameters[0];
+        if id == "15c" {
+            assert!(of("guide.damping") == told.value && (told.value / 40.0 - 1.0).abs() > 0.2);
+        } else {
+            assert!(
+                ["actuator.spool.overlap", "actuator.cylinder.leakage"].contains(&told.name.as_str()),
+                "{}",
+                told.name
+            );
+        }
+        for table in made.train.iter().chain(&made.test) {
+            let names = ["position", "acceleration", "chamber_a.pressure", "chamber_b.pressure"];
+            let [x, a, one, other] = names.map(|name| table.column(name).unwrap());
+            assert!(table.column("valve.voltage").unwrap().iter().all(|volts| volts.abs() <= 5.1));
+            for k in 10..x.len() - 10 {
+                assert!(x[k].abs() < 0.09, "{}: {} m", table.name, x[k]);
+                let inside = |pressure: f64| (1.013e5..7.1e5).contains(&pressure);
+                assert!(inside(one[k]) && inside(other[k]), "{}: {} Pa, {} Pa", table.name, one[k], other[k]);
+                let push = 8.042_477e-4 * one[k] - 6.911_504e-4 * other[k] - 1.130_973e-4 * 1.013e5;
+                // Central differences are a little slow.
+                let resisted = of("moving_mass") * a[k] + of("guide.damping") * (x[k + 1] - x[k - 1]) * 500.0;
+                assert!((push - resisted).abs() < 0.1, "{}: {push} N, {resisted} N at {k}", table.name);
+            }
+        }
+    }
+}
+
 /// What the brake or the motor does to its command is told as a fault of that signal, of a gain the change.
 #[test]
 fn a_command_that_no_actuator_takes_has_the_fault_itself() {
@@ -146,9 +179,13 @@ fn a_command_that_no_actuator_takes_has_the_fault_itself() {
 /// Who knows all is off by nothing: a command that answers the motion, and a height that does not begin at zero, too.
 #[test]
 fn an_oracle_of_another_rig_leaves_nothing() {
-    for (plant, id) in
-        [(Plant::PumpDyno, "30p"), (Plant::PumpDyno, "23"), (Plant::SasRig, "01p"), (Plant::SasRig, "25")]
-    {
+    for (plant, id) in [
+        (Plant::PumpDyno, "30p"),
+        (Plant::PumpDyno, "23"),
+        (Plant::SasRig, "01p"),
+        (Plant::SasRig, "25"),
+        (Plant::PneumaticCylinder, "28c"),
+    ] {
         let made = clean(plant, vec![Hidden::new(id)]);
         for left in &made.truth.oracle.exact {
             let all = made.test.iter().map(|table| swing(table.column(&left.name).unwrap()));
@@ -160,7 +197,7 @@ fn an_oracle_of_another_rig_leaves_nothing() {
             .oracle
             .recorded
             .iter()
-            .find(|left| left.name.ends_with("angle") || left.name == "force");
+            .find(|left| left.name.ends_with("angle") || ["force", "position"].contains(&&*left.name));
         let size = swing(made.test[0].column(&recorded.unwrap().name).unwrap());
         assert!(recorded.unwrap().value < 0.01 * size, "{plant:?} {id}: {recorded:?} of {size}");
     }
