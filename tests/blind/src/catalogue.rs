@@ -144,7 +144,7 @@ pub fn entries() -> impl Iterator<Item = &'static Entry> {
 
 /// Laws with a letter in the catalogue of the diagnosis, too, or that have no name there as they are other values of parameters or
 /// show in the data alone: who calls one by its number means another one.
-const LETTERED: [&str; 9] = ["03b", "08n", "26s", "28h", "32a", "32b", "32c", "40a", "41h"];
+const LETTERED: [&str; 10] = ["03b", "08n", "12c", "26s", "28h", "32a", "32b", "32c", "40a", "41h"];
 
 /// The number in the catalogue of the diagnosis: what shares one has a letter here.
 pub fn number(id: &str) -> &str {
