@@ -1,10 +1,10 @@
-"""Cases of the linear positioning drive, each effect at once."""
+"""Cases of the positioning drives, each effect at once."""
 
 import math
 
 from cases import single
 from cases_effects import points
-from linear_drive import LinearDrive
+from linear_drive import LinearDrive, RotaryDrive
 
 DECLARED = {"moving_mass": 20.0, "amplifier.gain": 1.0}
 GUIDE = {
@@ -27,9 +27,11 @@ HALF_PI = 0.5 * math.pi
 SINES = [[90.0, 0.9, 0.3], [40.0, 2.7, 1.2]]
 
 
+REST = {"sines": [], "steps": []}
+
+
 def drive(name, inputs, changed, description, settings=None):
-    rest = {"sines": [], "steps": []}
-    inputs = {name: inputs.get(name, rest) for name in LinearDrive.inputs}
+    inputs = {name: inputs.get(name, REST) for name in LinearDrive.inputs}
     return single(name, LinearDrive, inputs, stop=3.0, every=15, parameters=DECLARED, changed=changed,
                   settings=settings, start={"carriage.position": 0.01, "carriage.velocity": -0.05}, description=description)
 
@@ -52,4 +54,14 @@ CASES = [
            "load.force": {"sines": [], "steps": [[-12.0, 2.0005]]}},
           GUIDE | SPRING | {"constant_load": 4.0},
           "The motion is imposed and the force sought.", settings={"drive": "Motion"}),
+    single("rotary-drive-torque", RotaryDrive,
+           {name: {"torque": {"sines": [[0.4, 0.9, 0.3], [0.2, 2.7, 1.2]], "steps": [[0.1, 1.4005]]}}.get(name, REST)
+            for name in RotaryDrive.inputs},
+           stop=3.0, every=15, parameters={"inertia": 0.01, "amplifier.gain": 1.0},
+           changed={"guide.damping": 0.02, "guide.coulomb.force": 0.05, "guide.coulomb.velocity": 0.4,
+                    "guide.stribeck.force": 0.02, "guide.stribeck.velocity": 0.6, "guide.cogging.force": 0.02,
+                    "guide.cogging.period": 0.5, "guide.cogging.phase": 0.4, "ground_spring.stiffness": 0.3,
+                    "constant_load": 0.03},
+           start={"shaft.position": 0.1, "shaft.velocity": -0.5},
+           description="About an axis, with friction, breakaway, cogging, spring and load."),
 ]

@@ -20,7 +20,7 @@ from element_dyno import ElementDyno
 from excitation import ExcitationMotor
 from force_controllers import ForcePid, ForceTwoDof, ForceTwoDofLpv
 from full_car import FullCar
-from linear_drive import LinearDrive
+from linear_drive import LinearDrive, RotaryDrive
 from linear_motor import LinearMotor
 from pneumatic import PneumaticCylinder
 from pump import PumpHydraulicActuator, PumpHydraulicActuatorLinear
@@ -55,6 +55,7 @@ MODELS = {model.__name__: model for model in (
     QuarterCar,
     QuarterCarWithEffects,
     Road,
+    RotaryDrive,
     SasRig,
     SensorChain,
     ServoHydraulicActuator,

@@ -61,3 +61,15 @@ class LinearDrive(Switched):
         acceleration, force = self.driven(state, u, mode)
         motion = self.motion(state, u)
         return [acceleration, self.resistance(motion, mode), *motion, force]
+
+
+class RotaryDrive(LinearDrive):
+    """The same about an axis: torques for forces."""
+    states = ["shaft.position", "shaft.velocity"]
+    inputs = ["torque", "command", "load.torque", "motion.position", "motion.velocity", "motion.acceleration"]
+    outputs = ["acceleration", "resistance", "position", "velocity", "motor.torque"]
+
+    def __init__(self, parameters, settings):
+        drives = {"Torque": "Force", "Command": "Command", "Motion": "Motion"}
+        super().__init__({"moving_mass": parameters["inertia"], **parameters},
+                         {"drive": drives[settings.get("drive", "Torque")]})

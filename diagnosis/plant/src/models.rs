@@ -2,18 +2,20 @@
 
 use strut_physics::actuators::{ExcitationMotor, PumpHydraulicActuator};
 use strut_physics::rigs::{
-    ElementDyno, FullCar, LinearDrive, PneumaticCylinder, QuarterCar, SasRig, ServoSuspension, SprungMass,
+    ElementDyno, FullCar, LinearDrive, PneumaticCylinder, QuarterCar, RotaryDrive, SasRig, ServoSuspension,
+    SprungMass,
 };
 
 use crate::Plant;
 
 /// The models of the library.
-const ALL: [fn() -> Plant; 10] = [
+const ALL: [fn() -> Plant; 11] = [
     Plant::of::<QuarterCar>,
     Plant::of::<FullCar>,
     Plant::of::<SprungMass>,
     Plant::of::<ElementDyno>,
     Plant::of::<LinearDrive>,
+    Plant::of::<RotaryDrive>,
     Plant::of::<PneumaticCylinder>,
     Plant::of::<ExcitationMotor>,
     Plant::of::<ServoSuspension>,

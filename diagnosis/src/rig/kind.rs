@@ -306,7 +306,7 @@ impl Kind {
     }
 }
 
-const FILES: [&str; 10] = [
+const FILES: [&str; 11] = [
     include_str!("../../rigs/quarter-car.toml"),
     include_str!("../../rigs/full-car.toml"),
     include_str!("../../rigs/sprung-mass.toml"),
@@ -316,5 +316,6 @@ const FILES: [&str; 10] = [
     include_str!("../../rigs/sas-rig.toml"),
     include_str!("../../rigs/excitation-motor.toml"),
     include_str!("../../rigs/linear-drive.toml"),
+    include_str!("../../rigs/rotary-drive.toml"),
     include_str!("../../rigs/pneumatic-cylinder.toml"),
 ];

@@ -156,6 +156,12 @@ units! {
     PA_S_PER_M3 = "Pa.s/m3" { kg: 1, m: -4, s: -1 };
     /// Newton metre per radian: what a speed controller makes of a speed with time.
     N_M_PER_RAD = "N.m/rad" { kg: 1, m: 2, s: -2, rad: -1 };
+    /// Newton metre per radian squared: a quadratic rate of a torsion spring.
+    N_M_PER_RAD2 = "N.m/rad2" { kg: 1, m: 2, s: -2, rad: -2 };
+    /// Newton metre per radian cubed: a cubic rate of a torsion spring.
+    N_M_PER_RAD3 = "N.m/rad3" { kg: 1, m: 2, s: -2, rad: -3 };
+    /// Newton metre per volt: what an amplifier makes of its command.
+    N_M_PER_V = "N.m/V" { s: 1, a: 1 };
     /// Newton metre second squared per radian: what a speed controller makes of an acceleration.
     N_M_S2_PER_RAD = "N.m.s2/rad" { kg: 1, m: 2, rad: -1 };
     /// Metre per second and newton: what a force controller makes of a force.

@@ -41,6 +41,7 @@ pub static CATALOGUE: &[Entry] = &[
     Entry::of::<rigs::ServoSuspensionIdentified>(),
     Entry::of::<rigs::ElementDyno>(),
     Entry::of::<rigs::LinearDrive>(),
+    Entry::of::<rigs::RotaryDrive>(),
     Entry::of::<rigs::PneumaticCylinder>(),
     Entry::of::<actuators::LinearMotor>(),
     Entry::of::<actuators::ServoHydraulicActuator>(),

@@ -27,6 +27,7 @@ fn all() -> impl Iterator<Item = Ports> {
         rigs::ServoSuspensionIdentified
         rigs::ElementDyno
         rigs::LinearDrive
+        rigs::RotaryDrive
         rigs::PneumaticCylinder
         actuators::LinearMotor
         actuators::ServoHydraulicActuator
@@ -79,6 +80,7 @@ fn the_ports_are_these() {
          actuator.cylinder.preload, actuator.cylinder.flow_offset",
         "ElementDyno: strut.preload, tire.preload",
         "LinearDrive: constant_load",
+        "RotaryDrive: constant_load",
         "PneumaticCylinder: constant_load, actuator.cylinder.chamber_a.flow_offset, \
          actuator.cylinder.chamber_b.flow_offset",
         "ServoHydraulicActuator: cylinder.preload, cylinder.flow_offset",

@@ -209,27 +209,35 @@ impl Model for LinearDrive {
     }
 
     fn equations<R: Real>(&self, now: Instant<'_, Self, R>) -> (State<R>, Output<R>) {
-        let (p, state, input) = (now.parameters, now.state, now.input);
-        let CarriageMotion { position, velocity } = match self.drive {
-            Drive::Force | Drive::Command => state.carriage,
-            Drive::Motion => {
-                CarriageMotion { position: input.motion.position, velocity: input.motion.velocity }
-            }
-        };
-        let resistance = p.guide.resistance(position, velocity);
-        let held = p.ground_spring.force(position) + resistance + p.constant_load - input.load.force;
-        let driven = |force: R| ((force - held) / p.moving_mass, force);
-        let (acceleration, force) = match self.drive {
-            Drive::Force => driven(input.force),
-            Drive::Command => driven(p.amplifier.gain * input.command),
-            Drive::Motion => (input.motion.acceleration, p.moving_mass * input.motion.acceleration + held),
-        };
-        let rates = CarriageMotion { position: velocity, velocity: acceleration };
-        (
-            State { carriage: rates },
-            Output { acceleration, resistance, position, velocity, motor: MotorForce { force } },
-        )
+        dynamics(self.drive, now.parameters, now.state, now.input)
     }
+}
+
+/// Rates and outputs of a drive that is driven in this way, along an axis or about it.
+#[inline]
+pub(super) fn dynamics<R: Real>(
+    drive: Drive,
+    p: &Parameters<R>,
+    state: &State<R>,
+    input: &Input<R>,
+) -> (State<R>, Output<R>) {
+    let CarriageMotion { position, velocity } = match drive {
+        Drive::Force | Drive::Command => state.carriage,
+        Drive::Motion => CarriageMotion { position: input.motion.position, velocity: input.motion.velocity },
+    };
+    let resistance = p.guide.resistance(position, velocity);
+    let held = p.ground_spring.force(position) + resistance + p.constant_load - input.load.force;
+    let driven = |force: R| ((force - held) / p.moving_mass, force);
+    let (acceleration, force) = match drive {
+        Drive::Force => driven(input.force),
+        Drive::Command => driven(p.amplifier.gain * input.command),
+        Drive::Motion => (input.motion.acceleration, p.moving_mass * input.motion.acceleration + held),
+    };
+    let rates = CarriageMotion { position: velocity, velocity: acceleration };
+    (
+        State { carriage: rates },
+        Output { acceleration, resistance, position, velocity, motor: MotorForce { force } },
+    )
 }
 
 #[cfg(test)]
