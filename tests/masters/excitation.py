@@ -5,7 +5,7 @@ import zlib
 
 # Amplitudes by unit, so that every effect of every model is at work.
 AMPLITUDE = {
-    "m": 0.004, "m/s": 0.12, "m/s2": 2.0, "rad": 0.05, "rad/s": 0.2, "N": 150.0, "N.m": 1.5, "Pa": 2e5, "V": 3.0, "A": 3.0,
+    "m": 0.004, "m/s": 0.12, "m/s2": 2.0, "rad": 0.05, "rad/s": 0.2, "rad/s2": 4.0, "N": 150.0, "N.m": 1.5, "Pa": 2e5, "V": 3.0, "A": 3.0,
     "1": 1.0, "Hz": 1.0,
 }  # fmt: skip
 
