@@ -1,5 +1,6 @@
 //! Records that others have measured on real hardware: place, group and size by hand, and a regression as the floor.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
@@ -71,10 +72,14 @@ fn the_friction_damper_is_explained() {
 }
 
 /// Diagnoses a drive from records of one and judges it by others.
-fn diagnose_drive(name: &str, records: &Path, [train, test]: [&str; 2], more: &[&str]) -> Value {
+fn diagnose_drive(name: &str, records: &Path, pair: [&str; 2], more: &[&str]) -> Value {
+    diagnose_rig("linear-drive", name, records, pair, more)
+}
+
+fn diagnose_rig(rig: &str, name: &str, records: &Path, [train, test]: [&str; 2], more: &[&str]) -> Value {
     let out = folder(name);
     let mut command = diagnose();
-    command.args(["--rig", "linear-drive", "--no-fmu", "--train"]).arg(records.join(train));
+    command.args(["--rig", rig, "--no-fmu", "--train"]).arg(records.join(train));
     command.arg("--test").arg(records.join(test)).args(more);
     let output = strut::run(command.arg("--out").arg(&out));
     print!("{}", String::from_utf8_lossy(&output.stdout));
@@ -198,15 +203,21 @@ fn a_cylinder_has_friction_beside_its_damping() {
 }
 
 /// By hand: friction of 0.12 to 0.14 N m with an inertia of 4e-4 kg m². The joint sticks and slips, and its velocity was
-/// measured more finely than its position.
+/// measured more finely than its position. The file states no units.
 #[test]
 fn a_joint_that_sticks_and_slips_has_friction() {
     let Some(records) = real("real/robot-joint") else { return };
-    let report = diagnose_drive("joint", &records, ["j5a.csv", "j5b.csv"], &[]);
+    let below = tempfile::tempdir().expect("a folder");
+    let map = below.path().join("joint.toml");
+    let units = "[signals]\nposition = { column = \"position\", unit = \"rad\" }\nvelocity = { column = \"velocity\", unit = \
+                 \"rad/s\" }\n\"motor.torque\" = { column = \"force\", unit = \"N.m\" }\n";
+    fs::write(&map, units).expect("written");
+    let more = ["--map", map.to_str().expect("a plain path")];
+    let report = diagnose_rig("rotary-drive", "joint", &records, ["j5a.csv", "j5b.csv"], &more);
     assert_eq!(named(&report), ["16"]);
     let [low, high] = sized(&report, "16");
     assert!(0.0 < low && low < 0.13 && 0.13 < high && high < 0.3, "{low} … {high}");
-    let [_, low, high] = nominal(&report, "moving_mass");
+    let [_, low, high] = nominal(&report, "inertia");
     assert!(low < 4e-4 && 4e-4 < high, "{low} … {high}");
     assert!(notes(&report).contains("drives the model together with motion.position"), "{}", notes(&report));
 }

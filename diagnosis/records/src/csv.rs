@@ -37,7 +37,9 @@ pub(crate) fn parse(file: &str, bytes: &[u8], reading: &Reading) -> Result<Table
     }
     let mut table = Table { name: file.to_owned(), ..Table::default() };
     if !repeated.is_empty() {
-        table.notes.push(format!("the names of the columns come again {} times: left out", repeated.len()));
+        table
+            .notes
+            .push(format!("rows that repeat the names of the columns are left out: {}", repeated.len()));
     }
     for Column { name, unit, values, why, .. } in columns {
         match why {

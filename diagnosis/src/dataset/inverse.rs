@@ -89,13 +89,12 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
     Some(Banded { records: banded.into_iter().map(|it| signals.moving(it)).collect(), top, note })
 }
 
-/// That no band is left in which a motion could drive the model.
-pub fn refused(inverse: &Inverse) -> DataProblem {
+/// That no band is left in which a motion could be compared inversely, and what is done `instead`, as a clause.
+pub fn refused(inverse: &Inverse, instead: &str) -> DataProblem {
     let Inverse { force, position, .. } = inverse;
     let text = format!(
-        "does not drive the model: its steps or noise, or gaps between the samples, would make more than {} % of {force}. So the force \
-         drives it, and the motion is compared: what does not move the rig for long, such as friction, shows less that way. A finer \
-         position, or a column of the velocity, helps",
+        "its steps or noise, or gaps between the samples, would make more than {} % of {force}: {instead}. A finer position, or a column \
+         of the velocity, helps",
         100.0 * NOISY
     );
     DataProblem { record: "all".into(), signal: position.clone(), text, fatal: false }

@@ -47,7 +47,7 @@ fn as_driven(
     map: &Map,
     has: impl Fn(&str) -> bool,
 ) -> Result<Loaded, String> {
-    let mut refused: Vec<DataProblem> = Vec::new();
+    let (mut notes, mut refused): (Vec<DataProblem>, Option<Inverse>) = (Vec::new(), None);
     for by in rig.ways(&has) {
         rig.drive_by(&by, &has)?;
         let Some(inverse) = &by.inverse else { break };
@@ -56,12 +56,23 @@ fn as_driven(
         if let Ok(by_position) = forward(rig, origins, map, None) {
             match within(rig, inverse, by_position, by_rate) {
                 Ok(loaded) => return Ok(loaded),
-                Err(notes) => refused.extend(notes),
+                Err(note) => {
+                    notes.extend(note);
+                    refused = Some(inverse.clone());
+                }
             }
         }
     }
     let mut loaded = forward(rig, origins, map, None)?;
-    loaded.problems.splice(0..0, refused);
+    let instead = match rig.driven().filter(|by| by.inverse.is_none()) {
+        Some(by) => format!(
+            "so {} drives the model, and the motion is compared, in which what hardly moves the rig, such as friction, shows less",
+            by.input
+        ),
+        None => "it is differentiated all the same".into(),
+    };
+    notes.extend(refused.map(|it| inverse::refused(&it, &instead)));
+    loaded.problems.splice(0..0, notes);
     Ok(loaded)
 }
 
@@ -69,13 +80,13 @@ fn as_driven(
 /// and the force follows from it more closely.
 ///
 /// # Errors
-/// If there is no such band: what is to be said of it.
+/// If there is no such band: what is to be said of the rate.
 fn within(
     rig: &Rig,
     inverse: &Inverse,
     by_position: Loaded,
     by_rate: Option<Loaded>,
-) -> Result<Loaded, Vec<DataProblem>> {
+) -> Result<Loaded, Option<DataProblem>> {
     let banded = |loaded: &Loaded| inverse::banded(rig, &loaded.records, inverse);
     let (one, two) = (banded(&by_position), by_rate.as_ref().and_then(banded));
     let tops = [&one, &two].into_iter().flatten().map(|it| it.top);
@@ -84,16 +95,14 @@ fn within(
         .as_ref()
         .zip(top)
         .and_then(|(it, top)| compared(rig, inverse, &by_position.records, &it.records, top));
-    let notes = seen.as_ref().and_then(|it| it.note(inverse));
+    let note = seen.as_ref().and_then(|it| it.note(inverse));
     let used = match (by_rate, two) {
         (Some(by_rate), Some(two)) if seen.is_some_and(|it| it.is_better) => Some((by_rate, two)),
         _ => one.map(|one| (by_position, one)),
     };
-    let Some((loaded, banded)) = used else {
-        return Err(notes.into_iter().chain([inverse::refused(inverse)]).collect());
-    };
+    let Some((loaded, banded)) = used else { return Err(note) };
     // What drives the model comes first: it matters more than single samples.
-    let problems = notes.into_iter().chain([banded.note]).chain(loaded.problems).collect();
+    let problems = note.into_iter().chain([banded.note]).chain(loaded.problems).collect();
     Ok(Loaded { records: banded.records, problems, ..loaded })
 }
 

@@ -289,7 +289,7 @@ fn names_that_come_again_are_no_samples() {
     let record = read(&[0.0, 1.0, 2.0].map(block).concat());
     assert_eq!(record.time, (0..12).map(|k| 0.25 * f64::from(k)).collect::<Vec<f64>>());
     assert_eq!((record.channels[0].unit.as_str(), record.channels[0].values[11]), ("mm", 2.5));
-    assert_eq!(record.notes, ["the names of the columns come again 2 times: left out"]);
+    assert_eq!(record.notes, ["rows that repeat the names of the columns are left out: 2"]);
 }
 
 #[test]
