@@ -61,7 +61,7 @@ impl<R, B: Bundle<R>> Bundle<R> for Turning<B> {
     fn declare(declarations: &mut Declarations) {
         let mut linear = Declarations::default();
         B::declare(&mut linear);
-        linear.into_list().into_iter().map(turned).for_each(|it| declarations.variable(it));
+        linear.into_list().iter().map(turned).for_each(|it| declarations.variable(it));
     }
 }
 
@@ -120,13 +120,13 @@ const STARTS: [(&str, f64); 5] = [
 const LEAST_INERTIA: f64 = 1e-12;
 
 /// The declaration of a variable of the linear drive, turned.
-fn turned(linear: Declaration) -> Declaration {
+fn turned(linear: &Declaration) -> Declaration {
     let name = NAMES.iter().find(|(from, _)| *from == linear.name).map_or(linear.name.as_str(), |(_, to)| to);
     let start = STARTS.iter().find(|(of, _)| *of == name).map_or(linear.start, |(_, start)| *start);
     let unit = UNITS.iter().find(|(from, _)| *from == linear.unit).map_or(linear.unit, |(_, to)| *to);
     let doc = WORDS.iter().fold(linear.doc.clone(), |doc, (from, to)| doc.replace(from, to));
     let min = if name == "inertia" { Some(LEAST_INERTIA) } else { linear.min };
-    Declaration { name: name.to_owned(), doc, unit, start, min, ..linear }
+    Declaration { name: name.to_owned(), doc, unit, start, min, ..linear.clone() }
 }
 
 impl Model for RotaryDrive {
