@@ -141,10 +141,10 @@ fn the_voltage_of_a_coil_sets_the_yield_force() {
 fn a_force_that_follows_another_column_is_told() {
     let Some(records) = real("real/mr-damper-random") else { return };
     let unnamed = folder("random-records");
-    std::fs::create_dir_all(&unnamed).expect("a folder");
+    fs::create_dir_all(&unnamed).expect("a folder");
     for record in ["a.csv", "b.csv"] {
-        let text = std::fs::read_to_string(records.join(record)).expect("a record");
-        std::fs::write(unnamed.join(record), text.replacen("voltage [V]", "dial [1]", 1)).expect("a record");
+        let text = fs::read_to_string(records.join(record)).expect("a record");
+        fs::write(unnamed.join(record), text.replacen("voltage [V]", "dial [1]", 1)).expect("a record");
     }
     let (report, _) = diagnose_element("random", &unnamed, "a.csv", &["b.csv"]);
     // Friction before it slides answers the noise of the motion, which a smooth law by hand does not.
