@@ -22,24 +22,25 @@ pub(crate) fn parse(file: &str, bytes: &[u8], reading: &Reading) -> Result<Table
     let text = decode(file, bytes)?;
     let layout = Layout::find(file, &text, reading.skip_rows)?;
     let mut columns = header(file, &layout)?;
-    let mut samples: Vec<StringRecord> = Vec::new();
+    // Some machines write their names again every second, with other lines of text around them.
+    let (mut between, mut left_out): (Vec<StringRecord>, usize) = (Vec::new(), 0);
     for row in rows(&text, layout.separator) {
         let row = row.map_err(|e| DataError::file(file, format!("not a table: {e}")))?;
         let is_blank = row.iter().all(|cell| cell.trim().is_empty());
-        if layout::line(&row) >= layout.first && !is_comment(&row) && !is_blank {
-            samples.push(row);
+        if layout::line(&row) < layout.first || is_comment(&row) || is_blank {
+            continue;
         }
+        if !layout.is_sample(&row) {
+            between.push(row);
+            continue;
+        }
+        left_out += add_rows(file, &layout, &mut between, &mut columns)?;
+        add_row(file, layout::line(&row), layout.separator, &row, &mut columns)?;
     }
-    let repeated = layout.repeated(&samples);
-    let is_header = |index: usize| repeated.iter().any(|range| range.contains(&index));
-    for (_, row) in samples.iter().enumerate().filter(|(index, _)| !is_header(*index)) {
-        add_row(file, layout::line(row), layout.separator, row, &mut columns)?;
-    }
+    left_out += add_rows(file, &layout, &mut between, &mut columns)?;
     let mut table = Table { name: file.to_owned(), ..Table::default() };
-    if !repeated.is_empty() {
-        table
-            .notes
-            .push(format!("rows that repeat the names of the columns are left out: {}", repeated.len()));
+    if left_out > 0 {
+        table.notes.push(format!("the names of the columns come again: {left_out} lines are left out"));
     }
     for Column { name, unit, values, why, .. } in columns {
         match why {
@@ -167,6 +168,23 @@ pub(super) fn title(cell: &str) -> (&str, &str) {
 /// A unit in a row of units, in brackets or without.
 fn unit(cell: &str) -> &str {
     cell.trim().trim_start_matches(['[', '(']).trim_end_matches([']', ')']).trim()
+}
+
+/// Adds rows that hold no sample, unless the names come again among them. How many are left out.
+fn add_rows(
+    file: &str,
+    layout: &Layout,
+    rows: &mut Vec<StringRecord>,
+    columns: &mut [Column],
+) -> Result<usize, DataError> {
+    let rows = std::mem::take(rows);
+    if rows.iter().any(|row| layout.is_names(row)) {
+        return Ok(rows.len());
+    }
+    for row in &rows {
+        add_row(file, layout::line(row), layout.separator, row, columns)?;
+    }
+    Ok(0)
 }
 
 fn add_row(

@@ -78,7 +78,9 @@ fn columns(dataset: &Dataset, path: &[String], unit: &str, values: Vec<f64>) -> 
 
 /// A dataset's numbers; none if it has more than two dimensions, is a scalar, or not of real numbers.
 fn numbers(dataset: &Dataset) -> Result<Option<Vec<f64>>, hdf5_reader::error::Error> {
-    let is_table = dataset.shape().len() <= 2 && dataset.shape().iter().any(|length| *length != 1);
+    let shape = dataset.shape();
+    let is_narrow = shape.len() < 2 || shape.iter().min().is_some_and(|it| *it <= vectors::WIDEST as u64);
+    let is_table = shape.len() <= 2 && is_narrow && shape.iter().any(|length| *length != 1);
     let class = text(dataset, "MATLAB_class");
     let is_empty = dataset.attribute("MATLAB_empty").is_ok();
     if !is_table || is_empty || class.is_some_and(|class| !NUMERIC.contains(&&*class)) {

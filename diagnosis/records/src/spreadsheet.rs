@@ -28,7 +28,7 @@ pub(crate) fn parse(file: &str, bytes: &[u8], reading: &Reading) -> Result<Table
         let text = format!("has no sheet `{wanted}`: there are {}", names.join(", "));
         return Err(DataError::file(file, text));
     }
-    let mut first = None;
+    let (mut first, mut unnamed) = (None, None);
     for name in names.iter().filter(|name| reading.sheet.as_ref().is_none_or(|wanted| *name == wanted)) {
         let sheet = book.worksheet_range(name).map_err(wrong)?;
         match csv::parse(file, text(&sheet).as_bytes(), reading) {
@@ -40,12 +40,17 @@ pub(crate) fn parse(file: &str, bytes: &[u8], reading: &Reading) -> Result<Table
                         "the sheet {name} was read, and not {others}: name another one in the map, `sheet = \"…\"`"
                     ));
                 }
-                return Ok(table);
+                // Bare numbers may be constants beside the sheet of signals.
+                if table.columns.iter().all(|it| it.name.starts_with("column ")) {
+                    unnamed = unnamed.or(Some(table));
+                } else {
+                    return Ok(table);
+                }
             }
             Err(error) => first = first.or(Some(error)),
         }
     }
-    Err(first.unwrap_or_else(|| DataError::file(file, "has no sheet")))
+    unnamed.ok_or_else(|| first.unwrap_or_else(|| DataError::file(file, "has no sheet")))
 }
 
 /// A sheet as comma-separated values, line by line.

@@ -105,12 +105,15 @@ const PLAIN: [(&str, f64, Dimension); 41] = [
     ("mΩ", 1e-3, [2, 1, -3, -2, 0, 0]),
     ("ohm", 1.0, [2, 1, -3, -2, 0, 0]),
     ("l", 1e-3, [3, 0, 0, 0, 0, 0]),
-    ("Volt", 1.0, VOLTAGE),
+    ("volt", 1.0, VOLTAGE),
     ("Amp", 1.0, [0, 0, 0, 1, 0, 0]),
     ("g_n", GRAVITY, [1, 0, -2, 0, 0, 0]),
     ("Gs", GRAVITY, [1, 0, -2, 0, 0, 0]),
     ("G", GRAVITY, [1, 0, -2, 0, 0, 0]),
 ];
+
+/// Words that mean the same in capitals, `Sec` or `BAR`; no word that may be a part of a name, as `Min` is.
+const IN_CAPITALS: [&str; 10] = ["sec", "msec", "lbf", "kgf", "psi", "bar", "rpm", "deg", "rad", "volt"];
 
 const PREFIXES: [(&str, f64); 11] = [
     ("da", 1e1),
@@ -271,11 +274,9 @@ fn symbol(name: &str) -> Option<Size> {
             Some(Size { factor: factor * base.factor, ..base })
         })
     });
-    // A word means the same in capitals: `Sec`, `BAR`. Of two letters, m and M are a thousandth and a million.
     let word = || {
-        let mut all = PLAIN.iter().chain(&PREFIXED).filter(|it| it.0.chars().count() > 2);
-        let entry = all.find(|it| it.0.eq_ignore_ascii_case(name))?;
-        Some(Size { factor: entry.1, dimension: entry.2 })
+        let own = IN_CAPITALS.iter().find(|it| it.eq_ignore_ascii_case(name))?;
+        find(&PLAIN, own).or_else(|| find(&PREFIXED, own))
     };
     exact.or_else(word)
 }
@@ -329,6 +330,13 @@ mod tests {
         }
         assert!((conversion("degC", "K").unwrap().apply(20.0) - 293.15).abs() < 1e-12);
         assert!((conversion("°F", "degC").unwrap().apply(212.0) - 100.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_word_in_capitals_is_a_unit_unless_it_may_be_a_name() {
+        assert!(["Sec", "BAR", "RPM", "Volt", "VOLT"].iter().all(|it| si(it).is_ok()));
+        assert!(["Min", "MIL", "Rev", "Second"].iter().all(|it| si(it).is_err()));
+        assert_eq!((split_suffix("T_MIN", "s"), without_suffix("Force Min")), (None, None));
     }
 
     #[test]

@@ -5,7 +5,7 @@ use super::{Channel, DataError};
 use std::collections::BTreeMap;
 
 /// Columns up to which a matrix holds signals: an image does not.
-const WIDEST: usize = 64;
+pub(super) const WIDEST: usize = 64;
 
 /// A vector, with the names of the structs or groups that it is in before its own.
 pub(super) struct Vector {
@@ -42,7 +42,7 @@ pub(super) fn of_matrix(
     if count <= WIDEST { (0..count).map(of).collect() } else { Vec::new() }
 }
 
-/// The vectors as long as the time; without one, those of the length that most have. A vector goes by its own name, unless
+/// The vectors as long as the time; without one, those of the length that have most samples together: a matrix of gains has few. A vector goes by its own name, unless
 /// another has it too.
 ///
 /// # Errors
@@ -54,8 +54,8 @@ pub(super) fn table(file: &str, mut vectors: Vec<Vector>) -> Result<Table, DataE
         .map(|v| v.values.len());
     let length = length.or_else(|| {
         let mut counts = BTreeMap::new();
-        vectors.iter().for_each(|v| *counts.entry(v.values.len()).or_insert(0) += 1);
-        counts.into_iter().max_by_key(|&(length, count)| (count, length)).map(|(length, _)| length)
+        vectors.iter().for_each(|v| *counts.entry(v.values.len()).or_insert(0) += v.values.len());
+        counts.into_iter().max_by_key(|&(length, samples)| (samples, length)).map(|(length, _)| length)
     });
     vectors.retain(|vector| Some(vector.values.len()) == length);
     if vectors.is_empty() {
@@ -104,6 +104,20 @@ mod tests {
         assert_eq!(second, &("run.x row 2".to_owned(), vec![2.0, 4.0, 6.0]));
         assert_eq!(named([6, 1], &values), [("run.x".to_owned(), values.to_vec())]);
         assert_eq!(named([1, 6], &values), named([6, 1], &values));
+    }
+
+    #[test]
+    fn a_matrix_of_gains_does_not_outvote_two_signals() {
+        let vector = |name: &str, count: usize| Vector {
+            path: vec![name.to_owned()],
+            unit: String::new(),
+            values: vec![1.0; count],
+        };
+        let gains = of_matrix(&["k".to_owned()], "", [4, 4], vec![0.0; 16]);
+        let all = [vector("force", 500), vector("position", 500)].into_iter().chain(gains).collect();
+        let names: Vec<String> =
+            table("run.mat", all).unwrap().columns.into_iter().map(|it| it.name).collect();
+        assert_eq!(names, ["force", "position"]);
     }
 
     #[test]

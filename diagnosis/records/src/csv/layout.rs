@@ -1,8 +1,6 @@
 //! Where the table is in a file of text: what separates its columns, which row names them, which has their units, and where
 //! the numbers begin. Loggers write lines of their own above.
 
-use std::ops::Range;
-
 use super::super::{DataError, timestamp::Timestamps, units};
 use super::{is_comment, number, rows, title, unit};
 use csv::StringRecord;
@@ -69,27 +67,15 @@ impl Layout {
 }
 
 impl Layout {
-    /// Where the names come again between the samples, with the lines of text around them: some machines write them every second.
-    pub fn repeated(&self, samples: &[StringRecord]) -> Vec<Range<usize>> {
-        let is_sample = |row: &StringRecord| {
-            row.len().abs_diff(self.names.len()) <= 1 && values(row, self.separator).next().is_some()
-        };
-        let is_names = |row: &StringRecord| {
-            let same = |(one, other): (&str, &str)| one.trim() == other.trim();
-            row.len() == self.names.len() && !is_sample(row) && row.iter().zip(&self.names).all(same)
-        };
-        let around = |index: usize| {
-            let start = samples[..index].iter().rposition(is_sample).map_or(0, |last| last + 1);
-            let after = samples[index..].iter().position(is_sample);
-            start..after.map_or(samples.len(), |next| index + next)
-        };
-        let mut repeated: Vec<Range<usize>> = Vec::new();
-        for (index, _) in samples.iter().enumerate().filter(|(_, row)| is_names(row)) {
-            if repeated.last().is_none_or(|last| !last.contains(&index)) {
-                repeated.push(around(index));
-            }
-        }
-        repeated
+    /// Whether a row has numbers where the table has them.
+    pub fn is_sample(&self, row: &StringRecord) -> bool {
+        row.len().abs_diff(self.names.len()) <= 1 && values(row, self.separator).next().is_some()
+    }
+
+    /// Whether a row names the columns again.
+    pub fn is_names(&self, row: &StringRecord) -> bool {
+        row.len() == self.names.len()
+            && row.iter().zip(&self.names).all(|(one, other)| one.trim() == other.trim())
     }
 }
 
@@ -164,9 +150,10 @@ fn titles(rows: &[StringRecord], first: usize, separator: u8) -> &[StringRecord]
 
 /// A table without names, as many controllers write it, if nothing but comments is above its numbers.
 fn unnamed(rows: &[StringRecord], first: usize, separator: u8) -> Option<Layout> {
-    let cells = (0..rows[first].len()).filter(|column| !rows[first][*column].trim().is_empty());
-    let names: Vec<String> = cells.map(|column| format!("column {}", column + 1)).collect();
-    let names = names.into();
+    // A separator at the end of each line is no column.
+    let filled = (0..rows[first].len()).rposition(|cell| !rows[first][cell].trim().is_empty());
+    let filled = filled.map_or(0, |last| last + 1);
+    let names = (1..=filled).map(|column| format!("column {column}")).collect::<Vec<_>>().into();
     let layout = Layout { separator, names, units: None, first: line(&rows[first]) };
     rows[..first].iter().all(is_comment).then_some(layout)
 }

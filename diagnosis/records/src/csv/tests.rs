@@ -275,6 +275,8 @@ fn columns_without_names_go_by_their_numbers() {
     let record = parse("log.txt", b"# a log of the rig\n0.0 1.5\n0.1 2.5\n0.2 3.5\n", &reading).unwrap();
     let [channel] = &record.channels[..] else { panic!("one channel") };
     assert_eq!((channel.name.as_str(), &channel.values[..]), ("column 2", &[1.5, 2.5, 3.5][..]));
+    let record = parse("log.txt", b"0,,1.5\n0.1,2,2.5\n0.2,2,3.5\n", &reading).unwrap();
+    assert_eq!(record.channels[1].values, [1.5, 2.5, 3.5]);
     // One name above three columns is not a row of names.
     let message = error("force\n0,1,2\n1,2,3\n");
     assert!(message.contains("write a row that names the columns"), "{message}");
@@ -289,7 +291,7 @@ fn names_that_come_again_are_no_samples() {
     let record = read(&[0.0, 1.0, 2.0].map(block).concat());
     assert_eq!(record.time, (0..12).map(|k| 0.25 * f64::from(k)).collect::<Vec<f64>>());
     assert_eq!((record.channels[0].unit.as_str(), record.channels[0].values[11]), ("mm", 2.5));
-    assert_eq!(record.notes, ["rows that repeat the names of the columns are left out: 2"]);
+    assert_eq!(record.notes, ["the names of the columns come again: 6 lines are left out"]);
 }
 
 #[test]
