@@ -6,6 +6,7 @@ pub mod criteria;
 pub mod description;
 pub mod disagreement;
 pub mod evidence;
+pub mod mismatch;
 pub mod plausible;
 pub mod rules;
 pub mod verdict;

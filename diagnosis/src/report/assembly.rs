@@ -18,8 +18,8 @@ use crate::data::check::DataProblem;
 use crate::dataset::recorded::Dataset;
 use crate::dataset::witness::same_excitation;
 use crate::decision::choice::Score;
-use crate::decision::criteria::CRITERIA;
 use crate::decision::evidence::Evidence;
+use crate::decision::mismatch::{MISMATCH, Moved, mismatched};
 use crate::decision::verdict::{Facts, verdict};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::estimation::coordinates::SURE;
@@ -34,8 +34,6 @@ use crate::report::findings::{
 use crate::report::words::located;
 use crate::signal::distortion::{AFTER, Correction, Fault};
 
-/// Relative change of a nominal parameter that matters, if it is significant.
-const MISMATCH: f64 = 0.03;
 /// Fit of the best signal on validation data below which a model that drifts has lost what was measured: its errors are of what happened long before.
 const LOST: f64 = 0.95;
 
@@ -112,7 +110,7 @@ impl Diagnosis<'_> {
     fn nominal_parameters(&self, signals: &[Signal]) -> Vec<NominalParameter> {
         let rig = self.baseline.rig;
         let left: f64 = signals.iter().map(|it| (it.rms_after / it.rms_before).powi(2)).sum();
-        let holds = left < signals.len() as f64;
+        let left = left / signals.len() as f64;
         let mut list: Vec<NominalParameter> = self
             .reversed
             .iter()
@@ -137,22 +135,23 @@ impl Diagnosis<'_> {
             let ratio = || (it.value / rig.parameters[index], it.half_of_data / rig.parameters[index]);
             (!self.baseline.is_yardstick(it.handle)).then(ratio)
         }));
-        let mut most_moved: Option<(usize, f64)> = None;
-        for interval in &self.intervals {
+        let nominal = |it: &Interval| matches!(it.handle, Unknown::Parameter(index) if base.contains(&index));
+        let moved = |it: &Interval| {
+            let Unknown::Parameter(index) = it.handle else { return None };
+            let before = rig.parameters[index];
+            // Of values that the records tell only together, their common factor is the parameter set's matter.
+            let common = if is_scaled(&it) { common } else { 1.0 };
+            let change = (it.value - before).abs().min((it.value - common * before).abs());
+            Some(Moved { change, before, half: it.half_of_data, half_of_noise: it.half_of_noise })
+        };
+        let moved: Vec<Moved> = self.intervals.iter().filter(|it| nominal(it)).filter_map(moved).collect();
+        let is_named = !self.found.accepted.is_empty() || !list.is_empty();
+        let mut mismatches = mismatched(&moved, left, is_named).into_iter();
+        for interval in self.intervals.iter().filter(|it| nominal(it)) {
             let after = interval.value;
-            if let Unknown::Parameter(index) = interval.handle
-                && base.contains(&index)
-            {
+            if let Unknown::Parameter(index) = interval.handle {
                 let (before, declared) = (rig.parameters[index], &rig.plant.parameters[index]);
-                // Of values that the records tell only together, their common factor is the parameter set's matter.
-                let common = if is_scaled(&interval) { common } else { 1.0 };
-                let change = (after - before).abs().min((after - common * before).abs());
-                let matters = holds && change > MISMATCH * before.abs();
-                let mismatch = matters && change > 1.5 * interval.half_of_data;
-                let moved = change / (1.5 * interval.half_of_noise);
-                if matters && moved > 1.0 && most_moved.is_none_or(|(_, most)| moved > most) {
-                    most_moved = Some((list.len(), moved));
-                }
+                let mismatch = mismatches.next().unwrap_or(false);
                 let is_yardstick = self.baseline.is_yardstick(interval.handle);
                 let known = self.baseline.known.iter().find(|(known, _, _)| *known == index);
                 let given = known.filter(|_| !is_yardstick);
@@ -175,12 +174,6 @@ impl Diagnosis<'_> {
                     equivalent_effects: twins.map(|it| located(&it.name, &it.element)).collect(),
                 });
             }
-        }
-        // Parameters that take most of the error are not right, whatever else could have moved the one that moved most.
-        let is_theirs = left < (1.0 - CRITERIA.majority) * signals.len() as f64;
-        let is_named = !self.found.accepted.is_empty() || list.iter().any(|it| it.mismatch);
-        if let Some((most, _)) = most_moved.filter(|_| is_theirs && !is_named) {
-            list[most].mismatch = true;
         }
         list
     }
