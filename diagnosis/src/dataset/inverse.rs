@@ -93,9 +93,9 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
 pub fn refused(inverse: &Inverse, instead: &str) -> DataProblem {
     let Inverse { force, position, .. } = inverse;
     let text = format!(
-        "its steps or noise, or gaps between the samples, would make more than {} % of {force}: {instead}. A finer position, or a column \
-         of the velocity, helps",
-        100.0 * NOISY
+        "there is no band in which its steps, its noise and gaps between the samples make less than {} % of {force}, and that has nearly \
+         all of it: {instead}. A finer position, or a column of the velocity, helps",
+        100.0 * NOISY.sqrt()
     );
     DataProblem { record: "all".into(), signal: position.clone(), text, fatal: false }
 }

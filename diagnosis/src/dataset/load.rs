@@ -65,12 +65,13 @@ fn as_driven(
     }
     let mut loaded = forward(rig, origins, map, None)?;
     let instead = match rig.driven().filter(|by| by.inverse.is_none()) {
-        Some(by) => format!(
-            "so {} drives the model, and the motion is compared, in which what hardly moves the rig, such as friction, shows less",
-            by.input
-        ),
+        Some(by) => {
+            format!("so {} drives the model, and the motion is compared. Friction shows less in it", by.input)
+        }
         None => "it is differentiated all the same".into(),
     };
+    // Of data that cannot be used, more is wrong than that.
+    let refused = refused.filter(|_| !loaded.records.is_empty());
     notes.extend(refused.map(|it| inverse::refused(&it, &instead)));
     loaded.problems.splice(0..0, notes);
     Ok(loaded)
@@ -91,10 +92,11 @@ fn within(
     let (one, two) = (banded(&by_position), by_rate.as_ref().and_then(banded));
     let tops = [&one, &two].into_iter().flatten().map(|it| it.top);
     let top = tops.reduce(f64::min);
+    let is_coarse = one.is_none();
     let seen = by_rate
         .as_ref()
         .zip(top)
-        .and_then(|(it, top)| compared(rig, inverse, &by_position.records, &it.records, top));
+        .and_then(|(it, top)| compared(rig, inverse, &by_position.records, &it.records, (top, is_coarse)));
     let note = seen.as_ref().and_then(|it| it.note(inverse));
     let used = match (by_rate, two) {
         (Some(by_rate), Some(two)) if seen.is_some_and(|it| it.is_better) => Some((by_rate, two)),

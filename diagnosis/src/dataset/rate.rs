@@ -40,13 +40,14 @@ pub(super) struct Compared {
     pub is_better: bool,
 }
 
-/// Records by the motion alone and by the measured rate, below a frequency in Hz; none if there is nothing to compare.
+/// Records by the motion alone and by the measured rate, below a frequency in Hz; none if there is nothing to compare. The rates are
+/// compared, or of a coarse position the position with the integral of the rate.
 pub(super) fn compared(
     rig: &Rig,
     inverse: &Inverse,
     by_position: &[Dataset],
     by_rate: &[Dataset],
-    top: f64,
+    (top, is_coarse): (f64, bool),
 ) -> Option<Compared> {
     let signals = Signals::of(rig, inverse)?;
     let left =
@@ -54,12 +55,28 @@ pub(super) fn compared(
     let is_closer = left(by_rate)? < left(by_position)?;
     let mut all: [Vec<f64>; 3] = Default::default();
     for (plain, with_rate) in by_position.iter().zip(by_rate) {
-        let parts = summed(signals, &below(plain, LOWEST), &below(with_rate, LOWEST))?;
+        let (plain, with_rate) = (below(plain, LOWEST), below(with_rate, LOWEST));
+        let parts = if is_coarse {
+            summed(signals, &plain, &with_rate)?
+        } else {
+            rates(signals, &plain, &with_rate)?
+        };
         all.iter_mut().zip(parts).for_each(|(all, part)| all.extend(part));
     }
-    let [position, rate, summed] = &all;
-    let agreement = Agreement::of([position, rate], summed, by_rate.first()?.step)?;
+    let [motion, change, measured] = &all;
+    let agreement = Agreement::of([motion, change], measured, by_rate.first()?.step)?;
     Some(Compared { is_better: is_closer && agreement.agrees(), agreement })
+}
+
+/// The rate of a record's position, its change, and the measured rate.
+fn rates(signals: Signals, by_position: &Dataset, by_rate: &Dataset) -> Option<[Vec<f64>; 3]> {
+    let (mut known, mut measured) = (motion(by_position), motion(by_rate));
+    let mut take = |input: usize| known.get_mut(input).map(std::mem::take);
+    Some([
+        take(signals.velocity)?,
+        take(signals.derivative)?,
+        measured.get_mut(signals.velocity).map(std::mem::take)?,
+    ])
 }
 
 /// A record's position, the measured rate, and what that adds up to, each without the straight line through each section. The steps
@@ -77,8 +94,8 @@ fn summed(signals: Signals, by_position: &Dataset, by_rate: &Dataset) -> Option<
 }
 
 impl Agreement {
-    /// How a measured rate goes with that of the motion, whose own rate is `change`; both were sampled every `step` seconds. The same
-    /// of what the measured rate adds up to, and the motion itself.
+    /// How a measured rate goes with that of the motion, whose own rate is `change`; both were sampled every `step` seconds. Also for
+    /// the integral of a measured rate beside the motion, whose rate it is.
     pub fn of([rate, change]: [&[f64]; 2], measured: &[f64], step: f64) -> Option<Self> {
         let product =
             |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(one, other)| one * other).sum::<f64>();
