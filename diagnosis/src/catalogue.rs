@@ -192,11 +192,14 @@ pub struct Scale {
     force: i32,
     deflection: i32,
     velocity: i32,
+    pitch: i32,
 }
 
 impl Scale {
     /// The parameter's own unit.
-    pub const ONE: Self = Self { force: 0, deflection: 0, velocity: 0 };
+    pub const ONE: Self = Self { force: 0, deflection: 0, velocity: 0, pitch: 0 };
+    /// A pitch of poles or of a spindle.
+    pub const PITCH: Self = Self { pitch: 1, ..Self::ONE };
     /// A force.
     pub const FORCE: Self = Self { force: 1, ..Self::ONE };
     /// A deflection.
@@ -206,25 +209,26 @@ impl Scale {
     /// Per deflection.
     pub const PER_DEFLECTION: Self = Self { deflection: -1, ..Self::ONE };
     /// A stiffness.
-    pub const STIFFNESS: Self = Self { force: 1, deflection: -1, velocity: 0 };
+    pub const STIFFNESS: Self = Self { force: 1, deflection: -1, velocity: 0, ..Self::ONE };
     /// A compliance.
-    pub const COMPLIANCE: Self = Self { force: -1, deflection: 1, velocity: 0 };
+    pub const COMPLIANCE: Self = Self { force: -1, deflection: 1, velocity: 0, ..Self::ONE };
     /// A force over a deflection squared.
-    pub const QUADRATIC: Self = Self { force: 1, deflection: -2, velocity: 0 };
+    pub const QUADRATIC: Self = Self { force: 1, deflection: -2, velocity: 0, ..Self::ONE };
     /// A force over a deflection cubed.
-    pub const CUBIC: Self = Self { force: 1, deflection: -3, velocity: 0 };
+    pub const CUBIC: Self = Self { force: 1, deflection: -3, velocity: 0, ..Self::ONE };
     /// A damping rate.
-    pub const DAMPING: Self = Self { force: 1, deflection: 0, velocity: -1 };
+    pub const DAMPING: Self = Self { force: 1, deflection: 0, velocity: -1, ..Self::ONE };
     /// The time that a change of a force takes.
-    pub const SLOWNESS: Self = Self { force: -1, deflection: 1, velocity: -1 };
+    pub const SLOWNESS: Self = Self { force: -1, deflection: 1, velocity: -1, ..Self::ONE };
     /// A force over a velocity squared.
-    pub const ORIFICE: Self = Self { force: 1, deflection: 0, velocity: -2 };
+    pub const ORIFICE: Self = Self { force: 1, deflection: 0, velocity: -2, ..Self::ONE };
 
     /// In SI units.
     pub fn of(self, typical: &Typical) -> f64 {
         typical.force.powi(self.force)
             * typical.deflection.powi(self.deflection)
             * typical.velocity.powi(self.velocity)
+            * typical.pitch.powi(self.pitch)
     }
 }
 
@@ -237,7 +241,13 @@ pub struct Typical {
     pub deflection: f64,
     /// In m/s.
     pub velocity: f64,
+    /// A metre's worth of a pitch: 1 along an axis; about one [`TURNED`] radians, as poles are further apart there.
+    pub pitch: f64,
 }
+
+/// How many times larger the number of a pitch is in rad than in m: 60 poles a turn are a tenth of a radian, as linear motors have
+/// some every centimetre.
+pub const TURNED: f64 = 10.0;
 
 /// A parameter of an effect.
 const fn part(parameter: &'static str, scale: Scale, bounds: (f64, f64), probes: &'static [f64]) -> Part {

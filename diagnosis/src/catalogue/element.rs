@@ -22,7 +22,7 @@ pub enum ElementKind {
     Pivot,
     /// From a command to the force; it deflects and moves as the strut does.
     Actuator,
-    /// The valve of a hydraulic actuator: it deflects as its spool does.
+    /// The valve of a hydraulic or pneumatic actuator: it deflects as its spool does.
     Valve,
     /// The pump of a hydraulic actuator, with its motor: torques in N.m for forces, speeds in rad/s.
     Pump,

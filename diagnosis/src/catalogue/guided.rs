@@ -70,7 +70,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         parts: &[
             part("guide.cogging.force", Scale::FORCE, (0.0, 5.0), &[0.1]),
             // At least one and a half periods in a stroke of about four root mean squares.
-            within(part("guide.cogging.period", Scale::ONE, (2e-3, 0.2), PERIODS), Scale::DEFLECTION, 2.7),
+            within(part("guide.cogging.period", Scale::PITCH, (2e-3, 0.2), PERIODS), Scale::DEFLECTION, 2.7),
             part("guide.cogging.phase", Scale::ONE, (-10.0, 10.0), &[0.0, 1.6, 3.1, -1.6]),
         ],
         literature: &["Otten1997"],

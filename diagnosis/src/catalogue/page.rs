@@ -8,8 +8,8 @@ use strut_model::Declaration;
 use super::signals::{Among, DISTORTIONS};
 use super::tables::{TABLES, Table, UNNAMED};
 use super::{
-    Bounds, Distortion, Effect, Element, ElementKind, Onset, Part, Prevalence, RESPONSE, Scale, Signal, all,
-    first_of, is_replaced, tables,
+    Bounds, Distortion, Effect, Element, ElementKind, Onset, Part, Prevalence, RESPONSE, Scale, Signal,
+    TURNED, all, first_of, is_replaced, tables,
 };
 use crate::estimation::coordinates::POINTS;
 use crate::plant::Plant;
@@ -266,7 +266,9 @@ fn about(element: Element) -> (&'static str, &'static str) {
         ElementKind::Tire => ("Tyre", "Between road and wheel. c = z_r - z_u is the compression."),
         ElementKind::Pivot => ("Pivot", "Between two arms. w is the angular velocity between them."),
         ElementKind::Actuator => ("Actuator", "From the command u to the force F."),
-        ElementKind::Valve => ("Valve", "Valve of a hydraulic actuator. x_v is the spool's position."),
+        ElementKind::Valve => {
+            ("Valve", "Valve of a hydraulic or pneumatic actuator. x_v is the spool's position.")
+        }
         ElementKind::Pump => ("Pump", "Pump of a hydraulic actuator, with its motor. w is the speed."),
         ElementKind::Frame => {
             ("Frame", "Carries the guides and swings with the body. a_s is the body's acceleration.")
@@ -307,6 +309,9 @@ fn scaled((low, high): (f64, f64), scale: Scale, element: Element) -> String {
 
 /// What a number is multiplied by; nothing if it has a unit of its own.
 fn typical(scale: Scale, element: Element) -> String {
+    if scale == Scale::PITCH {
+        return format!(" in m, {TURNED} times as much in rad");
+    }
     match magnitude(scale, element) {
         [above, below] if above.is_empty() && below.is_empty() => String::new(),
         [above, below] if above.is_empty() => format!(", divided by the typical {below}"),

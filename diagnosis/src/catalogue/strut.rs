@@ -220,7 +220,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         onset: Onset::Threshold,
         parts: &[part("clevis.gap", Scale::DEFLECTION, (1e-4, 1.0), &[0.02, 0.045, 0.1, 0.2])],
         literature: &["Nordin2002"],
-        experiment: "turn round slowly at several places: the force rests over the play, whatever the stroke",
+        experiment: "turn round slowly at several places: over the play the force rests, whatever the stroke; take out a spring first",
         ..PLAIN
     },
     Effect {

@@ -54,11 +54,7 @@ impl Baseline<'_> {
             let stated = self.rig.stated[index];
             let around = if stated { SHEET } else { f64::INFINITY };
             // Near zero, what must not be zero makes equations that nothing can integrate; but there may be no spring.
-            let least = if [unit::N_PER_M, unit::N_M_PER_RAD].contains(&declared.unit) {
-                low
-            } else {
-                low.max(value / around)
-            };
+            let least = if declared.unit == unit::N_PER_M { low } else { low.max(value / around) };
             let bounds = if low > 0.0 { (least, high.min(value * around)) } else { (low, high) };
             let bounds = self.sought(index).map_or(bounds, |(from, to)| (from.min(value), to.max(value)));
             // However many samples a model that is not quite right has to say otherwise with.

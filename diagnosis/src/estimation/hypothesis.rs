@@ -156,7 +156,9 @@ impl Baseline<'_> {
     /// Typical magnitudes of an element.
     pub fn typical(&self, element: Element) -> Typical {
         let found = self.typical.iter().find(|(of, _)| *of == element);
-        found.map_or(Typical { force: 1.0, deflection: 1.0, velocity: 1.0 }, |(_, typical)| *typical)
+        found.map_or(Typical { force: 1.0, deflection: 1.0, velocity: 1.0, pitch: 1.0 }, |(_, typical)| {
+            *typical
+        })
     }
 
     /// The point that everything starts from.

@@ -1,6 +1,8 @@
 //! How large the forces and motions of a rig's elements are.
 
-use crate::catalogue::{Element, Typical, joints};
+use strut_model::unit;
+
+use crate::catalogue::{Element, TURNED, Typical, joints};
 use crate::dataset::recorded::{Dataset, Source};
 use crate::rig::{ElementSignals, ForceOf, Rig};
 use crate::signal::derivative;
@@ -61,7 +63,10 @@ pub fn typical(
                 (value(stiffness) * deflection).hypot(value(damping) * velocity)
             }
         };
-        (element.element, Typical { force, deflection, velocity })
+        let mut declared = plant.inputs.iter().chain(&plant.outputs);
+        let turns = declared.any(|it| it.name == element.deflection && it.unit == unit::RAD);
+        let pitch = if turns { TURNED } else { 1.0 };
+        (element.element, Typical { force, deflection, velocity, pitch })
     };
     let mut all: Vec<(Element, Typical)> = rig.kind.elements.iter().map(of).collect();
     let several = joints(plant).map(|(joint, members)| {
@@ -74,6 +79,7 @@ pub fn typical(
                 force: of(|it| it.force),
                 deflection: of(|it| it.deflection),
                 velocity: of(|it| it.velocity),
+                pitch: of(|it| it.pitch),
             },
         )
     });

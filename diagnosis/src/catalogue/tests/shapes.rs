@@ -43,7 +43,7 @@ impl Bench {
         let columns = [&vec![1.0; SAMPLES], &position, &velocity].map(|it| DVector::from_column_slice(it));
         let nominal = DMatrix::from_columns(&columns).qr().q();
         let mut bench = Self {
-            typical: Typical { force: 1.0, deflection: rms(&position), velocity: rms(&velocity) },
+            typical: Typical { force: 1.0, deflection: rms(&position), velocity: rms(&velocity), pitch: 1.0 },
             force: vec![0.0; SAMPLES],
             plant,
             dynamics,

@@ -20,6 +20,8 @@ const UNEVEN: f64 = 0.01;
 /// The missing signal, if there is one.
 pub fn section(findings: &Findings) -> Markup {
     let Some(missing) = findings.missing.as_ref().filter(|it| !it.place.is_empty()) else { return html! {} };
+    // A torque is missing where something turns.
+    let [moved, moving] = if missing.unit == "N.m" { ["rad", "rad/s"] } else { ["m", "m/s"] };
     html! {
         section {
             h2 { "The missing signal" }
@@ -31,8 +33,8 @@ pub fn section(findings: &Findings) -> Markup {
             p.note { "The estimate uses the starting model, before any effect is added. The band covers 95 %." }
             (over_time(missing))
             div.plots {
-                (over_motion(missing, "deflection", "m", &missing.deflection))
-                (over_motion(missing, "velocity", "m/s", &missing.velocity))
+                (over_motion(missing, "deflection", moved, &missing.deflection))
+                (over_motion(missing, "velocity", moving, &missing.velocity))
                 (over_frequency(missing))
                 (ranking(missing))
             }

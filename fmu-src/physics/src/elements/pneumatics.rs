@@ -210,7 +210,7 @@ impl<R: Real> PneumaticServo<R> {
         let Air { filling_exponent, emptying_exponent, compression_exponent } = self.air;
         let carried = |flow: R| flow.select(filling_exponent, emptying_exponent) * flow;
         let rate = |chamber: &AirChamber<R>, area: R, way: R, speed: R, flows: [R; 2], pressure: R| {
-            // Beyond the ends the air no longer changes its volume.
+            // A chamber that the piston has closed keeps its dead volume.
             let volume = chamber.dead_volume + area * way.max(R::from(0.0));
             let compressed = compression_exponent * pressure * area * way.select(speed, R::from(0.0));
             let flow = with_constant(carried(flows[0]) + carried(flows[1]), chamber.flow_offset);

@@ -7,7 +7,7 @@ use strut_model::{
     About, Choice, Equation, Experiment, Instant, Kind, Model, Real, Settings, Stimulus, Variables, bundles,
 };
 
-use crate::effects::{Clevis, ClevisState};
+use crate::effects::{Clevis, ClevisState, switched_on};
 use crate::elements::{Control, ControlState, Hysteresis, HysteresisState, Load, Strut, Tire};
 use crate::signals::RoadMotion;
 
@@ -203,7 +203,8 @@ impl Model for ElementDyno {
             active_effects: p.strut.active_effects()
                 + p.tire.active_effects()
                 + p.hysteresis.active_effects()
-                + p.control.active_effects(),
+                + p.control.active_effects()
+                + switched_on([p.clevis.gap]),
         }
     }
 

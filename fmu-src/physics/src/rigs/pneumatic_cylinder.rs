@@ -148,7 +148,7 @@ impl Model for PneumaticCylinder {
             "Above the laminar ratio the flow goes to zero along a straight line, since the slope of ISO 6358's law has no end \
              there.",
             "Pressures are absolute. A gauge shows 101325 Pa less: a column of the record's map can add them.",
-            "Beyond the ends of the stroke the air no longer changes its volume, and the piston runs on a spring.",
+            "Beyond the ends of the stroke a closed chamber keeps its dead volume, and the piston runs on a spring.",
             "No source gives all numbers of such a drive. The declared ones are those of a cylinder of 32 mm with a rod of 12 \
              mm, and are to be replaced by those of data sheets.",
         ],
