@@ -50,6 +50,13 @@ impl Table {
         plant.parameter(self.switch).is_some() && plant.parameter(&points).is_some()
     }
 
+    /// The unit of its points in a plant.
+    pub fn unit(&self, plant: &Plant) -> &'static str {
+        plant
+            .parameter(&format!("{}[1]", self.points))
+            .map_or("", |index| plant.parameters[index].unit.symbol)
+    }
+
     /// What it is called.
     pub fn name(&self) -> String {
         format!("unnamed {} over {}", self.law.quantity, self.variable)

@@ -84,11 +84,7 @@ impl Unmodelled {
     /// A curve that was fitted in the model.
     pub fn curve(term: Term, score: Score, improvement: f64, plant: &Plant) -> Self {
         let (unit, depends_on) = match term {
-            Term::Table(table) => {
-                let first = plant.parameter(&format!("{}[1]", table.points));
-                let unit = first.map_or("", |index| plant.parameters[index].unit.symbol);
-                (unit, vec![table.variable.to_owned()])
-            }
+            Term::Table(table) => (table.unit(plant), vec![table.variable.to_owned()]),
             Term::Response(output) => (plant.outputs[output].unit.symbol, vec!["memory".to_owned()]),
             Term::Effect(_) | Term::Fault(_) => ("", Vec::new()),
         };

@@ -135,45 +135,43 @@ impl Diagnosis<'_> {
             let ratio = || (it.value / rig.parameters[index], it.half_of_data / rig.parameters[index]);
             (!self.baseline.is_yardstick(it.handle)).then(ratio)
         }));
-        let nominal = |it: &Interval| matches!(it.handle, Unknown::Parameter(index) if base.contains(&index));
-        let moved = |it: &Interval| {
-            let Unknown::Parameter(index) = it.handle else { return None };
+        let nominal = self.intervals.iter().filter_map(|it| match it.handle {
+            Unknown::Parameter(index) if base.contains(&index) => Some((index, it)),
+            _ => None,
+        });
+        let moved = |(index, it): (usize, &Interval)| {
             let before = rig.parameters[index];
             // Of values that the records tell only together, their common factor is the parameter set's matter.
             let common = if is_scaled(&it) { common } else { 1.0 };
             let change = (it.value - before).abs().min((it.value - common * before).abs());
-            Some(Moved { change, before, half: it.half_of_data, half_of_noise: it.half_of_noise })
+            Moved { change, before, half: it.half_of_data, half_of_noise: it.half_of_noise }
         };
-        let moved: Vec<Moved> = self.intervals.iter().filter(|it| nominal(it)).filter_map(moved).collect();
+        let moved: Vec<Moved> = nominal.clone().map(moved).collect();
         let is_named = !self.found.accepted.is_empty() || !list.is_empty();
-        let mut mismatches = mismatched(&moved, left, is_named).into_iter();
-        for interval in self.intervals.iter().filter(|it| nominal(it)) {
-            let after = interval.value;
-            if let Unknown::Parameter(index) = interval.handle {
-                let (before, declared) = (rig.parameters[index], &rig.plant.parameters[index]);
-                let mismatch = mismatches.next().unwrap_or(false);
-                let is_yardstick = self.baseline.is_yardstick(interval.handle);
-                let known = self.baseline.known.iter().find(|(known, _, _)| *known == index);
-                let given = known.filter(|_| !is_yardstick);
-                let contradicted = given.is_some_and(|(_, value, deviation)| {
-                    (after - value).abs() > (1.0 - MISMATCH) * SURE * deviation
-                });
-                let twins = interval.twins.iter().filter(|_| mismatch && before == 0.0);
-                let twins = twins.map(|term| name(*term, &rig.plant));
-                list.push(NominalParameter {
-                    name: declared.name.clone(),
-                    unit: declared.unit.symbol.into(),
-                    before,
-                    after,
-                    low: interval.low(),
-                    high: interval.high(),
-                    mismatch,
-                    from_parameter_set: given.is_none() && interval.from_parameter_set,
-                    is_yardstick,
-                    contradicted,
-                    equivalent_effects: twins.map(|it| located(&it.name, &it.element)).collect(),
-                });
-            }
+        for ((index, interval), mismatch) in nominal.zip(mismatched(&moved, left, is_named)) {
+            let (before, after, declared) =
+                (rig.parameters[index], interval.value, &rig.plant.parameters[index]);
+            let is_yardstick = self.baseline.is_yardstick(interval.handle);
+            let known = self.baseline.known.iter().find(|(known, _, _)| *known == index);
+            let given = known.filter(|_| !is_yardstick);
+            let contradicted = given.is_some_and(|(_, value, deviation)| {
+                (after - value).abs() > (1.0 - MISMATCH) * SURE * deviation
+            });
+            let twins = interval.twins.iter().filter(|_| mismatch && before == 0.0);
+            let twins = twins.map(|term| name(*term, &rig.plant));
+            list.push(NominalParameter {
+                name: declared.name.clone(),
+                unit: declared.unit.symbol.into(),
+                before,
+                after,
+                low: interval.low(),
+                high: interval.high(),
+                mismatch,
+                from_parameter_set: given.is_none() && interval.from_parameter_set,
+                is_yardstick,
+                contradicted,
+                equivalent_effects: twins.map(|it| located(&it.name, &it.element)).collect(),
+            });
         }
         list
     }

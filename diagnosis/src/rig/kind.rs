@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock};
 
 use serde::{Deserialize, Serialize};
+use strut_model::unit;
 
 use crate::catalogue::Element;
+use crate::plant::Plant;
 
 /// What the diagnosis has to know of a model: the content of a rig file.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -247,6 +249,12 @@ impl ElementSignals {
     /// Its deflection from where the spring carries nothing, from the output's signal.
     pub fn deflected(&self, output: &[f64]) -> Vec<f64> {
         output.iter().map(|it| it - self.rest).collect()
+    }
+
+    /// Whether it turns in a plant: its deflection is an angle.
+    pub fn turns(&self, plant: &Plant) -> bool {
+        let mut declared = plant.inputs.iter().chain(&plant.outputs);
+        declared.any(|it| it.name == self.deflection && it.unit == unit::RAD)
     }
 }
 

@@ -1,7 +1,5 @@
 //! How large the forces and motions of a rig's elements are.
 
-use strut_model::unit;
-
 use crate::catalogue::{Element, TURNED, Typical, joints};
 use crate::dataset::recorded::{Dataset, Source};
 use crate::rig::{ElementSignals, ForceOf, Rig};
@@ -63,9 +61,7 @@ pub fn typical(
                 (value(stiffness) * deflection).hypot(value(damping) * velocity)
             }
         };
-        let mut declared = plant.inputs.iter().chain(&plant.outputs);
-        let turns = declared.any(|it| it.name == element.deflection && it.unit == unit::RAD);
-        let pitch = if turns { TURNED } else { 1.0 };
+        let pitch = if element.turns(plant) { TURNED } else { 1.0 };
         (element.element, Typical { force, deflection, velocity, pitch })
     };
     let mut all: Vec<(Element, Typical)> = rig.kind.elements.iter().map(of).collect();

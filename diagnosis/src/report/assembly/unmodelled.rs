@@ -74,13 +74,12 @@ impl Diagnosis<'_> {
         let range = plant.parameter(table.range).map_or(0.0, |index| fitted.point.parameters[index]);
         let (variable, variable_unit) = self.variable(table.element, table.scale);
         let Unnamed { quantity, point, .. } = table.law;
-        let first = plant.parameter(&format!("{}[1]", table.points));
         let mut curve = Curve {
             location: table.element.name().into(),
             quantity: (*quantity).into(),
             variable,
             variable_unit: variable_unit.into(),
-            unit: first.map_or("", |index| plant.parameters[index].unit.symbol).into(),
+            unit: table.unit(plant).into(),
             ..Curve::default()
         };
         for number in 1..=POINTS {

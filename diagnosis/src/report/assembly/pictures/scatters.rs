@@ -1,7 +1,5 @@
 //! What the error depends on: its mean over bins of a variable.
 
-use strut_model::unit;
-
 use crate::catalogue::Element;
 use crate::diagnosis::{Diagnosis, simulated};
 use crate::report::findings::Binned;
@@ -71,7 +69,6 @@ impl Diagnosis<'_> {
             bins
         };
         let (rising, falling) = (of(true), of(false));
-        let turns = plant.outputs[position].unit == unit::RAD;
         let mean = |bin: &Vec<f64>| (bin.len() >= ENOUGH).then(|| bin.iter().sum::<f64>() / bin.len() as f64);
         let two_sigma = rising.iter().zip(&falling).map(|(rising, falling)| {
             let n = rising.len().max(falling.len());
@@ -82,15 +79,12 @@ impl Diagnosis<'_> {
         });
         Some(Binned {
             quantity: missing.quantity.clone(),
-            unit: if turns { "N.m" } else { "N" }.into(),
+            unit: if signals.turns(plant) { "N.m" } else { "N" }.into(),
             variable: format!("{} {}", element.name(), if over_velocity { "velocity" } else { "deflection" }),
-            variable_unit: match (turns, over_velocity) {
-                (false, false) => "m",
-                (false, true) => "m/s",
-                (true, false) => "rad",
-                (true, true) => "rad/s",
-            }
-            .into(),
+            variable_unit: match over_velocity {
+                true => plant.outputs[position].unit.per_second().symbol.into_owned(),
+                false => plant.outputs[position].unit.symbol.into(),
+            },
             x: (0..BINS).map(|bin| reach * (2.0 * (bin as f64 + 0.5) / BINS as f64 - 1.0)).collect(),
             two_sigma: two_sigma.collect(),
             rising: rising.iter().map(mean).collect(),
