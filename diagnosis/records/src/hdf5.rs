@@ -65,7 +65,7 @@ fn text(dataset: &Dataset, name: &str) -> Option<String> {
     dataset.attribute(name).ok()?.read_string().ok().map(|it| it.trim_matches(['\0', ' ']).to_owned())
 }
 
-/// The columns of a dataset. MATLAB stores the transposed of what it shows: the order of its numbers is that of its own files.
+/// The columns of a dataset. MATLAB stores a matrix transposed, so that its numbers stand column after column here, too.
 fn columns(dataset: &Dataset, path: &[String], unit: &str, values: Vec<f64>) -> Vec<Vector> {
     let size = |place: usize| dataset.shape().get(place).map_or(1, |it| *it as usize);
     let (outer, inner) = (size(0), size(1));

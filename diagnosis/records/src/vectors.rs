@@ -42,8 +42,8 @@ pub(super) fn of_matrix(
     if count <= WIDEST { (0..count).map(of).collect() } else { Vec::new() }
 }
 
-/// The vectors as long as the time; without one, those of the length that have most samples together: a matrix of gains has few. A vector goes by its own name, unless
-/// another has it too.
+/// The vectors as long as the time. Without a time, all of the length in which there are most samples: a matrix of gains has few. A
+/// vector goes by its own name, unless another has it too.
 ///
 /// # Errors
 /// The file has no vectors, or two of one name.

@@ -154,7 +154,7 @@ units! {
     RAD_PER_M = "rad/m" { m: -1, rad: 1 };
     /// Pascal second per cubic metre: what a valve makes of a flow.
     PA_S_PER_M3 = "Pa.s/m3" { kg: 1, m: -4, s: -1 };
-    /// Newton metre per radian: what a speed controller makes of a speed with time.
+    /// Newton metre per radian: the rate of a torsion spring; what a speed controller makes of a speed with time.
     N_M_PER_RAD = "N.m/rad" { kg: 1, m: 2, s: -2, rad: -1 };
     /// Newton metre per radian squared: a quadratic rate of a torsion spring.
     N_M_PER_RAD2 = "N.m/rad2" { kg: 1, m: 2, s: -2, rad: -2 };

@@ -7,9 +7,9 @@ use super::knee::dead_zone;
 
 /// A loose clevis or ball joint in series with all of a strut (docs/effects.md, 12c).
 ///
-/// Of the deflection x the play takes e, and the strut x − e. Within the play nothing moves the strut: its friction keeps it as it is,
-/// which holds for a damper whose spring and preload are small beside its friction. Beyond, it is dragged along: `e' = v − dz(e, g)/T` with half the play g. The strut has the velocity `dz(e, g)/T`, which
-/// is that of the ends T later.
+/// Of the deflection x the play takes e, and the strut x − e. Within the play nothing moves the strut: its friction keeps it as it
+/// is. This holds for a damper whose spring and preload are small beside its friction. Beyond, the strut is dragged along:
+/// `e' = v − dz(e, g)/T` with half the play g. The strut moves with the velocity `dz(e, g)/T`, as the ends do, but T later.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct Clevis<R> {
     /// Half the play (g); zero holds the strut firmly

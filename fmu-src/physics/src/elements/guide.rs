@@ -1,4 +1,4 @@
-//! The guides that keep body and wheel of a rig upright, and that of a drive's carriage.
+//! The guides of a rig's body and wheel, which keep them upright, and of a drive's carriage.
 
 use strut_model::{Real, Variables};
 

@@ -22,6 +22,7 @@ pub use guide::{DriveGuide, Guide, WheelGuide};
 pub use hydraulics::{Gas, Piston, PistonWithPreload, Pump, PumpWithLosses};
 pub use hysteresis::{Hysteresis, HysteresisState};
 pub use mode::Mode;
+pub(crate) use pneumatics::AMBIENT_PRESSURE;
 pub use pneumatics::{AirFlows, PneumaticServo, Pressures};
 pub use servo_cylinder::{
     Cylinder, Flow, Fluid, Hydraulics, ServoCylinder, ServoValve, Spool, Supply, ValveLaw,

@@ -11,9 +11,9 @@ use crate::effects::{Stop, behind_backlash, dead_zone, with_constant};
 const REFERENCE_PRESSURE: f64 = 1e5;
 
 /// Pressure of the air around the cylinder, the standard atmosphere of ISO 2533.
-const AMBIENT_PRESSURE: f64 = 101_325.0;
+pub(crate) const AMBIENT_PRESSURE: f64 = 101_325.0;
 
-/// Cylinder, valve and air; no published rig gives them all, so the declared values are those of a cylinder of 32 mm.
+/// Cylinder, valve and air; no published rig gives them all, so the declared values are of a cylinder of 32 mm.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct PneumaticServo<R> {
     /// Lines to the valve
@@ -35,7 +35,7 @@ pub struct AirSupply<R> {
     #[var(unit = PA, start = 7e5, min = 1e5)]
     pub pressure: R,
     /// Pressure behind the exhaust, absolute
-    #[var(unit = PA, start = 101_325.0, min = 1e3)]
+    #[var(unit = PA, start = AMBIENT_PRESSURE, min = 1e3)]
     pub exhaust_pressure: R,
 }
 
@@ -248,8 +248,8 @@ impl PneumaticServo<f64> {
         let AirCylinder { area, rod_area, .. } = self.cylinder;
         if rod_area >= area {
             return Err(format!(
-                "{prefix}cylinder.rod_area = {rod_area} m2 must be smaller than {prefix}cylinder.area = {area} m2, that of the \
-                 piston"
+                "{prefix}cylinder.rod_area = {rod_area} m2 must be smaller than {prefix}cylinder.area = {area} m2, which \
+                 is the piston's"
             ));
         }
         let AirSupply { pressure, exhaust_pressure } = self.supply;

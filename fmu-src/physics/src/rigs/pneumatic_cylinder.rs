@@ -8,7 +8,7 @@ use strut_model::{
 };
 
 use super::linear_drive::{CarriageMotion, Load};
-use crate::elements::{DriveGuide, PneumaticServo, Pressures};
+use crate::elements::{AMBIENT_PRESSURE, DriveGuide, PneumaticServo, Pressures};
 
 /// A pneumatic positioning drive: voltage of the valve in, pressures and motion out. What commands it stays outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,7 +56,7 @@ pub struct State<R> {
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct ChamberState<R> {
     /// Pressure, absolute
-    #[var(unit = PA, start = 101_325.0, nominal = 1e5, output)]
+    #[var(unit = PA, start = AMBIENT_PRESSURE, nominal = 1e5, output)]
     pub pressure: R,
 }
 
@@ -92,7 +92,7 @@ pub struct Output<R> {
 /// What the air does.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct AirForce<R> {
-    /// Force of the air on the piston, that on the end of the rod included
+    /// Force of the air on the piston and on the end of the rod
     #[var(unit = N)]
     pub force: R,
 }
@@ -149,8 +149,8 @@ impl Model for PneumaticCylinder {
              there.",
             "Pressures are absolute. A gauge shows 101325 Pa less: a column of the record's map can add them.",
             "Beyond the ends of the stroke a closed chamber keeps its dead volume, and the piston runs on a spring.",
-            "No source gives all numbers of such a drive. The declared ones are those of a cylinder of 32 mm with a rod of 12 \
-             mm, and are to be replaced by those of data sheets.",
+            "No source gives all numbers of such a drive. The declared ones are of a cylinder of 32 mm with a rod of 12 mm: \
+             replace them by those of your data sheets.",
         ],
         experiment: Experiment {
             stop: 2.0,

@@ -1,4 +1,4 @@
-//! A rotary positioning drive: the linear one, turned. Its equations are those, with angles for lengths and torques for forces.
+//! A rotary positioning drive. It has the equations of the linear one, with angles for lengths and torques for forces.
 
 use std::path::Path;
 
@@ -35,7 +35,7 @@ pub struct Options {
     drive: DrivenBy,
 }
 
-/// Variables of the linear drive, declared as those of one that turns.
+/// Variables of the linear drive, declared as of one that turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turning<B>(B);
 
@@ -116,7 +116,7 @@ const STARTS: [(&str, f64); 5] = [
     ("guide.cogging.period", std::f64::consts::FRAC_PI_6),
 ];
 
-/// Smallest moment of inertia in kg·m²: that of a small motor's rotor is 1e-7.
+/// Smallest moment of inertia in kg·m²: a small motor's rotor has 1e-7.
 const LEAST_INERTIA: f64 = 1e-12;
 
 /// The declaration of a variable of the linear drive, turned.
