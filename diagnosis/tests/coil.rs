@@ -49,6 +49,7 @@ fn record(force: impl Fn(f64, f64, f64) -> f64, seed: u64) -> Dataset {
         step: STEP,
         inputs: rig.plant.inputs.iter().map(|it| input(&it.name)).collect(),
         between: Between::Lines,
+        wide: None,
         measured: vec![Measured { output: rig.plant.output("force").unwrap(), values, noise_floor: 0.5 }],
         others: vec![],
         errors: vec![],

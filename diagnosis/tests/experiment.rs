@@ -30,6 +30,7 @@ fn record(rig: &Rig, parameters: &[f64], motion: Vec<f64>, seed: u64) -> Dataset
         inputs: vec![motion.clone(), velocity, no_coil.clone(), no_coil],
         finer: 1,
         between: Between::Lines,
+        filtered: false,
     };
     let outputs = rig.plant.prepare(&rig.choices).unwrap().outputs(parameters, &rig.start, &drive);
     let (output, mut noise) = (rig.plant.output("force").unwrap(), noise(seed));
@@ -44,6 +45,7 @@ fn record(rig: &Rig, parameters: &[f64], motion: Vec<f64>, seed: u64) -> Dataset
             Source::Constant(0.0),
         ],
         between: Between::Lines,
+        wide: None,
         measured: vec![Measured { output, values, noise_floor: NOISE }],
         others: vec![],
         errors: vec![],

@@ -3,6 +3,7 @@
 //! A model's equations are integrated over the samples of a record, with dual numbers for the derivatives. The
 //! derivatives are those of the integration itself, so that they belong to the outputs to the last digit.
 
+mod filtered;
 mod foreign;
 mod integrate;
 mod jet;
@@ -18,6 +19,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use strut_model::{Bundle, Declaration, Declarations, Model, SettingDeclaration, Settings, Value};
 
+use filtered::Filtered;
 use integrate::{Equations, Run};
 
 pub use foreign::{Attachment, Conversion, Face, FaceVariable, Foreign, Own, Replaced, Role, needs_own};
@@ -85,7 +87,7 @@ impl Plant {
     /// # Errors
     /// The model's own words if it refuses them.
     pub fn prepare(&self, choices: &[Value]) -> Result<Box<dyn Dynamics>, String> {
-        (self.prepare)(choices)
+        Ok(Box::new(Filtered((self.prepare)(choices)?)))
     }
 
     /// The values of the model's own parameters, joint ones added to their members.
@@ -180,9 +182,18 @@ pub struct Drive {
     pub finer: usize,
     /// How inputs go on between their values.
     pub between: Between,
+    /// Whether outputs are seen at each of these values and go through the filter that the measured signals went through
+    /// when only the samples were left of them.
+    pub filtered: bool,
 }
 
 impl Drive {
+    /// The drive with a sample at each value of the inputs; none if outputs are seen at the samples only.
+    fn at_each_value(&self) -> Option<Self> {
+        let step = self.step / self.finer as f64;
+        self.filtered.then(|| Self { step, finer: 1, filtered: false, ..self.clone() })
+    }
+
     /// Number of samples.
     pub fn len(&self) -> usize {
         self.inputs.first().map_or(0, |values| values.len().div_ceil(self.finer))
@@ -323,6 +334,7 @@ mod tests {
             inputs: vec![vec![0.0, 1.0, 5.0, 6.0, 7.0]],
             finer: 2,
             between: Between::Lines,
+            filtered: false,
         };
         assert_eq!(drive.len(), 3);
         let at = |sample: usize, share: f64| drive.value(&drive.inputs[0], sample, share);

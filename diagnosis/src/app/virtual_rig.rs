@@ -111,7 +111,7 @@ pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String,
             inputs[index] = derivative(&inputs[position], step);
         }
     }
-    let drive = Drive { start: 0.0, step, inputs, finer: 1, between: Between::Lines };
+    let drive = Drive { start: 0.0, step, inputs, finer: 1, between: Between::Lines, filtered: false };
     let outputs = dynamics.outputs(&parameters, &rig.start, &drive);
     if !outputs.iter().flatten().all(|it| it.is_finite()) {
         return Err(format!(

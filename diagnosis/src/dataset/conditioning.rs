@@ -7,16 +7,19 @@
 //! the sampling rate, and what they were between the samples follows from these.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use crate::data::Channel;
 use crate::data::check::noise_floor;
-use crate::dataset::recorded::{Dataset, Measured, Source};
+use crate::dataset::recorded::{Dataset, Measured, Source, Wide};
 use crate::plant::Between;
 use crate::signal::random::with_noise;
-use crate::signal::spectral::{Complex, KEPT, about_line, filled};
+use crate::signal::spectral::{Complex, FINER, KEPT, about_line, decimated, filled, refined};
 
 /// Samples a second that are enough.
 const ENOUGH: f64 = 400.0;
+/// Samples of a signal whose spectrum tells noise from it, at least.
+const SHORTEST: usize = 16;
 /// New periods over which the filter spreads a sample.
 const SPREAD: usize = 2;
 /// Bins to each side over which a spectrum is smoothed before it is compared to the noise.
@@ -28,46 +31,68 @@ const BEYOND_CHANCE: f64 = 1.5;
 impl Dataset {
     /// The record without its inputs' noise, and thinned.
     pub fn conditioned(&self) -> Self {
-        // In a record that is thinned to its band already, noise and signal look alike.
-        if self.between == Between::Curves { self.clone() } else { self.thinned(ENOUGH, true) }
+        self.without_noise_above(0.0)
     }
 
     /// The record below a frequency in Hz, thinned. All signals pass the same filter: whatever it takes away of a motion, it
     /// takes away of the force that made it.
     pub fn below(&self, top: f64) -> Self {
-        self.thinned(2.0 * top / KEPT, false)
+        self.thinned(2.0 * top / KEPT, f64::INFINITY)
+    }
+
+    /// The record below a frequency in Hz, driven by its inputs as far as they are known above it, too.
+    pub fn compared_below(&self, top: f64) -> Self {
+        let known = self.without_noise_above(top);
+        let banded = known.below(top);
+        let needed = (banded.step / known.step).round() as usize;
+        let refining = if needed < FINER { FINER } else { 1 };
+        let finer = needed * refining;
+        let laid = |values: &[f64]| -> Vec<f64> {
+            let of = |(known, banded): (&Range<usize>, &Range<usize>)| {
+                let part = &values[known.clone()];
+                let mut part = if refining == 1 { part.to_vec() } else { refined(part) };
+                let last = part.last().copied().unwrap_or_default();
+                part.resize(finer * banded.len(), last);
+                part
+            };
+            known.sections.iter().zip(&banded.sections).flat_map(of).collect()
+        };
+        let inputs = known.inputs.iter().map(|it| it.measured().map(laid).unwrap_or_default());
+        let errors = known.errors.iter().map(|it| if it.is_empty() { Vec::new() } else { laid(it) });
+        let (inputs, errors) = (inputs.collect(), errors.collect());
+        Self { wide: (needed > 1).then(|| Arc::new(Wide { finer, needed, inputs, errors })), ..banded }
+    }
+
+    /// The record without its inputs' noise above a frequency in Hz, and thinned.
+    fn without_noise_above(&self, frequency: f64) -> Self {
+        // In a record that is thinned to its band already, noise and signal look alike.
+        if self.between == Between::Curves { self.clone() } else { self.thinned(ENOUGH, frequency) }
     }
 
     /// The record with at least `rate` samples a second, without frequencies above four fifths of half of them; without the
-    /// inputs' noise, if `denoised`.
-    fn thinned(&self, rate: f64, denoised: bool) -> Self {
+    /// inputs' noise above the frequency `quiet` in Hz.
+    fn thinned(&self, rate: f64, quiet: f64) -> Self {
         let factor = ((1.0 / (self.step * rate)).floor() as usize).max(1);
         let mut sections: Vec<Range<usize>> = Vec::new();
         for section in &self.sections {
             let first = sections.last().map_or(0, |before: &Range<usize>| before.end);
             sections.push(first..first + section.len().div_ceil(factor));
         }
-        let through = |values: &[f64], noise: f64| -> Vec<f64> {
-            let parts = self.sections.iter().map(|section| present(&values[section.clone()], noise, factor));
-            parts.flatten().collect()
-        };
         let known = |values: &[f64]| -> Vec<f64> {
             self.sections.iter().flat_map(|it| values[it.clone()].to_vec()).collect()
         };
+        let filter = |noise: f64| Filter { noise, quiet: quiet * self.step, factor };
+        let through = |values: &[f64], noise: f64| -> Vec<f64> {
+            self.sections.iter().flat_map(|it| filter(noise).over_gaps(&values[it.clone()])).collect()
+        };
         let inputs = self.inputs.iter().map(|source| match source {
-            Source::Measured(values) => {
-                Source::Measured(through(values, if denoised { noise_floor(&known(values)) } else { 0.0 }))
-            }
+            Source::Measured(values) => Source::Measured(through(values, noise_floor(&known(values)))),
             other => other.clone(),
         });
         let errors = (1..).zip(&self.inputs).map(|(channel, source)| match source {
             Source::Measured(values) => {
-                let noise = noise_floor(&known(values));
-                let parts = self
-                    .sections
-                    .iter()
-                    .map(|it| error(&values[it.clone()], noise, (denoised, factor), channel));
-                parts.flatten().collect()
+                let filter = filter(noise_floor(&known(values)));
+                self.sections.iter().flat_map(|it| filter.error(&values[it.clone()], channel)).collect()
             }
             _ => Vec::new(),
         });
@@ -83,6 +108,7 @@ impl Dataset {
             inputs: inputs.collect(),
             errors: errors.collect(),
             between: Between::Curves,
+            wide: None,
             measured: measured.collect(),
             others: others.collect(),
             sections,
@@ -90,69 +116,81 @@ impl Dataset {
     }
 }
 
-/// A signal through the filter, missing where it was missing or where the filter brings in what was.
-fn present(values: &[f64], noise: f64, factor: usize) -> Vec<f64> {
-    let bridged = match filled(values) {
-        Some(bridged) if values.iter().any(|it| !it.is_finite()) => bridged,
-        _ => return filtered(values, noise, factor),
-    };
-    let thin = filtered(&bridged, noise, factor).into_iter().enumerate();
-    let reach = SPREAD * (factor - 1);
-    thin.map(|(k, value)| {
-        let middle = k * factor;
-        let near = &values[middle.saturating_sub(reach)..(middle + reach + 1).min(values.len())];
-        if near.iter().all(|it| it.is_finite()) { value } else { f64::NAN }
-    })
-    .collect()
+/// A filter without phase, and how many samples become one behind it.
+#[derive(Clone, Copy, Debug)]
+struct Filter {
+    /// Standard deviation of the white noise that it takes away, by Wiener's gains.
+    noise: f64,
+    /// Above which frequency it does, in those of the samples.
+    quiet: f64,
+    /// Of how many samples one is left.
+    factor: usize,
 }
 
-/// A signal through Wiener's filter for white noise of a standard deviation, and every `factor`-th sample of it.
-fn filtered(values: &[f64], noise: f64, factor: usize) -> Vec<f64> {
-    if (noise == 0.0 && factor == 1) || values.len() < 16 {
-        return values.to_vec();
-    }
-    let (line, deviation) = about_line(values, &mut |spectrum| {
-        gains(spectrum, noise, factor).into_iter().map(Complex::from).collect()
-    });
-    (0..values.len()).step_by(factor).map(|k| deviation[k] + line.at(k)).collect()
-}
-
-/// White noise of a standard deviation behind a signal's own filter.
-fn error(values: &[f64], noise: f64, (denoised, factor): (bool, usize), channel: u64) -> Vec<f64> {
-    if noise == 0.0 || values.len() < 16 {
-        return vec![0.0; values.len().div_ceil(factor)];
-    }
-    let mut own = Vec::new();
-    let signal = filled(values).unwrap_or_else(|| values.to_vec());
-    about_line(&signal, &mut |spectrum| {
-        own = gains(spectrum, if denoised { noise } else { 0.0 }, factor);
-        own.iter().map(Complex::from).collect()
-    });
-    let drawn = with_noise(&vec![0.0; values.len()], noise, channel);
-    let (line, deviation) = about_line(&drawn, &mut |_| own.iter().map(Complex::from).collect());
-    (0..values.len()).step_by(factor).map(|k| deviation[k] + line.at(k)).collect()
-}
-
-/// The gain of each bin: what of its power is no noise, and nothing above the kept band.
-fn gains(spectrum: &[Complex<f64>], noise: f64, factor: usize) -> Vec<f64> {
-    let len = spectrum.len();
-    let power: Vec<f64> = spectrum.iter().map(Complex::norm_sqr).collect();
-    let level = len as f64 * noise * noise;
-    let cut = KEPT * 0.5 / factor as f64;
-    (0..len)
-        .map(|bin| {
-            let frequency = bin.min(len - bin) as f64 / len as f64;
-            if factor > 1 && frequency > cut {
-                return 0.0;
-            }
-            if noise == 0.0 {
-                return 1.0;
-            }
-            let around = (0..=2 * SMOOTHING).map(|offset| power[(bin + len + offset - SMOOTHING) % len]);
-            let mean = around.sum::<f64>() / (2 * SMOOTHING + 1) as f64;
-            if mean > BEYOND_CHANCE * level { 1.0 - level / mean } else { 0.0 }
+impl Filter {
+    /// A signal through the filter, missing where it was missing or where the filter brings in what was.
+    fn over_gaps(self, values: &[f64]) -> Vec<f64> {
+        let bridged = match filled(values) {
+            Some(bridged) if values.iter().any(|it| !it.is_finite()) => bridged,
+            _ => return self.filtered(values),
+        };
+        let thin = self.filtered(&bridged).into_iter().enumerate();
+        let reach = SPREAD * (self.factor - 1);
+        thin.map(|(k, value)| {
+            let middle = k * self.factor;
+            let near = &values[middle.saturating_sub(reach)..(middle + reach + 1).min(values.len())];
+            if near.iter().all(|it| it.is_finite()) { value } else { f64::NAN }
         })
         .collect()
+    }
+
+    /// A signal through the filter, and every `factor`-th sample of it.
+    fn filtered(self, values: &[f64]) -> Vec<f64> {
+        if self.noise == 0.0 || self.quiet.is_infinite() || values.len() < SHORTEST {
+            return decimated(values, self.factor);
+        }
+        let (line, deviation) =
+            about_line(values, &mut |spectrum| self.gains(spectrum).into_iter().map(Complex::from).collect());
+        (0..values.len()).step_by(self.factor).map(|k| deviation[k] + line.at(k)).collect()
+    }
+
+    /// Its noise behind the gains that a signal has.
+    fn error(self, values: &[f64], channel: u64) -> Vec<f64> {
+        if self.noise == 0.0 || values.len() < SHORTEST {
+            return vec![0.0; values.len().div_ceil(self.factor)];
+        }
+        let mut own = Vec::new();
+        let signal = filled(values).unwrap_or_else(|| values.to_vec());
+        about_line(&signal, &mut |spectrum| {
+            own = self.gains(spectrum);
+            own.iter().map(Complex::from).collect()
+        });
+        let drawn = with_noise(&vec![0.0; values.len()], self.noise, channel);
+        let (line, deviation) = about_line(&drawn, &mut |_| own.iter().map(Complex::from).collect());
+        (0..values.len()).step_by(self.factor).map(|k| deviation[k] + line.at(k)).collect()
+    }
+
+    /// The gain of each bin: what of its power is no noise, and nothing above the kept band.
+    fn gains(self, spectrum: &[Complex<f64>]) -> Vec<f64> {
+        let len = spectrum.len();
+        let power: Vec<f64> = spectrum.iter().map(Complex::norm_sqr).collect();
+        let level = len as f64 * self.noise * self.noise;
+        let cut = KEPT * 0.5 / self.factor as f64;
+        (0..len)
+            .map(|bin| {
+                let frequency = bin.min(len - bin) as f64 / len as f64;
+                if self.factor > 1 && frequency > cut {
+                    return 0.0;
+                }
+                if frequency < self.quiet {
+                    return 1.0;
+                }
+                let around = (0..=2 * SMOOTHING).map(|offset| power[(bin + len + offset - SMOOTHING) % len]);
+                let mean = around.sum::<f64>() / (2 * SMOOTHING + 1) as f64;
+                if mean > BEYOND_CHANCE * level { 1.0 - level / mean } else { 0.0 }
+            })
+            .collect()
+    }
 }
 
 #[cfg(test)]
@@ -164,6 +202,10 @@ mod tests {
         (6.0 * t).sin() + 0.3 * (50.0 * t + 1.0).sin() + 0.2 * t
     }
 
+    fn filter(noise: f64, factor: usize) -> Filter {
+        Filter { noise, quiet: 0.0, factor }
+    }
+
     #[test]
     fn noise_goes_and_the_signal_stays() {
         let mut state = 1_u64;
@@ -172,7 +214,7 @@ mod tests {
             (state >> 40) as f64 / f64::from(1 << 24) - 0.5
         };
         let noisy: Vec<f64> = (0..5000).map(|k| signal(k) + 0.1 * random()).collect();
-        let clean = filtered(&noisy, 0.1 / 12.0_f64.sqrt(), 1);
+        let clean = filter(0.1 / 12.0_f64.sqrt(), 1).filtered(&noisy);
         let error = |values: &[f64]| -> f64 {
             let squares = values.iter().enumerate().map(|(k, value)| (value - signal(k)).powi(2));
             (squares.sum::<f64>() / values.len() as f64).sqrt()
@@ -188,15 +230,15 @@ mod tests {
         let rms =
             |values: &[f64]| (values.iter().map(|it| it * it).sum::<f64>() / values.len() as f64).sqrt();
         let kept: Vec<f64> =
-            filtered(&noisy, 0.01, 2).iter().enumerate().map(|(k, value)| value - signal(2 * k)).collect();
-        let drawn = error(&noisy, 0.01, (true, 2), 3);
+            filter(0.01, 2).filtered(&noisy).iter().enumerate().map(|(k, value)| value - signal(2 * k)).collect();
+        let drawn = filter(0.01, 2).error(&noisy, 3);
         assert_eq!(drawn.len(), kept.len());
         let ratio = rms(&drawn) / rms(&kept);
         assert!((0.5..2.0).contains(&ratio) && rms(&drawn) < 0.005, "{ratio}, {}", rms(&drawn));
         // A filter that only ends the band leaves all noise below its end.
-        let plain = rms(&error(&noisy, 0.01, (false, 2), 3));
+        let plain = rms(&Filter { quiet: f64::INFINITY, ..filter(0.01, 2) }.error(&noisy, 3));
         assert!((plain / (0.01 * (KEPT / 2.0).sqrt()) - 1.0).abs() < 0.05, "{plain}");
-        assert!(error(&noisy, 0.0, (true, 2), 3).iter().all(|it| *it == 0.0));
+        assert!(filter(0.0, 2).error(&noisy, 3).iter().all(|it| *it == 0.0));
     }
 
     /// Of a damper on a bench the force is that of the velocity, which is derived from a noisy position.
@@ -212,14 +254,14 @@ mod tests {
             (squares.sum::<f64>() / 9000.0).sqrt()
         };
         // With all bins in which noise happens to be above its mean it is 0.6, and unfiltered 3.
-        let found = apart(&filtered(&noisy, 0.01, 2));
+        let found = apart(&filter(0.01, 2).filtered(&noisy));
         assert!(found < 0.25, "{found}");
     }
 
     #[test]
     fn a_clean_signal_is_thinned_without_delay() {
         let values: Vec<f64> = (0..5000).map(signal).collect();
-        let thin = filtered(&values, 0.0, 4);
+        let thin = filter(0.0, 4).filtered(&values);
         assert_eq!(thin.len(), 1250);
         for (k, value) in thin.iter().enumerate().skip(20).take(1210) {
             assert!((value - signal(4 * k)).abs() < 2e-3, "{k}");
@@ -231,7 +273,7 @@ mod tests {
         let mut values: Vec<f64> = (0..5000).map(signal).collect();
         values[2000..2010].fill(f64::NAN);
         values[0] = f64::NAN;
-        let thin = present(&values, 0.0, 4);
+        let thin = filter(0.0, 4).over_gaps(&values);
         let missing: Vec<usize> = (0..thin.len()).filter(|k| thin[*k].is_nan()).collect();
         assert_eq!(missing, [0, 1, 499, 500, 501, 502, 503]);
         for (k, value) in thin.iter().enumerate().skip(20).take(1210).filter(|(_, value)| value.is_finite()) {

@@ -159,6 +159,7 @@ pub(super) fn import(rig: &Rig, origin: &Origin, map: &Map, rate: Option<&str>) 
             step: uniform.step,
             inputs,
             between: Between::Lines,
+            wide: None,
             measured,
             others: others(&mapped.record.time, mapped.unused),
             errors: vec![],

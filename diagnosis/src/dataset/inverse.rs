@@ -35,6 +35,11 @@ const STILL: f64 = 0.02;
 /// … if it lasts so long, in seconds: a reversal does not.
 const REST: f64 = 0.1;
 
+/// Periods of the band's end beside a section's ends in which a filter does not know what was before or comes after …
+const REACH: f64 = 2.0;
+/// … if so many of them make a section at least.
+const SHARE_OF_ENDS: usize = 8;
+
 /// Records in the band in which their motion is known.
 #[derive(Clone, Debug)]
 pub struct Banded {
@@ -56,7 +61,7 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
     // One band for all: in a wider one, what is fast would decide.
     let ends = records.iter().map(|record| Some(relevant(record, signals.force(record)?)));
     let end = ends.collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::min)?.max(LOWEST);
-    let mut widest: Option<(f64, Vec<Dataset>)> = None;
+    let mut widest = None;
     let mut narrowest: Option<(DVector<f64>, f64)> = None;
     for top in bands(end) {
         let banded: Vec<Dataset> = records.iter().map(|it| below(it, top)).collect();
@@ -75,9 +80,9 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
         if !quiet || left > least + NOISY {
             break;
         }
-        widest = Some((top, banded));
+        widest = Some(top);
     }
-    let (top, banded) = widest?;
+    let top = widest?;
     let text = format!(
         "{} drives the model and this is compared (inverse dynamics), below {} Hz: beyond, the motion is lost in its noise, or \
          this has less than {} % of its power. At rest nothing is compared: friction holds whatever acts",
@@ -86,7 +91,7 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
         100.0 * NEGLIGIBLE
     );
     let note = DataProblem { record: "all".into(), signal: inverse.force.clone(), text, fatal: false };
-    Some(Banded { records: banded.into_iter().map(|it| signals.moving(it)).collect(), top, note })
+    Some(Banded { records: records.iter().map(|it| signals.compared(it, top)).collect(), top, note })
 }
 
 /// That no band is left in which a motion could be compared inversely, and what is done `instead`, as a clause.
@@ -108,13 +113,16 @@ fn bands(end: f64) -> impl Iterator<Item = f64> {
 
 /// A record below a frequency in Hz, with the exact rates of its motion.
 pub(super) fn below(record: &Dataset, top: f64) -> Dataset {
-    let mut banded = record.below(top);
-    for source in &mut banded.inputs {
+    with_exact_rates(record.below(top))
+}
+
+fn with_exact_rates(mut record: Dataset) -> Dataset {
+    for source in &mut record.inputs {
         if let Some(motion) = source.motion() {
             *source = Source::RateOf(motion);
         }
     }
-    banded
+    record
 }
 
 /// The signals of a balance of forces.
@@ -182,6 +190,22 @@ impl Signals {
         let moving = differences.iter().zip(rests).filter(|(_, rests)| !rests).map(|(it, _)| *it);
         let noise = rms(&moving.collect::<Vec<_>>());
         (size > 0.0).then(|| noise.powi(2) / power(force))
+    }
+
+    /// A record below a frequency in Hz without the force at rest and at its ends, driven by all of its motion that is known.
+    fn compared(self, record: &Dataset, top: f64) -> Dataset {
+        let mut all = record.compared_below(top);
+        let wide = all.wide.take();
+        let mut known = self.moving(with_exact_rates(all));
+        let reach = (REACH / (top * known.step)).ceil() as usize;
+        for section in &known.sections {
+            let ends = reach.min(section.len() / SHARE_OF_ENDS);
+            for measured in known.measured.iter_mut().filter(|it| it.output == self.force) {
+                measured.values[section.start..section.start + ends].fill(f64::NAN);
+                measured.values[section.end - ends..section.end].fill(f64::NAN);
+            }
+        }
+        Dataset { wide, ..known }
     }
 
     /// The record without the force at rest.
@@ -305,6 +329,7 @@ mod tests {
             step,
             inputs: inputs.collect(),
             between: Between::Lines,
+            wide: None,
             measured: vec![Measured { output, values: force.collect(), noise_floor: 0.1 }],
             others: vec![],
             errors: vec![],

@@ -1,6 +1,7 @@
 //! A record as a plant sees it: what drives it, what was measured of it.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use crate::data::Channel;
 use crate::plant::{Between, Drive};
@@ -22,12 +23,28 @@ pub struct Dataset {
     pub errors: Vec<Vec<f64>>,
     /// How the inputs go on between the samples.
     pub between: Between,
+    /// The inputs in a wider band than that in which the record is compared, if they are known there.
+    pub wide: Option<Arc<Wide>>,
     /// What was measured.
     pub measured: Vec<Measured>,
     /// Columns that no signal of the rig is.
     pub others: Vec<Channel>,
     /// Ranges of samples that are simulated in one go, each with states of its own at the start.
     pub sections: Vec<Range<usize>>,
+}
+
+/// Inputs that are known in a wider band than the outputs are compared in: a law that bends has to see all of the motion, and what
+/// follows goes through the filter of the measured signals.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wide {
+    /// Values in a sample of the record.
+    pub finer: usize,
+    /// Values that the band needs in a sample: a rate has nothing above half of that.
+    pub needed: usize,
+    /// So many values of each measured input for every sample of the record; none of other inputs.
+    pub inputs: Vec<Vec<f64>>,
+    /// Possible errors of them.
+    pub errors: Vec<Vec<f64>>,
 }
 
 /// Where an input comes from.
@@ -103,11 +120,18 @@ impl Dataset {
     pub fn disturbed(&self) -> Option<Self> {
         let mut disturbed = self.clone();
         let mut is_disturbed = false;
+        let mut disturb = |values: &mut [f64], errors: &[f64]| {
+            is_disturbed |= errors.iter().any(|it| *it != 0.0);
+            values.iter_mut().zip(errors).for_each(|(value, error)| *value += error);
+        };
         for (source, errors) in disturbed.inputs.iter_mut().zip(&self.errors) {
             if let Source::Measured(values) = source {
-                is_disturbed |= errors.iter().any(|it| *it != 0.0);
-                values.iter_mut().zip(errors).for_each(|(value, error)| *value += error);
+                disturb(values, errors);
             }
+        }
+        if let Some(wide) = &mut disturbed.wide {
+            let Wide { inputs, errors, .. } = Arc::make_mut(wide);
+            inputs.iter_mut().zip(&*errors).for_each(|(values, errors)| disturb(values, errors));
         }
         is_disturbed.then_some(disturbed)
     }
@@ -133,9 +157,22 @@ impl Dataset {
     /// How many values of an input there are in a step of what drives the plant: where signals go along curves, a cubic
     /// through the record's own samples would lose a tenth of what is halfway to half the sampling rate.
     fn finer(&self) -> usize {
-        match self.between {
-            Between::Lines => 1,
-            Between::Curves => FINER,
+        match (&self.wide, self.between) {
+            (Some(wide), _) => wide.finer,
+            (None, Between::Lines) => 1,
+            (None, Between::Curves) => FINER,
+        }
+    }
+
+    /// The values of a measured input that drive the plant in a section.
+    fn driving(&self, input: usize, values: &[f64], section: &Range<usize>) -> Vec<f64> {
+        match (&self.wide, self.between) {
+            (Some(_), _) if section.is_empty() => Vec::new(),
+            (Some(wide), _) => {
+                wide.inputs[input][wide.finer * section.start..=wide.finer * (section.end - 1)].to_vec()
+            }
+            (None, Between::Lines) => values[section.clone()].to_vec(),
+            (None, Between::Curves) => refined(&values[section.clone()]),
         }
     }
 
@@ -144,14 +181,12 @@ impl Dataset {
         let finer = self.finer();
         let samples = Samples { step: self.step / finer as f64, first: finer * section.start };
         let mut inputs: Vec<Vec<f64>> = Vec::with_capacity(self.inputs.len());
-        for (source, correction) in self.inputs.iter().zip(corrections) {
-            let signal = |values: &[f64]| match self.between {
-                Between::Lines => values.to_vec(),
-                Between::Curves => refined(values),
-            };
+        for (index, (source, correction)) in self.inputs.iter().zip(corrections).enumerate() {
             inputs.push(match source {
-                Source::Measured(values) if correction.is_neutral() => signal(&values[section.clone()]),
-                Source::Measured(values) => correction.applied(&signal(&values[section.clone()]), samples),
+                Source::Measured(values) if correction.is_neutral() => self.driving(index, values, section),
+                Source::Measured(values) => {
+                    correction.applied(&self.driving(index, values, section), samples)
+                }
                 Source::Constant(value) => vec![*value; finer * section.len().saturating_sub(1) + 1],
                 Source::DerivativeOf(_) | Source::RateOf(_) => Vec::new(),
             });
@@ -167,6 +202,7 @@ impl Dataset {
             inputs,
             finer,
             between: self.between,
+            filtered: self.wide.is_some(),
         }
     }
 
@@ -175,7 +211,8 @@ impl Dataset {
     fn rate(&self, signal: &[f64], source: &Source) -> Vec<f64> {
         let step = self.step / self.finer() as f64;
         if matches!(source, Source::RateOf(_)) {
-            return in_band(signal, step, 0.5 / self.step, 1);
+            let needed = self.wide.as_ref().map_or(1, |wide| wide.needed);
+            return in_band(signal, step, 0.5 * needed as f64 / self.step, 1);
         }
         let mut rate = derivative(signal, step);
         if self.between == Between::Curves {
@@ -247,6 +284,7 @@ mod tests {
                 step,
                 inputs,
                 between,
+                wide: None,
                 measured: vec![],
                 others: vec![],
                 errors: vec![],

@@ -115,6 +115,7 @@ mod tests {
             step: 1e-3,
             inputs,
             between,
+            wide: None,
             measured,
             others: vec![],
             errors: vec![],

@@ -168,6 +168,7 @@ mod tests {
             step: 1e-3,
             inputs: inputs.into_iter().map(Source::Measured).collect(),
             between: Between::Lines,
+            wide: None,
             measured: vec![Measured { output: 0, values, noise_floor: 0.1 }],
             others: vec![],
             errors: vec![],

@@ -198,6 +198,7 @@ mod tests {
             step: 1e-3,
             inputs: vec![],
             between: Between::Lines,
+            wide: None,
             measured: vec![Measured { output: 0, values, noise_floor: 0.0 }],
             others: vec![],
             errors: vec![],

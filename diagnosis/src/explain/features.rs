@@ -172,8 +172,15 @@ pub fn features(
             let column =
                 |window: &Window| &records[window.record].others[number].values[window.samples.clone()];
             let fast = size(&v);
+            // What a lag changes, rather than the late column: of one that hardly moves all copies would be the same, and the
+            // amounts of each, one against the other, as large as one likes.
             let late = LAGS.iter().flat_map(|lag| {
-                let follow = |window| followed(column(window), *lag, window.step);
+                let follow = |window: &Window| match (column(window), *lag) {
+                    (now, 0.0) => now.to_vec(),
+                    (now, lag) => {
+                        followed(now, lag, window.step).iter().zip(now).map(|(late, now)| late - now).collect()
+                    }
+                };
                 let c: Vec<Vec<f64>> = windows.iter().map(follow).collect();
                 let of = |f: &dyn Fn(f64) -> f64| -> Vec<Vec<f64>> {
                     let both = c.iter().zip(&v);
@@ -278,12 +285,19 @@ fn heated(power: &[Vec<f64>], time: f64, spans: &[Span]) -> Vec<Vec<f64>> {
 /// `y'' + 2 ζ ω y' + ω² y = −v'`: an oscillator's restoring and damping force per mass, `ω² y` and `2 ζ ω y'`.
 fn resonance(velocity: &[f64], frequency: f64, step: f64) -> [Vec<f64>; 2] {
     let omega = 2.0 * std::f64::consts::PI * frequency;
+    // Exact for a velocity that is straight between samples, however few of them a period has.
+    let (fading, turning) = (DAMPING * omega, omega * (1.0 - DAMPING * DAMPING).sqrt());
+    let (left, sine, cosine) =
+        ((-fading * step).exp(), (turning * step).sin() / turning, (turning * step).cos());
     let (mut y, mut rate, mut before) = (0.0, 0.0, velocity.first().copied().unwrap_or_default());
     let (mut restoring, mut damping) = (Vec::new(), Vec::new());
     for v in velocity {
-        // Semi-implicit: stable as long as a period has some samples.
-        rate -= (v - before) + step * (omega * omega * y + 2.0 * DAMPING * omega * rate);
-        y += step * rate;
+        let rest = -(v - before) / (step * omega * omega);
+        let beside = y - rest;
+        (y, rate) = (
+            rest + left * ((cosine + fading * sine) * beside + sine * rate),
+            left * ((cosine - fading * sine) * rate - omega * omega * sine * beside),
+        );
         before = *v;
         restoring.push(omega * omega * y);
         damping.push(2.0 * DAMPING * omega * rate);

@@ -94,7 +94,10 @@ impl Baseline<'_> {
                     if has_no_name(*term) { &mut features } else { &mut named }.push(score);
                 }
                 Kind::Feature { group, mover, .. } => {
-                    if is_possible((*group, *mover), &amounts, &candidate.peaks) {
+                    let at = &missing.setting.point.parameters;
+                    let mut steps = missing.setting.parameters.iter().zip(fitted.values.iter());
+                    let drives_off = steps.any(|(index, step)| self.is_gone(*index, at[*index], *step));
+                    if !drives_off && is_possible((*group, *mover), &amounts, &candidate.peaks) {
                         features.push(score);
                     }
                 }

@@ -337,7 +337,7 @@ mod tests {
             rates: vec![0.0; samples],
             predicted: vec![0.0; samples],
             residuals: residuals.to_vec(),
-            drive: Drive { start: 0.0, step: 0.01, inputs: vec![], finer: 1, between: Between::Lines },
+            drive: Drive { start: 0.0, step: 0.01, inputs: vec![], finer: 1, between: Between::Lines, filtered: false },
             timing: vec![],
             lawful: None,
             loose: (vec![1.0; samples - 1], vec![1.0; samples]),

@@ -157,6 +157,13 @@ impl Baseline<'_> {
         self.rig.plant.parameters[index].min.unwrap_or(f64::NEG_INFINITY)
     }
 
+    /// Whether a step takes away most of a parameter that cannot be zero, as a mass.
+    pub(crate) fn is_gone(&self, index: usize, before: f64, step: f64) -> bool {
+        let cannot_be_zero = self.rig.plant.parameters[index].min.is_some_and(|least| least > 0.0);
+        let nominal = if self.is_unstated(index) { before } else { self.rig.parameters[index] };
+        cannot_be_zero && before + step < LEAST * nominal
+    }
+
     /// A nominal parameter after a step. What has no value and must not be zero may be off by much: its logarithm moves.
     fn moved(&self, index: usize, before: f64, step: f64) -> f64 {
         let least = self.least(index);

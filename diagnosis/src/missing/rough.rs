@@ -106,6 +106,7 @@ mod tests {
             inputs: inputs.collect(),
             errors: errors(0.0),
             between: Between::Lines,
+            wide: None,
             measured: measured.to_vec(),
             others: vec![],
             sections: std::iter::once(0..samples).collect(),

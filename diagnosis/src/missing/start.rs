@@ -103,6 +103,7 @@ mod tests {
             step,
             inputs,
             between: Between::Lines,
+            wide: None,
             measured: vec![],
             others: vec![],
             errors: vec![],

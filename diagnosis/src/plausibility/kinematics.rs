@@ -170,6 +170,7 @@ mod tests {
             step: STEP,
             inputs: vec![],
             between: Between::Lines,
+            wide: None,
             measured: vec![],
             others: vec![],
             errors: vec![],

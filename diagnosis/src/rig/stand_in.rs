@@ -78,7 +78,7 @@ impl Rig {
             (0..SAMPLES).map(|k| declared.start + size * (TAU * turns * k as f64).sin()).collect()
         };
         let inputs = self.plant.inputs.iter().enumerate().map(sine).collect();
-        Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines }
+        Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines, filtered: false }
     }
 }
 

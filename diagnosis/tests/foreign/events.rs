@@ -41,7 +41,7 @@ fn a_relay_turns_and_changes_its_speed_between_samples_and_its_derivatives_are_t
     let plant = foreign.plant().unwrap();
     let dynamics = plant.prepare(&plant.choices).unwrap();
     let inputs = vec![vec![0.0; SAMPLES]];
-    let drive = Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines };
+    let drive = Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines, filtered: false };
     let seen = dynamics.linearised(&[SLOPE], &[0.0, 0.0], &drive, &[Seed::Parameter(0)], &[0, 1]);
     let (mut area, mut before) = (0.0, 0.0);
     for sample in 0..SAMPLES {
@@ -71,7 +71,7 @@ fn an_event_before_the_beginning_of_a_segment_has_happened() {
     let plant = Foreign { fmu: folder.path().join("relay.fmu"), parameters, locals, beside }.plant().unwrap();
     let dynamics = plant.prepare(&plant.choices).unwrap();
     let drive =
-        Drive { start: 1.0, step: STEP, inputs: vec![vec![0.0; 3]], finer: 1, between: Between::Lines };
+        Drive { start: 1.0, step: STEP, inputs: vec![vec![0.0; 3]], finer: 1, between: Between::Lines, filtered: false };
     let found = &dynamics.outputs(&[SLOPE], &[0.0, 0.0], &drive)[0];
     let wanted = [0.0, 2.0, 2.0 * 2.0].map(|steps: f64| relay(SLOPE * steps * STEP).0);
     assert!(found.iter().zip(wanted).all(|(found, it)| (found - it).abs() < 1e-9), "{found:?}");

@@ -81,7 +81,7 @@ impl Ready {
         for (name, values) in signals {
             inputs[self.plant.input(name).expect(name)].clone_from(values);
         }
-        Drive { start: 0.0, step: 1e-3, inputs, finer: 1, between: Between::Lines }
+        Drive { start: 0.0, step: 1e-3, inputs, finer: 1, between: Between::Lines, filtered: false }
     }
 
     /// One output.

@@ -5,6 +5,8 @@ use std::f64::consts::{PI, TAU};
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
+use super::KEPT;
+
 /// The straight line through a signal's ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Line {
@@ -73,6 +75,19 @@ pub fn in_band(values: &[f64], step: f64, top: f64, order: i32) -> Vec<f64> {
     deviation.into_iter().enumerate().map(add).collect()
 }
 
+/// Every so many samples of a signal, without what is above [`KEPT`] of half their rate.
+pub fn decimated(values: &[f64], factor: usize) -> Vec<f64> {
+    if factor == 1 || values.len() < 2 {
+        return values.iter().step_by(factor).copied().collect();
+    }
+    let (line, deviation) = about_line(values, &mut |spectrum| {
+        let len = spectrum.len();
+        let last = (KEPT * 0.5 * len as f64 / factor as f64) as usize;
+        (0..len).map(|bin| Complex::from(if bin.min(len - bin) > last { 0.0 } else { 1.0 })).collect()
+    });
+    (0..values.len()).step_by(factor).map(|k| deviation[k] + line.at(k)).collect()
+}
+
 /// A signal with straight lines where samples are missing, its ends held; none if no sample is there.
 pub fn filled(values: &[f64]) -> Option<Vec<f64>> {
     let known: Vec<usize> = (0..values.len()).filter(|k| values[*k].is_finite()).collect();
@@ -122,6 +137,20 @@ mod tests {
         let found = in_band(&sampled(|t| (TAU * 40.0 * t).sin()), STEP, 25.0, 2);
         let largest = found[500..5500].iter().fold(0.0, |a: f64, b| a.max(b.abs()));
         assert!(largest < 1e-3 * (TAU * 40.0_f64).powi(2), "{largest}");
+    }
+
+    #[test]
+    fn of_a_decimated_signal_the_band_is_left() {
+        // Up to 40 Hz of half a rate of 50 Hz.
+        let [slow, fast] = [30.0, 45.0].map(|hertz| sampled(move |t| 1.0 - t + (TAU * hertz * t).sin()));
+        let kept = |signal: &[f64]| {
+            let found = decimated(signal, 10);
+            assert_eq!(found.len(), 600);
+            (50..550).map(|k| (found[k] - (1.0 - 0.01 * k as f64)).powi(2)).sum::<f64>() / 500.0
+        };
+        assert!((kept(&slow) - 0.5).abs() < 1e-3 && kept(&fast) < 1e-4, "{} {}", kept(&slow), kept(&fast));
+        assert_eq!(decimated(&[1.0, 2.0, 4.0], 1), [1.0, 2.0, 4.0]);
+        assert_eq!((decimated(&[3.0], 4), decimated(&[], 4)), (vec![3.0], vec![]));
     }
 
     #[test]

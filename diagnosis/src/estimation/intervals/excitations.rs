@@ -218,8 +218,17 @@ mod tests {
     fn a_record_is_cut_where_it_may_be() {
         let sections = vec![0..700, 750..1000];
         let (name, inputs, between, measured) = (String::new(), vec![], Between::Lines, vec![]);
-        let record =
-            Dataset { name, step: 1e-3, inputs, between, measured, others: vec![], errors: vec![], sections };
+        let record = Dataset {
+            name,
+            step: 1e-3,
+            inputs,
+            between,
+            wide: None,
+            measured,
+            others: vec![],
+            errors: vec![],
+            sections,
+        };
         assert_eq!(cut(&record, 1).concat(), record.sections);
         let measured = vec![Measured { output: 0, values: vec![0.0; 2000], noise_floor: 1.0 }];
         let long = Dataset { measured, sections: vec![0..1400, 1450..2000], ..record };

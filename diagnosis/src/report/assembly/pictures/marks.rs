@@ -104,6 +104,7 @@ mod tests {
             step: 0.01,
             inputs: vec![],
             between: Between::Lines,
+            wide: None,
             measured: vec![],
             others: vec![],
             errors: vec![],

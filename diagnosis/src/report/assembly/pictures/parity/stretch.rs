@@ -209,6 +209,7 @@ impl Stretch {
             inputs: vec![motion(0), motion(1)],
             finer: 1,
             between: Between::Curves,
+            filtered: false,
         })
     }
 

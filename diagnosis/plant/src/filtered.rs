@@ -1,0 +1,200 @@
+//! Outputs behind the filter through which measured signals went when they were thinned.
+//!
+//! A law that bends does not go through a filter: what it makes of a filtered motion is not what the filter leaves of its force. So
+//! the model sees the motion as far as it is known, and its outputs go through the filter, as the measured ones did.
+
+use strut_signal::spectral::decimated;
+
+use super::{Drive, Dynamics, Follower, Linearised, Seed, Seen, Signals};
+
+/// Dynamics whose outputs are filtered where the drive says so.
+pub(super) struct Filtered(pub Box<dyn Dynamics>);
+
+impl Dynamics for Filtered {
+    fn outputs(&self, parameters: &[f64], start: &[f64], drive: &Drive) -> Signals {
+        let Some(fine) = drive.at_each_value() else { return self.0.outputs(parameters, start, drive) };
+        thinned(&self.0.outputs(parameters, start, &fine), drive)
+    }
+
+    fn linearised(
+        &self,
+        parameters: &[f64],
+        start: &[f64],
+        drive: &Drive,
+        seeds: &[Seed],
+        wanted: &[usize],
+    ) -> Linearised {
+        let Some(fine) = drive.at_each_value() else {
+            return self.0.linearised(parameters, start, drive, seeds, wanted);
+        };
+        let Linearised { outputs, slopes } = self.0.linearised(parameters, start, &fine, seeds, wanted);
+        Linearised {
+            outputs: thinned(&outputs, drive),
+            slopes: slopes.iter().map(|it| thinned(it, drive)).collect(),
+        }
+    }
+
+    /// The filter looks ahead: the model goes its own way, whatever the follower replaces, and its states have no slopes.
+    fn followed(
+        &self,
+        parameters: &[f64],
+        start: &[f64],
+        drive: &Drive,
+        (seeds, wanted): (&[Seed], &[usize]),
+        follower: &mut dyn Follower,
+    ) {
+        let Some(fine) = drive.at_each_value() else {
+            return self.0.followed(parameters, start, drive, (seeds, wanted), follower);
+        };
+        let mut way = Way {
+            every: drive.finer,
+            outputs: vec![Vec::new(); wanted.len()],
+            slopes: vec![Vec::new(); wanted.len() * seeds.len()],
+            states: Vec::new(),
+            rates: Vec::new(),
+        };
+        self.0.followed(parameters, start, &fine, (seeds, wanted), &mut way);
+        let (outputs, mut slopes) = (thinned(&way.outputs, drive), thinned(&way.slopes, drive));
+        for (number, _) in seeds.iter().enumerate().filter(|(_, seed)| matches!(seed, Seed::State(_))) {
+            slopes.iter_mut().skip(number).step_by(seeds.len()).for_each(|it| it.fill(0.0));
+        }
+        let at = |signals: &Signals, sample: usize| signals.iter().map(|it| it[sample]).collect::<Vec<_>>();
+        let still = vec![0.0; start.len() * seeds.len()];
+        for (sample, (own, rates)) in way.states.iter().zip(&way.rates).enumerate() {
+            let mut state = own.clone();
+            follower.state(sample, &mut state);
+            let (outputs, slopes) = (at(&outputs, sample), at(&slopes, sample));
+            follower.seen(sample, Seen { outputs: &outputs, slopes: &slopes, rates }, &mut state);
+            if let Some(next) = way.states.get(sample + 1) {
+                follower.advanced(sample, next, &still);
+            }
+        }
+    }
+
+    fn check(&self, parameters: &[f64]) -> Result<(), String> {
+        self.0.check(parameters)
+    }
+}
+
+fn thinned(signals: &Signals, drive: &Drive) -> Signals {
+    signals.iter().map(|it| decimated(it, drive.finer)).collect()
+}
+
+/// A model's own way: what it says at each value of its inputs, and its states at the samples.
+struct Way {
+    /// Values in a sample.
+    every: usize,
+    outputs: Signals,
+    /// Output by output, seed by seed.
+    slopes: Signals,
+    states: Vec<Vec<f64>>,
+    rates: Vec<Vec<f64>>,
+}
+
+impl Follower for Way {
+    fn state(&mut self, _: usize, _: &mut [f64]) {}
+
+    fn seen(&mut self, value: usize, Seen { outputs, slopes, rates }: Seen<'_>, state: &mut [f64]) {
+        let all = self.outputs.iter_mut().zip(outputs).chain(self.slopes.iter_mut().zip(slopes));
+        all.for_each(|(signal, now)| signal.push(*now));
+        if value.is_multiple_of(self.every) {
+            self.states.push(state.to_vec());
+            self.rates.push(rates.to_vec());
+        }
+    }
+
+    fn advanced(&mut self, _: usize, _: &[f64], _: &[f64]) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Between, Plant};
+    use strut_physics::rigs::LinearDrive;
+
+    /// A drive with sharp friction that is moved by 20 mm at 2 Hz, seen ten times in each of its samples.
+    fn moved(filtered: bool) -> (Plant, Vec<f64>, Drive) {
+        let plant = Plant::of::<LinearDrive>();
+        let mut parameters: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
+        for (name, value) in [("guide.coulomb.force", 30.0), ("guide.coulomb.velocity", 1e-3)] {
+            parameters[plant.parameter(name).unwrap()] = value;
+        }
+        let (step, finer, samples) = (0.02, 10, 200);
+        let wave = |order: i32| -> Vec<f64> {
+            let omega = std::f64::consts::TAU * 2.0;
+            let at = |k: usize| omega * step / finer as f64 * k as f64;
+            let of = |phase: f64| match order {
+                0 => phase.sin(),
+                1 => phase.cos(),
+                _ => -phase.sin(),
+            };
+            (0..=finer * (samples - 1)).map(|k| 0.02 * omega.powi(order) * of(at(k))).collect()
+        };
+        let inputs = plant.inputs.iter().map(|it| match it.name.as_str() {
+            "motion.position" => wave(0),
+            "motion.velocity" => wave(1),
+            "motion.acceleration" => wave(2),
+            _ => vec![0.0; finer * (samples - 1) + 1],
+        });
+        let drive =
+            Drive { start: 0.0, step, inputs: inputs.collect(), finer, between: Between::Curves, filtered };
+        (plant, parameters, drive)
+    }
+
+    #[test]
+    fn filtered_outputs_are_what_a_filter_leaves_of_them() {
+        let (plant, parameters, drive) = moved(true);
+        let start: Vec<f64> = plant.states.iter().map(|it| it.start).collect();
+        let dynamics = plant.prepare(&inverse(&plant)).unwrap();
+        let force = plant.output("motor.force").unwrap();
+        let found = &dynamics.outputs(&parameters, &start, &drive)[force];
+        let fine = drive.at_each_value().unwrap();
+        assert_eq!((fine.len(), drive.len(), found.len()), (1991, 200, 200));
+        let whole = &dynamics.outputs(&parameters, &start, &fine)[force];
+        assert_eq!(*found, decimated(whole, 10));
+        // Sharp friction is steeper than the filter lets through.
+        let plain = &dynamics.outputs(&parameters, &start, &moved(false).2)[force];
+        let apart = found.iter().zip(plain).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart > 3.0, "{apart}");
+    }
+
+    /// The derivative by a parameter is that of the filtered outputs, along the way and sample by sample.
+    #[test]
+    fn slopes_are_those_of_the_filtered_outputs() {
+        struct Seens(Vec<[f64; 2]>);
+        impl Follower for Seens {
+            fn state(&mut self, _: usize, _: &mut [f64]) {}
+            fn seen(&mut self, _: usize, seen: Seen<'_>, _: &mut [f64]) {
+                self.0.push([seen.outputs[0], seen.slopes[0]]);
+            }
+            fn advanced(&mut self, _: usize, _: &[f64], _: &[f64]) {}
+        }
+        let (plant, mut parameters, drive) = moved(true);
+        let start: Vec<f64> = plant.states.iter().map(|it| it.start).collect();
+        let dynamics = plant.prepare(&inverse(&plant)).unwrap();
+        let force = plant.output("motor.force").unwrap();
+        let coulomb = plant.parameter("guide.coulomb.force").unwrap();
+        let seeds = [Seed::Parameter(coulomb)];
+        let linear = dynamics.linearised(&parameters, &start, &drive, &seeds, &[force]);
+        let mut seens = Seens(Vec::new());
+        dynamics.followed(&parameters, &start, &drive, (&seeds, &[force]), &mut seens);
+        let before = dynamics.outputs(&parameters, &start, &drive).swap_remove(force);
+        parameters[coulomb] += 1.0;
+        let after = dynamics.outputs(&parameters, &start, &drive).swap_remove(force);
+        for (k, [output, slope]) in seens.0.iter().enumerate() {
+            assert!((output - before[k]).abs() < 1e-9, "{k}");
+            assert!((linear.slopes[0][0][k] - slope).abs() < 1e-9, "{k}");
+            // The law is linear in its force.
+            assert!((after[k] - before[k] - slope).abs() < 1e-6, "{k}: {slope}");
+        }
+        assert_eq!(seens.0.len(), drive.len());
+    }
+
+    /// The choices with which the motion drives the model.
+    fn inverse(plant: &Plant) -> Vec<Value> {
+        let drive = plant.setting("drive").unwrap();
+        let mut choices = plant.choices.clone();
+        choices[drive] = Value::Text("motion".into());
+        choices
+    }
+}
