@@ -82,7 +82,14 @@ fn seen(rig: &Rig, seed: u64, changes: &[(&str, f64)], push: f64, sensors: &[&st
         "road.velocity" => velocity.clone(),
         _ => force.clone(),
     });
-    let drive = Drive { start: 0.0, step: STEP, inputs: raw.collect(), finer: 1, between: Between::Lines, filtered: false };
+    let drive = Drive {
+        start: 0.0,
+        step: STEP,
+        inputs: raw.collect(),
+        finer: 1,
+        between: Between::Lines,
+        filtered: false,
+    };
     let dynamics = rig.plant.prepare(&rig.choices).unwrap();
     let start = vec![0.0; rig.plant.states.len()];
     let outputs = dynamics.outputs(&parameters, &start, &drive);

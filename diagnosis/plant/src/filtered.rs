@@ -110,6 +110,7 @@ impl Follower for Way {
 mod tests {
     use super::*;
     use crate::{Between, Plant};
+    use strut_model::Value;
     use strut_physics::rigs::LinearDrive;
 
     /// A drive with sharp friction that is moved by 20 mm at 2 Hz, seen ten times in each of its samples.

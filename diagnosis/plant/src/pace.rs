@@ -181,7 +181,8 @@ mod tests {
         let wave = |k: usize, frequency: f64| (std::f64::consts::TAU * frequency * k as f64 * STEP).sin();
         inputs[plant.input("road.position").unwrap()] =
             (0..SAMPLES).map(|k| 0.02 * wave(k, 1.7) + 0.003 * wave(k, 7.1)).collect();
-        let drive = Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines, filtered: false };
+        let drive =
+            Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines, filtered: false };
         let rest = |_| 0.0;
         let mut run =
             Run::new(&model, &parameters, Bundle::from_fn(|i| parameters[i]), Bundle::from_fn(rest), &drive);

@@ -2,8 +2,9 @@
 //!
 //! A road that is measured with noise would shake the simulated tyre with it: noise of 50 µm is 8 N at 150 N/mm. Each
 //! measured input is therefore passed through Wiener's filter without phase, made from the signal's own spectrum and
-//! the level of its noise. Above some 400 samples a second the records of suspensions hold noise only; they are thinned
-//! to that, behind a filter without phase, the same for every signal. The inputs then have nothing above four fifths of half
+//! the level of its noise. Above some 1000 samples a second the records of suspensions hold noise only; they are thinned
+//! to that, behind a filter without phase, the same for every signal. (At 400, what is left out of a wheel's acceleration where
+//! friction turns over, and what a simulation has of it, made a damper's orifice 1 % too large.) The inputs then have nothing above four fifths of half
 //! the sampling rate, and what they were between the samples follows from these.
 
 use std::ops::Range;
@@ -17,7 +18,7 @@ use crate::signal::random::with_noise;
 use crate::signal::spectral::{Complex, FINER, KEPT, about_line, decimated, filled, refined};
 
 /// Samples a second that are enough.
-const ENOUGH: f64 = 400.0;
+const ENOUGH: f64 = 1000.0;
 /// Samples of a signal whose spectrum tells noise from it, at least.
 const SHORTEST: usize = 16;
 /// New periods over which the filter spreads a sample.
@@ -229,8 +230,12 @@ mod tests {
         let noisy: Vec<f64> = white.iter().enumerate().map(|(k, noise)| signal(k) + 0.01 * noise).collect();
         let rms =
             |values: &[f64]| (values.iter().map(|it| it * it).sum::<f64>() / values.len() as f64).sqrt();
-        let kept: Vec<f64> =
-            filter(0.01, 2).filtered(&noisy).iter().enumerate().map(|(k, value)| value - signal(2 * k)).collect();
+        let kept: Vec<f64> = filter(0.01, 2)
+            .filtered(&noisy)
+            .iter()
+            .enumerate()
+            .map(|(k, value)| value - signal(2 * k))
+            .collect();
         let drawn = filter(0.01, 2).error(&noisy, 3);
         assert_eq!(drawn.len(), kept.len());
         let ratio = rms(&drawn) / rms(&kept);

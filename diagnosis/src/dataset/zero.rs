@@ -60,7 +60,8 @@ pub fn zeroed(rig: &Rig, records: &mut [Dataset]) -> Vec<DataProblem> {
 /// Outputs that are motions, are no states that start where they are, and are zero where the model rests.
 fn counting_from_equilibrium(rig: &Rig, dynamics: &dyn Dynamics) -> Vec<usize> {
     let still = rig.plant.inputs.iter().map(|it| vec![it.start; 2]).collect();
-    let drive = Drive { start: 0.0, step: STEP, inputs: still, finer: 1, between: Between::Lines, filtered: false };
+    let drive =
+        Drive { start: 0.0, step: STEP, inputs: still, finer: 1, between: Between::Lines, filtered: false };
     let resting = dynamics.outputs(&rig.parameters, &rig.start, &drive);
     let counts = |index: usize| {
         let declared = &rig.plant.outputs[index];

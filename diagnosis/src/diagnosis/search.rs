@@ -191,7 +191,9 @@ impl Baseline<'_> {
                 Choice::Nothing => return Ok(Next::Nothing),
                 Choice::Unmodelled(score) => {
                     curve = Some(score);
-                    (likely(&names, &score), CRITERIA.fitted * score.share)
+                    // A fit shows what a simulation would: features may explain each sample's innovation, and little of that.
+                    let simulated = self.reduction((missing, compared), score);
+                    (likely(&names, &score), CRITERIA.fitted * score.share.min(simulated))
                 }
                 Choice::Named(scores) => (scores, 0.0),
             };

@@ -177,9 +177,11 @@ pub fn features(
             let late = LAGS.iter().flat_map(|lag| {
                 let follow = |window: &Window| match (column(window), *lag) {
                     (now, 0.0) => now.to_vec(),
-                    (now, lag) => {
-                        followed(now, lag, window.step).iter().zip(now).map(|(late, now)| late - now).collect()
-                    }
+                    (now, lag) => followed(now, lag, window.step)
+                        .iter()
+                        .zip(now)
+                        .map(|(late, now)| late - now)
+                        .collect(),
                 };
                 let c: Vec<Vec<f64>> = windows.iter().map(follow).collect();
                 let of = |f: &dyn Fn(f64) -> f64| -> Vec<Vec<f64>> {

@@ -70,8 +70,14 @@ fn an_event_before_the_beginning_of_a_segment_has_happened() {
     let (parameters, locals, beside) = (vec!["c".into()], Vec::new(), Vec::new());
     let plant = Foreign { fmu: folder.path().join("relay.fmu"), parameters, locals, beside }.plant().unwrap();
     let dynamics = plant.prepare(&plant.choices).unwrap();
-    let drive =
-        Drive { start: 1.0, step: STEP, inputs: vec![vec![0.0; 3]], finer: 1, between: Between::Lines, filtered: false };
+    let drive = Drive {
+        start: 1.0,
+        step: STEP,
+        inputs: vec![vec![0.0; 3]],
+        finer: 1,
+        between: Between::Lines,
+        filtered: false,
+    };
     let found = &dynamics.outputs(&[SLOPE], &[0.0, 0.0], &drive)[0];
     let wanted = [0.0, 2.0, 2.0 * 2.0].map(|steps: f64| relay(SLOPE * steps * STEP).0);
     assert!(found.iter().zip(wanted).all(|(found, it)| (found - it).abs() < 1e-9), "{found:?}");

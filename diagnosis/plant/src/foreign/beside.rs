@@ -258,7 +258,8 @@ impl Attached {
             let inputs = Declarations::of::<<ElementDyno as Model>::Input<f64>>();
             let moved = |it: &Declaration| vec![if it.name == "motion.velocity" { velocity } else { 0.0 }];
             let inputs = inputs.iter().map(moved).collect();
-            let drive = Drive { start: 0.0, step: 1.0, inputs, finer: 1, between: Between::Lines, filtered: false };
+            let drive =
+                Drive { start: 0.0, step: 1.0, inputs, finer: 1, between: Between::Lines, filtered: false };
             rates(&self.model, &parameters, &drive, &Declarations::of::<State>())[0]
         });
         Laws { derived: self.model.derive(&parameters), parameters, forgets }

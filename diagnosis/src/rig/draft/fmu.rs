@@ -82,7 +82,8 @@ fn moved(plant: &Plant) -> Result<BTreeMap<usize, Vec<f64>>, String> {
         let level =
             |index: usize| plant.inputs[index].start + if stepped == Some(index) { STEP } else { 0.0 };
         let inputs = (0..plant.inputs.len()).map(|index| vec![level(index); MOMENT + 1]).collect();
-        let drive = Drive { start: 0.0, step: 1e-3, inputs, finer: 1, between: Between::Lines, filtered: false };
+        let drive =
+            Drive { start: 0.0, step: 1e-3, inputs, finer: 1, between: Between::Lines, filtered: false };
         let signals = dynamics.outputs(&parameters, &start, &drive);
         signals.iter().map(|signal| signal.last().copied()).collect()
     };

@@ -183,7 +183,8 @@ mod tests {
         };
         let (road, force) = (wave(2e-3, [9.0, 31.0, 53.0]), wave(40.0, [5.0, 17.0, 43.0]));
         let inputs = vec![road.clone(), derivative(&road, STEP), force.clone()];
-        let drive = Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines, filtered: false };
+        let drive =
+            Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines, filtered: false };
         let outputs = rig.plant.prepare(&rig.choices).unwrap().outputs(&parameters, &rig.start, &drive);
         let measured = MEASURED.map(|name| {
             let output = rig.plant.output(name).unwrap();
