@@ -158,6 +158,7 @@ mod tests {
             inputs: vec![road.clone(), road_velocity, force.clone()],
             finer: 1,
             between,
+            filtered: false,
         };
         let names: Vec<&str> = rig.plant.inputs.iter().map(|it| it.name.as_str()).collect();
         assert_eq!(names, ["road.position", "road.velocity", "actuator.force"]);
@@ -172,6 +173,7 @@ mod tests {
             inputs: vec![negative(signal(name)), rate],
             finer: 1,
             between,
+            filtered: false,
         };
         let strut = laws.strut(&moved("suspension.deflection", negative(signal("suspension.velocity"))));
         let tire =
