@@ -112,6 +112,7 @@ mod tests {
     use crate::{Between, Plant};
     use strut_model::Value;
     use strut_physics::rigs::LinearDrive;
+    use strut_physics::rigs::linear_drive::Drive as Drives;
 
     /// A drive with sharp friction that is moved by 20 mm at 2 Hz, seen ten times in each of its samples.
     fn moved(filtered: bool) -> (Plant, Vec<f64>, Drive) {
@@ -195,7 +196,7 @@ mod tests {
     fn inverse(plant: &Plant) -> Vec<Value> {
         let drive = plant.setting("drive").unwrap();
         let mut choices = plant.choices.clone();
-        choices[drive] = Value::Text("motion".into());
+        choices[drive] = Value::Integer(Drives::Motion as i32);
         choices
     }
 }
