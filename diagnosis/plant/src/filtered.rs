@@ -110,9 +110,8 @@ impl Follower for Way {
 mod tests {
     use super::*;
     use crate::{Between, Plant};
-    use strut_model::Value;
+    use strut_model::{SettingKind, Value};
     use strut_physics::rigs::LinearDrive;
-    use strut_physics::rigs::linear_drive::Drive as Drives;
 
     /// A drive with sharp friction that is moved by 20 mm at 2 Hz, seen ten times in each of its samples.
     fn moved(filtered: bool) -> (Plant, Vec<f64>, Drive) {
@@ -196,7 +195,9 @@ mod tests {
     fn inverse(plant: &Plant) -> Vec<Value> {
         let drive = plant.setting("drive").unwrap();
         let mut choices = plant.choices.clone();
-        choices[drive] = Value::Integer(Drives::Motion as i32);
+        let SettingKind::Choice(of) = plant.settings[drive].kind else { panic!("it has no items") };
+        let motion = (1..).zip(of.items).find(|(_, (item, _))| *item == "Motion");
+        choices[drive] = Value::Integer(motion.unwrap().0);
         choices
     }
 }
