@@ -3,7 +3,7 @@
 use crate::catalogue::naming::{name, prevalence};
 use crate::catalogue::{Element, Prevalence};
 use crate::dataset::recorded::Dataset;
-use crate::decision::account::account;
+use crate::decision::account::{Account, account};
 use crate::decision::evidence::{Evidence, Left};
 use crate::diagnosis::component::Component;
 use crate::estimation::comparison::{Errors, Student, student};
@@ -125,11 +125,20 @@ impl Baseline<'_> {
     /// Whether these errors on the validation records leave the account of some signal open. What every rig has a little of leaves
     /// it closed: where it is open, no more is asked of it than of any effect.
     pub(crate) fn is_open(&self, left: &Residuals) -> bool {
-        let open = |(row, power): (usize, f64)| {
+        self.is_any(left, Account::is_open)
+    }
+
+    /// Whether they leave something that is told, in an open account or a closed one.
+    pub(crate) fn leaves_something(&self, left: &Residuals) -> bool {
+        self.is_any(left, Account::shows)
+    }
+
+    fn is_any(&self, left: &Residuals, what: fn(&Account, f64) -> bool) -> bool {
+        let is = |(row, power): (usize, f64)| {
             let noise = self.floor[row].powi(2);
-            account(power, power, &[], noise, 0.0).is_open(self.signal(row))
+            what(&account(power, power, &[], noise, 0.0), self.signal(row))
         };
-        self.uses(Component::Account) && self.errors(left).mean_squares().into_iter().enumerate().any(open)
+        self.uses(Component::Account) && self.errors(left).mean_squares().into_iter().enumerate().any(is)
     }
 
     /// Whether an effect could matter that takes a share of a fit's error power, but for the noise: on both kinds of records, in some

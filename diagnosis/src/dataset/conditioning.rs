@@ -2,9 +2,8 @@
 //!
 //! A road that is measured with noise would shake the simulated tyre with it: noise of 50 µm is 8 N at 150 N/mm. Each
 //! measured input is therefore passed through Wiener's filter without phase, made from the signal's own spectrum and
-//! the level of its noise. Above some 1000 samples a second the records of suspensions hold noise only; they are thinned
-//! to that, behind a filter without phase, the same for every signal. (At 400, what is left out of a wheel's acceleration where
-//! friction turns over, and what a simulation has of it, made a damper's orifice 1 % too large.) The inputs then have nothing above four fifths of half
+//! the level of its noise. Above some 400 samples a second the records of suspensions hold noise only; they are thinned
+//! to that, behind a filter without phase, the same for every signal. The inputs then have nothing above four fifths of half
 //! the sampling rate, and what they were between the samples follows from these.
 
 use std::ops::Range;
@@ -18,7 +17,7 @@ use crate::signal::random::with_noise;
 use crate::signal::spectral::{Complex, FINER, KEPT, about_line, decimated, filled, refined};
 
 /// Samples a second that are enough.
-const ENOUGH: f64 = 1000.0;
+const ENOUGH: f64 = 400.0;
 /// Samples of a signal whose spectrum tells noise from it, at least.
 const SHORTEST: usize = 16;
 /// New periods over which the filter spreads a sample.

@@ -47,8 +47,17 @@ pub fn account(start: f64, fitted: f64, effects: &[f64], noise: f64, unmodelled:
 impl Account {
     /// Whether a signal of this mean square misses more than its noise and what is worth a sentence.
     pub fn is_open(&self, signal: f64) -> bool {
+        self.exceeds(CRITERIA.visible, signal)
+    }
+
+    /// Whether it misses more than its noise and what shows in a plot: that is told of an account that is not open, too.
+    pub fn shows(&self, signal: f64) -> bool {
+        self.exceeds(CRITERIA.improvement, signal)
+    }
+
+    fn exceeds(&self, share: f64, signal: f64) -> bool {
         let left = self.unexplained + self.unmodelled;
-        left > (CRITERIA.above_noise.powi(2) - 1.0) * self.noise && left > CRITERIA.visible.powi(2) * signal
+        left > (CRITERIA.above_noise.powi(2) - 1.0) * self.noise && left > share.powi(2) * signal
     }
 }
 

@@ -197,11 +197,11 @@ impl Baseline<'_> {
                 }
                 Choice::Named(scores) => (scores, 0.0),
             };
-            // Where all accounts are closed, a fit is not worth its time that promises nothing visible. Where one is open, a share of
+            // Where nothing is left to be told, a fit is not worth its time that promises nothing visible. Where something is, a share of
             // the innovations says little: a nominal parameter may have taken the effect's place. A rough shape promises less than
             // its fit holds.
-            let open = self.is_open(&found.extended.test);
-            let share = |it: &Score| if open { 1.0 } else { it.share / CRITERIA.rough };
+            let left = self.leaves_something(&found.extended.test);
+            let share = |it: &Score| if left { 1.0 } else { it.share / CRITERIA.rough };
             let (base, null) = (&found.base, &found.extended);
             if scores.first().is_none_or(|it| !self.may_matter(base, null, share(it))) {
                 return Ok(curve.map_or(Next::Nothing, Next::Curve));

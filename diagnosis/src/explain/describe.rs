@@ -10,13 +10,15 @@ use crate::missing::ports::{Entry, Port};
 use crate::missing::trajectory::Window;
 use crate::plant::{Plant, Signals};
 use crate::report::words::digits;
-use crate::signal::spectral::line;
+use crate::signal::spectral::{line, periodogram};
 
 use super::features::{AGEING, Group, RESONANCES, features};
 use super::selection::Compared;
 
 /// Kurtosis beyond which a signal comes in bursts: ten percent of the time hold all of it.
 const BURSTS: f64 = 8.0;
+/// Share of a signal's power on either side of the band that is told of it.
+const ASIDE: f64 = 0.1;
 /// Samples of a missing signal that are shown.
 const SHOWN: usize = 1500;
 
@@ -43,6 +45,8 @@ pub struct Unmodelled {
     pub amount: Option<f64>,
     /// Frequency in Hz where it has one.
     pub frequency: Option<f64>,
+    /// From where to where in Hz it has most of its power, where that is all that can be said.
+    pub band: Option<[f64; 2]>,
     /// The curve that the model has got in its place.
     pub curve: Option<Term>,
 }
@@ -77,6 +81,7 @@ impl Unmodelled {
                 Group::Resonance(number) => Some(RESONANCES[number]),
                 _ => None,
             },
+            band: None,
             curve: None,
         })
     }
@@ -99,11 +104,12 @@ impl Unmodelled {
             improvement,
             amount: None,
             frequency: None,
+            band: None,
             curve: Some(term),
         }
     }
 
-    /// What follows nothing that was recorded, at its likeliest place: bursts, a line, or neither.
+    /// What follows nothing that was recorded, at its likeliest place: a line, bursts, or a band.
     ///
     /// It is described and not explained: nothing predicts it, so that its shares are zero.
     pub fn remainder(missing: &Missing<'_>, location: &Location, port: usize) -> Self {
@@ -112,9 +118,10 @@ impl Unmodelled {
         let signals: Vec<(f64, Vec<f64>)> =
             train.map(|window| (window.step, signal(missing, location, port, window).0)).collect();
         let frequency = line(&signals);
+        let in_bursts = frequency.is_none() && kurtosis(&signals) > BURSTS;
         let depends_on = match frequency {
             Some(_) => vec!["time".to_owned()],
-            None if kurtosis(&signals) > BURSTS => vec!["bursts".to_owned()],
+            None if in_bursts => vec!["bursts".to_owned()],
             None => Vec::new(),
         };
         Self {
@@ -128,6 +135,7 @@ impl Unmodelled {
             improvement: 0.0,
             amount: None,
             frequency,
+            band: band(&signals).filter(|_| frequency.is_none() && !in_bursts),
             curve: None,
         }
     }
@@ -163,7 +171,13 @@ impl Unmodelled {
                 )
             }
             ([motion, "time"], _) => format!("a signal that follows the {motion} and changes with time"),
-            ([], _) => "a signal that no recorded signal explains".to_owned(),
+            ([], _) => match self.band {
+                Some([low, high]) => {
+                    let (low, high) = (digits(low, 2), digits(high, 2));
+                    format!("a signal between {low} and {high} Hz that no recorded signal explains")
+                }
+                None => "a signal that no recorded signal explains".to_owned(),
+            },
             (words, _) => format!("a signal that follows the {}", words.join(" and the ")),
         };
         format!("{what} {} {}", self.at, self.place)
@@ -313,6 +327,27 @@ fn kurtosis(signals: &[(f64, Vec<f64>)]) -> f64 {
     if two > 0.0 { four * count / (two * two) } else { 0.0 }
 }
 
+/// From where to where in Hz signals have four fifths of their power, a tenth on either side aside; none where they have none.
+fn band(signals: &[(f64, Vec<f64>)]) -> Option<[f64; 2]> {
+    let mut bins: Vec<(f64, f64)> = Vec::new();
+    for (step, values) in signals {
+        let resolution = 1.0 / (step * values.len() as f64);
+        let powers = periodogram(values).into_iter().enumerate();
+        bins.extend(powers.map(|(bin, power)| (resolution * bin as f64, power)));
+    }
+    bins.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    let total: f64 = bins.iter().map(|(_, power)| power).sum();
+    let below = |share: f64| {
+        let mut sum = 0.0;
+        let mut powers = bins.iter().map(|(frequency, power)| {
+            sum += power;
+            (*frequency, sum)
+        });
+        powers.find(|(_, sum)| *sum > share * total).map(|(frequency, _)| frequency)
+    };
+    Some([below(ASIDE)?, below(1.0 - ASIDE)?])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -335,6 +370,7 @@ mod tests {
                 improvement: 0.0,
                 amount: None,
                 frequency: None,
+                band: None,
                 curve: None,
             };
             it.description()
@@ -342,6 +378,16 @@ mod tests {
         assert_eq!(of(&["time"]), "a signal that changes with time at the strut");
         let told = "a signal that follows the deflection and changes with time at the strut";
         assert_eq!(of(&["deflection", "time"]), told);
+    }
+
+    #[test]
+    fn a_band_holds_most_of_the_power() {
+        let tau = 2.0 * std::f64::consts::PI;
+        // As much power at 5, 6, … 14 Hz.
+        let of = |t: f64| (5..15).map(|k| (tau * f64::from(k) * t + f64::from(k * k)).sin()).sum();
+        let [low, high] = band(&signal(of)).unwrap();
+        assert!((low - 5.5).abs() < 0.6 && (high - 13.5).abs() < 0.6, "{low} {high}");
+        assert_eq!(band(&signal(|_| 0.0)), None);
     }
 
     #[test]

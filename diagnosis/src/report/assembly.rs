@@ -31,7 +31,7 @@ use crate::report::findings::{
     Answer, Candidate, Effect, EffectParameter, FORMAT, Findings, FittedValue, NominalParameter, Signal,
     SignalDistortion, Start,
 };
-use crate::report::words::located;
+use crate::report::words::{located, small_rest};
 use crate::signal::distortion::{AFTER, Correction, Fault};
 
 /// Fit of the best signal on validation data below which a model that drifts has lost what was measured: its errors are of what happened long before.
@@ -56,19 +56,17 @@ impl Diagnosis<'_> {
         let nominal_parameters = self.nominal_parameters(&signals);
         let named: Vec<&Accepted> = self.found.accepted.iter().filter(|it| !has_no_name(it.term)).collect();
         let effects: Vec<Effect> = named.iter().map(|it| self.effect(it)).collect();
-        let mut unmodelled = self.unmodelled();
+        let unmodelled = self.unmodelled();
         // The account is of the validation records; a curve in the model is among its effects.
         let described = unmodelled.iter().find(|it| it.curve.is_none());
         let account = self.account(described.map_or(0.0, |it| it.share.min(it.validation_share)));
-        // What follows nothing is worth a word where a signal misses more than its noise.
         let open = account.iter().any(|it| it.open);
-        unmodelled.retain(|it| open || it.validation_share > 0.0);
         let verdict = verdict(Facts {
             best_fit: self.best(),
             effects: effects.len(),
             ambiguous: effects.iter().any(|effect| !effect.ambiguous_with.is_empty()),
             sensors: !effects.is_empty() && named.iter().all(|it| name(it.term, &baseline.rig.plant).sensor),
-            unmodelled: unmodelled.first().map_or(0.0, |it| it.share.min(it.validation_share)),
+            unmodelled: unmodelled.iter().map(|it| it.share.min(it.validation_share)).fold(0.0, f64::max),
             unmodelled_first: self.found.accepted.first().is_none_or(|it| has_no_name(it.term)),
             mismatch: nominal_parameters.iter().any(|it| it.mismatch),
             open,
@@ -101,6 +99,9 @@ impl Diagnosis<'_> {
             seconds,
             provenance: None,
         };
+        // What follows nothing is worth a word where a signal misses more than its noise.
+        let is_told = open || small_rest(&findings).is_some();
+        findings.unmodelled.retain(|it| is_told || it.validation_share > 0.0);
         findings.summary = summary::of(&findings);
         findings
     }

@@ -287,6 +287,8 @@ pub struct Unmodelled {
     pub improvement: f64,
     /// Frequency in Hz where it has one.
     pub frequency: Option<f64>,
+    /// From where to where in Hz a signal that nothing explains has four fifths of its power.
+    pub band: Option<[f64; 2]>,
     /// One sentence.
     pub description: String,
     /// Its curve, where it is one.

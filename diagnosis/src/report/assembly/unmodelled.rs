@@ -47,6 +47,7 @@ impl Diagnosis<'_> {
                 validation_share: it.validated,
                 improvement: it.improvement,
                 frequency: it.frequency,
+                band: it.band,
                 description: it.description(),
                 curve,
             }

@@ -167,6 +167,7 @@ pub fn unmodelled(curve: Option<Curve>) -> Unmodelled {
         validation_share: 0.81,
         improvement: 0.21,
         frequency: None,
+        band: None,
         description:
             "a signal that follows the velocity and the deflection at the strut (88 % of what is missing \
                       there)"
