@@ -58,6 +58,11 @@ pub fn choose(misses: f64, named: &[Score], features: &[Score]) -> Choice {
     }
 }
 
+/// Whether a candidate explains more of the estimation records than what every rig has a little of.
+pub fn is_large(score: &Score) -> bool {
+    score.share >= CRITERIA.background_share
+}
+
 /// The one that explains most, of those that the validation records show, too.
 pub fn best_of(all: &[Score]) -> Option<Score> {
     let holds = all.iter().filter(|it| it.is_confirmed()).copied();

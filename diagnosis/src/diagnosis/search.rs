@@ -3,7 +3,7 @@
 use crate::catalogue::Prevalence;
 use crate::catalogue::naming::prevalence;
 use crate::confirm::{Confirmed, Tried, contains_by_name};
-use crate::decision::choice::{Choice, Score, best_of, by_share, choose, likely};
+use crate::decision::choice::{Choice, Score, best_of, by_share, choose, is_large, likely};
 use crate::decision::criteria::CRITERIA;
 use crate::decision::description::place_of_rest;
 use crate::estimation::deadline::Stage;
@@ -186,8 +186,16 @@ impl Baseline<'_> {
         let mut names = compared.named.clone();
         let mut features = compared.features.clone();
         let mut curve = None;
+        let left = self.leaves_something(&found.extended.test);
         for _ in 0..ATTEMPTS {
-            let (scores, least) = match choose(compared.misses, &names, &features) {
+            let choice = choose(compared.misses, &names, &features);
+            let is_last_resort = choice == Choice::Nothing;
+            let (scores, least) = match choice {
+                // Amounts by innovations may not hold on other data beside an effect that is in the model only nearly as it is: as long
+                // as something is left to be told, fits say whether a name has it.
+                Choice::Nothing if left => {
+                    (by_share(names.iter().filter(|it| is_large(it)).copied().collect()), 0.0)
+                }
                 Choice::Nothing => return Ok(Next::Nothing),
                 Choice::Unmodelled(score) => {
                     curve = Some(score);
@@ -200,7 +208,6 @@ impl Baseline<'_> {
             // Where nothing is left to be told, a fit is not worth its time that promises nothing visible. Where something is, a share of
             // the innovations says little: a nominal parameter may have taken the effect's place. A rough shape promises less than
             // its fit holds.
-            let left = self.leaves_something(&found.extended.test);
             let share = |it: &Score| if left { 1.0 } else { it.share / CRITERIA.rough };
             let (base, null) = (&found.base, &found.extended);
             if scores.first().is_none_or(|it| !self.may_matter(base, null, share(it))) {
@@ -241,6 +248,9 @@ impl Baseline<'_> {
             }
             if let Some(score) = curve {
                 return Ok(Next::Curve(score));
+            }
+            if is_last_resort {
+                return Ok(Next::Nothing);
             }
             // Where refused laws reduce a simulation's errors nearly as much as features do, nothing is unmodelled.
             let own = |it: &&Tried| scores.iter().any(|score| compared.is_of(score, it.term));
