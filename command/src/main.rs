@@ -128,7 +128,14 @@ fn variables(folder: &Path, check: bool) -> Result<(), String> {
     let pages = build_fmu::variables(&build_fmu::strut())?;
     let there = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let there = there.filter_map(|entry| entry.file_name().into_string().ok());
-    let gone: Vec<String> = there.filter(|name| !pages.iter().any(|(page, _)| page == name)).collect();
+    // Of what else is there, only earlier pages are touched.
+    let mark = |text: &str| text.lines().next().map(str::to_owned);
+    let own = pages.first().and_then(|(_, text)| mark(text));
+    let is_gone = |name: &String| {
+        let is_page = || std::fs::read_to_string(folder.join(name)).is_ok_and(|text| mark(&text) == own);
+        !pages.iter().any(|(page, _)| page == name) && is_page()
+    };
+    let gone: Vec<String> = there.filter(is_gone).collect();
     if check {
         let is_same = |(name, text): &&(String, String)| {
             std::fs::read_to_string(folder.join(name)).is_ok_and(|it| it == *text)
@@ -148,8 +155,8 @@ fn variables(folder: &Path, check: bool) -> Result<(), String> {
     }
     let failed = |error: std::io::Error| format!("cannot write into {}: {error}", folder.display());
     std::fs::create_dir_all(folder).map_err(failed)?;
-    gone.iter().try_for_each(|name| std::fs::remove_file(folder.join(name))).map_err(failed)?;
-    pages.iter().try_for_each(|(name, text)| std::fs::write(folder.join(name), text)).map_err(failed)
+    pages.iter().try_for_each(|(name, text)| std::fs::write(folder.join(name), text)).map_err(failed)?;
+    gone.iter().try_for_each(|name| std::fs::remove_file(folder.join(name))).map_err(failed)
 }
 
 fn chapter(page: &mut String, command: &clap::Command, path: &str) {

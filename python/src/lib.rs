@@ -17,6 +17,7 @@ use pyo3::types::PyBytes;
 use strut_diagnosis::app::study::{self, Outcome, Progress, Study};
 use strut_diagnosis::app::virtual_rig::{self, Experiment};
 use strut_diagnosis::data::map::Map;
+use strut_diagnosis::data::table;
 use strut_diagnosis::estimation::deadline::Deadline;
 use strut_diagnosis::experiment::Limits;
 use strut_diagnosis::report;
@@ -158,6 +159,12 @@ fn virtual_records(
     Ok([train.map_err(wrong)?, test.map_err(wrong)?])
 }
 
+/// Whether a column of this name, without its unit, is the time.
+#[pyfunction]
+fn is_time(name: &str) -> bool {
+    table::is_time(name)
+}
+
 /// What a diagnosis found.
 #[pyclass(frozen, name = "Outcome")]
 struct PyOutcome(Outcome);
@@ -283,6 +290,7 @@ fn _strut(module: &Bound<'_, PyModule>) -> PyResult<()> {
         wrap_pyfunction!(check, module)?,
         wrap_pyfunction!(rigs, module)?,
         wrap_pyfunction!(rig, module)?,
+        wrap_pyfunction!(is_time, module)?,
         wrap_pyfunction!(virtual_records, module)?,
         wrap_pyfunction!(diagnose, module)?,
     ] {

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-TIME = {"t", "time", "timestamp", "timestamps", "time_s"}
+from strut import _strut
 
 
 class _Shown(pd.DataFrame):
@@ -30,7 +30,9 @@ def shown(frame: pd.DataFrame) -> pd.DataFrame:
 def columns(frame: Any, name: str) -> list[tuple[str, np.ndarray]]:
     """Title, with the unit in brackets if ``attrs["units"]`` has one, and values of each column.
 
-    A pandas index is the time if no column is, unless it only counts.
+    A pandas index is the time if no column is: one of dates, durations or floats, or with the name of a time.
+
+    :raises ValueError: If a column is not of numbers, or nothing is the time: row numbers are none.
     """
     if isinstance(frame, Mapping):
         found = [(str(title), values) for title, values in frame.items()]
@@ -39,10 +41,17 @@ def columns(frame: Any, name: str) -> list[tuple[str, np.ndarray]]:
     else:
         raise TypeError(f"{name}: neither a path nor a frame of pandas or polars, but a {type(frame).__name__}")
     units = getattr(frame, "attrs", {}).get("units", {})
-    timed = any(title.partition(" [")[0].lower() in TIME for title, _ in found)
-    index = getattr(frame, "index", None)
-    if not timed and index is not None and not isinstance(frame, Mapping) and type(index).__name__ != "RangeIndex":
-        found.insert(0, ("time [s]", index))
+    timed = any(_strut.is_time(title.partition(" [")[0]) for title, _ in found)
+    if not timed and isinstance(frame, pd.DataFrame):
+        index = frame.index
+        named = index.name is not None and _strut.is_time(str(index.name).partition(" [")[0])
+        if named or index.dtype.kind in "mMf":
+            found.insert(0, ("time [s]" if index.dtype.kind in "mM" or not named else str(index.name), index))
+        elif not isinstance(index, pd.RangeIndex):
+            raise ValueError(
+                f"{name}: no column is the time, and the index only counts rows. Name the time's column `time [s]`, or make it "
+                "the index and give that this name"
+            )
     return [
         (title if "[" in title or title not in units else f"{title} [{units[title]}]", _doubles(title, values, name))
         for title, values in found
@@ -50,6 +59,9 @@ def columns(frame: Any, name: str) -> list[tuple[str, np.ndarray]]:
 
 
 def _doubles(title: str, values: Any, name: str) -> np.ndarray:
+    if getattr(getattr(values, "dtype", None), "tz", None) is not None:
+        # The instants, whatever the clock on the wall shows.
+        values = pd.DatetimeIndex(values).tz_convert("UTC").tz_localize(None)
     array = np.asarray(values)
     if np.issubdtype(array.dtype, np.datetime64) or np.issubdtype(array.dtype, np.timedelta64):
         return np.asarray((array - array[0]) / np.timedelta64(1, "ns"), dtype=np.float64) * 1e-9

@@ -16,6 +16,7 @@ from conftest import RIG
 
 import strut
 from strut import _diagnosis
+from strut._frames import columns
 
 
 def test_a_hidden_friction_is_found(result):
@@ -61,6 +62,20 @@ def test_frames_and_files_are_the_same_records(records):
     ]
     for fit in fits[1:]:
         pd.testing.assert_frame_equal(fit, fits[0], rtol=1e-9)
+
+
+def test_the_time_is_found_and_row_numbers_are_none(records):
+    train, _ = records
+    plain = dict(columns(train, "train"))["time [s]"]
+    german = train.rename(columns={"time [s]": "Zeit [s]"})
+    title, values = columns(german[german["Zeit [s]"] > 1.0], "train")[0]
+    assert title == "Zeit [s]" and values[0] > 1.0
+    stamps = pd.Timestamp("2026-11-30", tz="Europe/Berlin") + pd.to_timedelta(train["time [s]"], unit="s")
+    for index in (pd.DatetimeIndex(stamps), pd.to_timedelta(train["time [s]"], unit="s")):
+        title, values = columns(train.drop(columns="time [s]").set_index(index), "train")[0]
+        assert title == "time [s]" and values == pytest.approx(plain - plain[0], abs=1e-6)
+    with pytest.raises(ValueError, match="only counts rows"):
+        columns(train.drop(columns="time [s]").drop(index=3), "train")
 
 
 @pytest.mark.parametrize(

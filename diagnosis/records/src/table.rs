@@ -19,7 +19,7 @@ const TIME_NAMES: [&str; 11] = [
 ];
 
 /// Whether a column of this name is the time.
-pub(crate) fn is_time(name: &str) -> bool {
+pub fn is_time(name: &str) -> bool {
     let name = units::split_suffix(name, "s").map_or(name, |(name, _)| name);
     TIME_NAMES.contains(&name.to_lowercase().as_str())
 }

@@ -78,6 +78,8 @@ impl Study {
     /// If the text is of another form, the rig fits no parameter of the name, or the value is out of its bounds.
     pub fn know(&mut self, text: &str) -> Result<(), String> {
         let known = known(&self.rig, text)?;
+        // What is said last counts, also instead of the rig file.
+        self.rig.known.retain(|(index, ..)| *index != known.0);
         self.rig.known.push(known);
         Ok(())
     }
@@ -180,6 +182,11 @@ impl Study {
 /// If neither is given, the file cannot be read, or the set does not fit the rig: what to do.
 pub fn rig(name: Option<&str>, parameters: Option<&Path>) -> Result<Rig, String> {
     let path = match (parameters, name) {
+        (Some(_), Some(file)) if file.ends_with(".toml") => {
+            return Err(format!(
+                "`{file}` is a rig file, which has its own parameters (`[values]`): leave --parameters out"
+            ));
+        }
         (Some(path), _) => path,
         (None, Some(file)) if file.ends_with(".toml") => return Rig::read(Path::new(file)),
         (None, Some(name)) => return Rig::published(name),

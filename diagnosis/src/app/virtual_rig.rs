@@ -29,6 +29,11 @@ pub struct Experiment {
     pub length: f64,
 }
 
+/// Parts of a second to which times are written down.
+const TICKS: f64 = 1e9;
+/// Largest size of a distortion: a delay of an hour in seconds; a gain of ten thousand times a sensor's is none.
+const LARGEST: f64 = 1e4;
+
 /// A signal and its distortion: `body.acceleration.gain`. Parameters of the model come first.
 fn distortion<'a>(rig: &Rig, name: &'a str) -> Option<(&'a str, Fault)> {
     let (signal, last) = name.rsplit_once('.').filter(|_| rig.plant.parameter(name).is_none())?;
@@ -46,7 +51,11 @@ pub fn hidden(rig: &Rig, text: &str) -> Result<(String, f64), String> {
     let wrong = || format!("{text}: write NAME=VALUE, as in strut.coulomb.force=60");
     let (name, value) = text.split_once('=').ok_or_else(wrong)?;
     let (name, value) = (name.trim(), value.trim().parse::<f64>().map_err(|_| wrong())?);
-    if distortion(rig, name).is_some() && value.is_finite() {
+    if let Some((_, fault)) = distortion(rig, name) {
+        let least = if matches!(fault, Fault::Lag | Fault::Limit) { 0.0 } else { -LARGEST };
+        if !(least..=LARGEST).contains(&value) {
+            return Err(format!("{text}: {name} has to be from {least} to {LARGEST}"));
+        }
         return Ok((name.to_owned(), value));
     }
     let index = rig.plant.parameter(name).ok_or_else(|| {
@@ -93,7 +102,7 @@ pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String,
     dynamics.check(&parameters)?;
     let mut random = Random::new(experiment.seed.wrapping_mul(1000).wrapping_add(number));
     let step = experiment.step;
-    let count = (experiment.length / step) as usize;
+    let count = (experiment.length / step).round() as usize;
     let mut inputs: Vec<Vec<f64>> = rig
         .plant
         .inputs
@@ -144,7 +153,8 @@ pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String,
     }
     text.push('\n');
     for sample in 0..count {
-        let _ = write!(text, "{:.4}", sample as f64 * step);
+        // Times that are as long as the step is: 0.3 rather than 0.30000000000000004.
+        let _ = write!(text, "{}", (sample as f64 * step * TICKS).round() / TICKS);
         for (_, signal) in &signals {
             let _ = write!(text, ",{:.7e}", signal[sample]);
         }

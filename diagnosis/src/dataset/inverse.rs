@@ -337,6 +337,35 @@ mod tests {
         }
     }
 
+    /// Friction of a filtered motion is not the filtered friction: a tenth of the force apart where it turns over within 10 mm/s.
+    #[test]
+    fn a_law_sees_all_of_the_motion_and_its_force_is_filtered() {
+        let mut rig = Rig::published("linear-drive").unwrap();
+        let by = rig.kind.drives.iter().find(|by| by.inverse.is_some()).unwrap().clone();
+        rig.drive_by(&by, |name| name == by.input).unwrap();
+        let values = [("moving_mass", 20.0), ("guide.coulomb.force", 30.0), ("guide.coulomb.velocity", 0.01)];
+        for (name, value) in values {
+            let index = rig.plant.parameter(name).unwrap();
+            rig.parameters[index] = value;
+        }
+        let dynamics = rig.plant.prepare(&rig.choices).unwrap();
+        let signals = Signals::of(&rig, &by.inverse.unwrap()).unwrap();
+        let apart = |record: &Dataset| {
+            let neutral = vec![Correction::default(); record.inputs.len()];
+            let drive = record.drive(&record.sections[0], &neutral);
+            let outputs = dynamics.outputs(&rig.parameters, &rig.start, &drive);
+            let (force, found) = (signals.force(record).unwrap(), &outputs[signals.force]);
+            let known = force.iter().zip(found).filter(|(force, _)| force.is_finite());
+            let errors: Vec<f64> = known.map(|(force, found)| force - found).collect();
+            assert!(errors.len() > 200);
+            rms(&errors) / rms(force)
+        };
+        let wide = signals.compared(&record(&rig, 20.0, 0.0), 20.0);
+        let narrow = Dataset { wide: None, ..wide.clone() };
+        assert!(wide.wide.is_some() && apart(&wide) < 5e-3, "{}", apart(&wide));
+        assert!(apart(&narrow) > 0.05, "{}", apart(&narrow));
+    }
+
     #[test]
     fn a_position_has_to_be_fine_where_the_mass_matters() {
         let rig = Rig::published("linear-drive").unwrap();

@@ -31,6 +31,19 @@ impl Left {
     }
 }
 
+/// Why a gate does not have to be passed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Waiver {
+    /// Nearly all of the error goes, so that the improvement is as uneven as the error was.
+    Bulk,
+    /// The validation data, which chose nothing, rule chance out on their own.
+    Validated,
+    /// More than half of what was left goes.
+    Most,
+    /// So much of the starting model's error goes that chance is no question.
+    ByFar,
+}
+
 /// Why an effect is believed: every gate that it went through.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Evidence {
@@ -100,10 +113,12 @@ impl Evidence {
     }
 
     /// Whether so much of the error on validation data goes that chance is no question, however few the blocks are.
-    pub fn is_no_chance(&self) -> bool {
+    pub fn is_no_chance(&self) -> Option<Waiver> {
         let most_of_what_was_left = self.residual_reduction > self.required().residual_reduction
             && self.validation_t > CRITERIA.certain;
-        most_of_what_was_left || self.variance_explained > CRITERIA.by_far && self.validation_t > 0.0
+        let by_far = self.variance_explained > CRITERIA.by_far && self.validation_t > 0.0;
+        let most = most_of_what_was_left.then_some(Waiver::Most);
+        most.or(by_far.then_some(Waiver::ByFar))
     }
 
     /// The first gate that is not passed, in words.
@@ -125,9 +140,11 @@ impl Evidence {
 
     /// Whether a small Student's t over the estimation data is enough: it takes so much away that its gains are as uneven as the
     /// errors were, or the validation data, which chose nothing, rule chance out on their own.
-    pub fn is_steady_enough(&self) -> bool {
-        self.takes_the_bulk() && self.estimation_t > CRITERIA.certain
-            || self.validation_p_value < self.required().validation_p_value && self.estimation_t > 0.0
+    pub fn is_steady_enough(&self) -> Option<Waiver> {
+        let bulk = self.takes_the_bulk() && self.estimation_t > CRITERIA.certain;
+        let validated =
+            self.validation_p_value < self.required().validation_p_value && self.estimation_t > 0.0;
+        bulk.then_some(Waiver::Bulk).or(validated.then_some(Waiver::Validated))
     }
 
     /// Whether the validation data show it, and enough of it to matter, while the estimation data leave doubt: their errors hang
@@ -151,11 +168,11 @@ impl Evidence {
                 format!("falls by {delta_bic:.0} instead of {:.0}", required.delta_bic)
             };
             Some(format!("explains too little for its parameters (the BIC {moves})"))
-        } else if !(estimation_t > required.estimation_t || self.is_steady_enough()) {
+        } else if !(estimation_t > required.estimation_t || self.is_steady_enough().is_some()) {
             Some(format!("no consistent improvement on the estimation data (t = {estimation_t:.1})"))
-        } else if !(p_value < required.p_value || self.is_steady_enough()) {
+        } else if !(p_value < required.p_value || self.is_steady_enough().is_some()) {
             Some(format!("the improvement may be chance (p-value {p_value:.2})"))
-        } else if !(validation_t > required.validation_t || self.is_no_chance()) {
+        } else if !(validation_t > required.validation_t || self.is_no_chance().is_some()) {
             Some(format!("no improvement on the validation data (t = {validation_t:.1})"))
         } else {
             None

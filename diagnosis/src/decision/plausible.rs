@@ -78,11 +78,14 @@ pub fn usual_units(si: &str) -> &'static [&'static str] {
         "m" => &["mm", "cm"],
         "m/s" => &["mm/s"],
         "m/s2" => &["mm/s2"],
+        "rad/s2" => &["deg/s2"],
         "N" => &["kN"],
+        "N.m" => &["mN.m", "kN.m"],
         "Pa" => &["bar", "MPa", "kPa"],
         "V" => &["mV"],
         "A" => &["mA"],
-        "rad" | "rad/s" => &["deg", "deg/s"],
+        "rad" => &["deg"],
+        "rad/s" => &["deg/s", "rpm"],
         _ => &[],
     }
 }

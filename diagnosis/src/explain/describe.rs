@@ -143,16 +143,20 @@ impl Unmodelled {
     /// What can be said of it in a sentence.
     pub fn description(&self) -> String {
         let words: Vec<&str> = self.depends_on.iter().map(String::as_str).collect();
+        let (force, mass, unit) = match self.unit {
+            "N.m" => ("torque", "moment of inertia", "kg·m²"),
+            _ => ("force", "mass", "kg"),
+        };
         let what = match (words.as_slice(), self.amount) {
             (["acceleration"], Some(amount)) => {
+                let amount = digits(amount, 2);
                 format!(
-                    "a force that follows the acceleration, like an additional mass of {} kg",
-                    digits(amount, 2)
+                    "a {force} that follows the acceleration, like an additional {mass} of {amount} {unit}"
                 )
             }
             (["memory"], _) if self.frequency.is_some() => {
                 let frequency = self.frequency.unwrap_or_default();
-                format!("a force that remembers the motion, with a resonance near {frequency:.0} Hz")
+                format!("a {force} that remembers the motion, with a resonance near {frequency:.0} Hz")
             }
             (["memory"], _) if self.at == MEASURED => {
                 "a signal that depends on its own past, as behind a filter,".to_owned()
@@ -357,27 +361,41 @@ mod tests {
     }
 
     #[test]
+    fn what_turns_has_a_moment_of_inertia() {
+        let of =
+            |unit: &'static str| Unmodelled { amount: Some(0.002), unit, ..at_the_strut(&["acceleration"]) };
+        let told = "a torque that follows the acceleration, like an additional moment of inertia of 0.0020 kg·m² at the strut";
+        assert_eq!(of("N.m").description(), told);
+        assert!(
+            of("N")
+                .description()
+                .starts_with("a force that follows the acceleration, like an additional mass of")
+        );
+    }
+
+    #[test]
     fn a_law_that_ages_is_described_with_its_motion() {
-        let of = |depends_on: &[&str]| {
-            let it = Unmodelled {
-                place: "strut".into(),
-                unit: "N",
-                at: AT,
-                features: None,
-                depends_on: depends_on.iter().map(|it| (*it).to_owned()).collect(),
-                share: 0.0,
-                validated: 0.0,
-                improvement: 0.0,
-                amount: None,
-                frequency: None,
-                band: None,
-                curve: None,
-            };
-            it.description()
-        };
+        let of = |depends_on: &[&str]| at_the_strut(depends_on).description();
         assert_eq!(of(&["time"]), "a signal that changes with time at the strut");
         let told = "a signal that follows the deflection and changes with time at the strut";
         assert_eq!(of(&["deflection", "time"]), told);
+    }
+
+    fn at_the_strut(depends_on: &[&str]) -> Unmodelled {
+        Unmodelled {
+            place: "strut".into(),
+            unit: "N",
+            at: AT,
+            features: None,
+            depends_on: depends_on.iter().map(|it| (*it).to_owned()).collect(),
+            share: 0.0,
+            validated: 0.0,
+            improvement: 0.0,
+            amount: None,
+            frequency: None,
+            band: None,
+            curve: None,
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The tests that an effect has to pass, and the evidence in words.
 
 use super::words::{number, percent};
-use crate::decision::evidence::Evidence;
+use crate::decision::evidence::{Evidence, Waiver};
 
 const VALIDATION: &str = "Validation";
 const ESTIMATION: &str = "Estimation";
@@ -25,14 +25,21 @@ pub struct Gate {
     pub waived: Option<&'static str>,
 }
 
+fn reason(waiver: Waiver) -> &'static str {
+    match waiver {
+        Waiver::Bulk => "the effect removes most of the error; its improvement varies as the error does",
+        Waiver::Validated => "the validation data, which chose nothing, rule chance out",
+        Waiver::Most => "the effect removes more than half of the error that was left",
+        Waiver::ByFar => "the effect explains too much of the starting model's error for chance",
+    }
+}
+
 /// All tests.
 pub fn gates(evidence: &Evidence) -> [Gate; 6] {
     let limits = evidence.required();
     let waived = |name: &str| match name {
-        VALIDATION if evidence.is_no_chance() => Some("the residual reduction is too large for chance"),
-        ESTIMATION | P_VALUE if evidence.is_steady_enough() => {
-            Some("the effect removes most of the error; its improvement varies as the error does")
-        }
+        VALIDATION => evidence.is_no_chance().map(reason),
+        ESTIMATION | P_VALUE => evidence.is_steady_enough().map(reason),
         EXPLAINED if evidence.fit_improvement > limits.fit_improvement => {
             Some("the fit of a signal rises visibly, however far off the starting model is")
         }

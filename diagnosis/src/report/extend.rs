@@ -188,6 +188,9 @@ pub struct Packing<'a> {
     pub record: bool,
 }
 
+/// The files that may be written.
+pub(super) const FILES: [&str; 4] = ["extended.toml", "extended.ssv", "extended.fmu", "augmented.ssp"];
+
 impl Extended {
     /// Writes `extended.toml` and `extended.ssv` into a folder that exists, and `extended.fmu` or, of another maker's model,
     /// `augmented.ssp` if asked for. One failure does not keep the others from being written.

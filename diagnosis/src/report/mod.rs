@@ -24,7 +24,7 @@ pub use terminal::{read, shares, terminal};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::experiment::FILES;
+use crate::experiment;
 use crate::report::file::replace;
 use crate::report::findings::Findings;
 
@@ -49,7 +49,8 @@ pub enum ReportError {
     },
 }
 
-/// Writes `report.html`, `report.json` and the files of an experiment into a folder, which is made if need be. Each file is
+/// Writes `report.html`, `report.json` and the files of an experiment into a folder, which is made if need be, and removes what an
+/// earlier run left there. Each file is
 /// either complete or as it was before, and one that fails does not keep the others from being written.
 ///
 /// # Errors
@@ -63,18 +64,17 @@ pub fn write(findings: &Findings, folder: &Path) -> Result<(), Vec<ReportError>>
     };
     let texts = [("report.json", json(findings)), ("report.html", html(findings))];
     let texts = texts.iter().map(|(name, text)| (*name, text));
-    let experiment =
-        findings.deciding_experiment.iter().flat_map(|it| &it.files).map(|(name, text)| (&name[..], text));
-    for (name, text) in texts.chain(experiment) {
+    let files = findings.deciding_experiment.iter().flat_map(|it| &it.files);
+    for (name, text) in texts.chain(files.map(|(name, text)| (&name[..], text))) {
         let path = folder.join(name);
         let done = replace(&path, text);
         note(path, done);
     }
-    // An experiment of an earlier run would pass for this one's.
+    // An experiment or an extended model of an earlier run would pass for this one's.
     let written = |name: &str| {
         findings.deciding_experiment.iter().any(|it| it.files.iter().any(|(own, _)| own == name))
     };
-    for name in FILES.into_iter().filter(|name| !written(name)) {
+    for name in experiment::FILES.into_iter().chain(extend::FILES).filter(|name| !written(name)) {
         let path = folder.join(name);
         if path.exists() {
             let done = std::fs::remove_file(&path);

@@ -316,15 +316,17 @@ fn run(
     let mut record = Recording::new(signals);
     simulation.set_up(0.0, None)?;
     simulation.initialize()?;
-    let steps = (stop / step).round() as usize;
+    // The last step is a shorter one where `stop` is no multiple of a step, but for rounding.
+    let steps = (stop / step * (1.0 - 1e-9)).ceil() as usize;
+    let at_step = |index: usize| if index == steps { stop } else { index as f64 * step };
     for index in 0..=steps {
-        let time = index as f64 * step;
+        let time = at_step(index);
         for Driven { reference, at } in driven {
             simulation.set_real(&[*reference], &[at(time)], Access::Continuous)?;
         }
         record.read(simulation, time)?;
         if index < steps {
-            simulation.step(time, step)?;
+            simulation.step(time, at_step(index + 1) - time)?;
         }
     }
     Ok(record.trajectory)

@@ -150,9 +150,9 @@ fn titles(rows: &[StringRecord], first: usize, separator: u8) -> &[StringRecord]
 
 /// A table without names, as many controllers write it, if nothing but comments is above its numbers.
 fn unnamed(rows: &[StringRecord], first: usize, separator: u8) -> Option<Layout> {
-    // A separator at the end of each line is no column.
-    let filled = (0..rows[first].len()).rposition(|cell| !rows[first][cell].trim().is_empty());
-    let filled = filled.map_or(0, |last| last + 1);
+    // A separator at the end of each line is no column; a value that is missing at the end of one line is.
+    let last = |row: &StringRecord| (0..row.len()).rposition(|cell| !row[cell].trim().is_empty());
+    let filled = rows[first..].iter().take(AGREEING).filter_map(last).max().map_or(0, |last| last + 1);
     let names = (1..=filled).map(|column| format!("column {column}")).collect::<Vec<_>>().into();
     let layout = Layout { separator, names, units: None, first: line(&rows[first]) };
     rows[..first].iter().all(is_comment).then_some(layout)
