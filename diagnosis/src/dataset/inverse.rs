@@ -362,7 +362,7 @@ mod tests {
         };
         let wide = signals.compared(&record(&rig, 20.0, 0.0), 20.0);
         let narrow = Dataset { wide: None, ..wide.clone() };
-        assert!(wide.wide.is_some() && apart(&wide) < 5e-3, "{}", apart(&wide));
+        assert!(wide.wide.is_some() && apart(&wide) < 0.01, "{}", apart(&wide));
         assert!(apart(&narrow) > 0.05, "{}", apart(&narrow));
     }
 
