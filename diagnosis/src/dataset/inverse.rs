@@ -84,8 +84,8 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
     }
     let top = widest?;
     let text = format!(
-        "{} drives the model and this is compared (inverse dynamics), below {} Hz: beyond, the motion is lost in its noise, or \
-         this has less than {} % of its power. At rest nothing is compared: friction holds whatever acts",
+        "{} drives the model, and this is compared (inverse dynamics), up to {} Hz: above, noise of the motion dominates, or \
+         this has less than {} % of its power. Samples at rest and at the ends of a segment are left out",
         inverse.position,
         digits(top, 2),
         100.0 * NEGLIGIBLE
@@ -98,8 +98,8 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
 pub fn refused(inverse: &Inverse, instead: &str) -> DataProblem {
     let Inverse { force, position, .. } = inverse;
     let text = format!(
-        "there is no band in which its steps, its noise and gaps between the samples make less than {} % of {force}, and that has nearly \
-         all of it: {instead}. A finer position, or a column of the velocity, helps",
+        "too coarse or too noisy for inverse dynamics: in no band that has nearly all of {force} does it add less than {} % to \
+         it, {instead}. A finer position, or a column of the velocity, helps",
         100.0 * NOISY.sqrt()
     );
     DataProblem { record: "all".into(), signal: position.clone(), text, fatal: false }

@@ -68,7 +68,7 @@ fn as_driven(
         Some(by) => {
             format!("so {} drives the model, and the motion is compared. Friction shows less in it", by.input)
         }
-        None => "it is differentiated all the same".into(),
+        None => "but it is differentiated all the same".into(),
     };
     // Of data that cannot be used, more is wrong than that.
     let refused = refused.filter(|_| !loaded.records.is_empty());
