@@ -19,6 +19,8 @@ use super::selection::Compared;
 const BURSTS: f64 = 8.0;
 /// Share of a signal's power on either side of the band that is told of it.
 const ASIDE: f64 = 0.1;
+/// Share of a band's end below which its beginning is not worth a word.
+const SLOW: f64 = 0.02;
 /// Samples of a missing signal that are shown.
 const SHOWN: usize = 1500;
 
@@ -176,9 +178,12 @@ impl Unmodelled {
             }
             ([motion, "time"], _) => format!("a signal that follows the {motion} and changes with time"),
             ([], _) => match self.band {
-                Some([low, high]) => {
+                Some([low, high]) if low > SLOW * high => {
                     let (low, high) = (digits(low, 2), digits(high, 2));
                     format!("a signal between {low} and {high} Hz that no recorded signal explains")
+                }
+                Some([_, high]) => {
+                    format!("a signal below {} Hz that no recorded signal explains", digits(high, 2))
                 }
                 None => "a signal that no recorded signal explains".to_owned(),
             },

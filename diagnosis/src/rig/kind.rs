@@ -138,7 +138,8 @@ pub struct Inverse {
     pub rate: Option<String>,
     /// The input that is its highest derivative.
     pub derivative: String,
-    /// Signals of which each says more where it is measured.
+    /// Signals of which each says more where it is measured; most have none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub instead: Vec<String>,
 }
 
