@@ -37,7 +37,7 @@ const REST: f64 = 0.1;
 
 /// Periods of the band's end beside a section's ends in which a filter does not know what was before or comes after …
 const REACH: f64 = 2.0;
-/// … if so many of them make a section at least.
+/// … if so many of them make a section at least; where they make no section, nothing is compared.
 const SHARE_OF_ENDS: usize = 8;
 
 /// Records in the band in which their motion is known.
@@ -82,7 +82,8 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
         }
         widest = Some(top);
     }
-    let top = widest?;
+    // A single stroke is all ends.
+    let top = widest.filter(|top| longest(records) > SHARE_OF_ENDS as f64 * REACH / top)?;
     let text = format!(
         "{} drives the model, and this is compared (inverse dynamics), up to {} Hz: above, noise of the motion dominates, or \
          this has less than {} % of its power. Samples at rest and at the ends of a segment are left out",
@@ -92,6 +93,13 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
     );
     let note = DataProblem { record: "all".into(), signal: inverse.force.clone(), text, fatal: false };
     Some(Banded { records: records.iter().map(|it| signals.compared(it, top)).collect(), top, note })
+}
+
+/// The longest section of some records, in seconds.
+fn longest(records: &[Dataset]) -> f64 {
+    let sections =
+        records.iter().flat_map(|record| record.sections.iter().map(move |it| (record.step, it.len())));
+    sections.map(|(step, samples)| step * samples as f64).fold(0.0, f64::max)
 }
 
 /// That no band is left in which a motion could be compared inversely, and what is done `instead`, as a clause.
