@@ -160,10 +160,7 @@ fn make_records(folder: &Path) {
     let part = |wanted: &dyn Fn(&str) -> bool| excerpt(&good, usize::MAX - 1, wanted);
     write("good.csv", good.clone());
     write("timeless.csv", part(&|title| !title.starts_with("time")));
-    write(
-        "word.csv",
-        good.replacen("\n0.001,", "\n0.001,much,", 1).lines().take(5).map(drop_last).collect(),
-    );
+    write("word.csv", good.replacen("\n0.001,", "\n0.001,much,", 1).lines().take(5).map(drop_last).collect());
     write("unit.csv", good.replacen("body.acceleration [m/s2]", "body.acceleration [kg]", 1));
     write("mute.csv", part(&|title| title.starts_with("time") || driven(title)));
     // Not even how the wheel or the suspension moves.

@@ -12,7 +12,7 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 use strut_model::Declaration;
 
-use super::recorded::{Dataset, Source};
+use super::recorded::{Dataset, SHORT, Source};
 use crate::data::check::DataProblem;
 use crate::report::words::digits;
 use crate::rig::{Inverse, Rig};
@@ -37,7 +37,7 @@ const REST: f64 = 0.1;
 
 /// Periods of the band's end beside a section's ends in which a filter does not know what was before or comes after …
 const REACH: f64 = 2.0;
-/// … if so many of them make a section at least; where they make no section, nothing is compared.
+/// … if so many of them make a section at least.
 const SHARE_OF_ENDS: usize = 8;
 
 /// Records in the band in which their motion is known.
@@ -82,8 +82,8 @@ pub fn banded(rig: &Rig, records: &[Dataset], inverse: &Inverse) -> Option<Bande
         }
         widest = Some(top);
     }
-    // A single stroke is all ends.
-    let top = widest.filter(|top| longest(records) > SHARE_OF_ENDS as f64 * REACH / top)?;
+    // Over a single stroke, no simulation goes astray, and none needs derivatives.
+    let top = widest.filter(|_| longest(records) > SHORT)?;
     let text = format!(
         "{} drives the model, and this is compared (inverse dynamics), up to {} Hz: above, noise of the motion dominates, or \
          this has less than {} % of its power. Samples at rest and at the ends of a segment are left out",

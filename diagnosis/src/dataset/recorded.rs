@@ -90,6 +90,9 @@ pub struct Measured {
     pub noise_floor: f64,
 }
 
+/// Length of a short stretch of data in seconds, over which no model goes far astray.
+pub const SHORT: f64 = 1.0;
+
 /// Length of the blocks of time over which errors and scores are summed, in seconds: longer than the residuals' memory.
 pub const BLOCK: f64 = 0.5;
 

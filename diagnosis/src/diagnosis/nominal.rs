@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::dataset::rate::along;
-use crate::dataset::recorded::{Dataset, Source};
+use crate::dataset::recorded::{Dataset, SHORT, Source};
 use crate::decision::criteria::CRITERIA;
 use crate::estimation::deadline::Stage;
 use crate::estimation::fit::{Residuals, contained};
@@ -15,9 +15,6 @@ use crate::screening::rms;
 use crate::signal::distortion::Fault;
 
 use super::{phi, root_mean_square};
-
-/// Length of a short stretch of data in seconds, over which no model goes far astray.
-const SHOT: f64 = 1.0;
 
 /// Cost of a fit with an input turned over, in that of the fit without, below which the input had the wrong sign.
 const CLEARLY: f64 = 0.8;
@@ -90,7 +87,7 @@ pub(super) fn weighted(baseline: &mut Baseline<'_>, mut base: Fitted) -> Result<
 /// shooting; H. G. Bock, Recent advances in parameter identification techniques for o.d.e., 1983).
 fn shot(baseline: &Baseline<'_>, start: &Estimate) -> Option<Fitted> {
     let cut = |record: &Dataset| {
-        let length = ((SHOT / record.step) as usize).max(record.block());
+        let length = ((SHORT / record.step) as usize).max(record.block());
         let pieces = |section: &Range<usize>| {
             let ends = (section.start..section.end).step_by(length).skip(1).chain([section.end]);
             let starts = (section.start..section.end).step_by(length);
