@@ -172,7 +172,7 @@ impl Rig {
         let by_column = |it: &&DrivenBy| it.columns.iter().any(|column| has(column));
         let compared = |it: &&DrivenBy| {
             let any = |signal: &str| self.kind.called(signal).any(&has);
-            // A base whose own motion is measured is more than a deflection.
+            // An accelerometer sees what differentiation loses.
             let inverse = it.inverse.as_ref();
             let force = inverse.is_some_and(|inverse| {
                 any(&inverse.force) && !inverse.instead.iter().any(|signal| any(signal))
