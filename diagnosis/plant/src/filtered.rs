@@ -46,24 +46,29 @@ impl Dynamics for Filtered {
         let Some(fine) = drive.at_each_value() else {
             return self.0.followed(parameters, start, drive, (seeds, wanted), follower);
         };
+        let numbers: Vec<usize> =
+            (0..seeds.len()).filter(|it| !matches!(seeds[*it], Seed::State(_))).collect();
+        let own: Vec<Seed> = numbers.iter().map(|it| seeds[*it].clone()).collect();
         let mut way = Way {
             every: drive.finer,
             outputs: vec![Vec::new(); wanted.len()],
-            slopes: vec![Vec::new(); wanted.len() * seeds.len()],
+            slopes: vec![Vec::new(); wanted.len() * own.len()],
             states: Vec::new(),
             rates: Vec::new(),
         };
-        self.0.followed(parameters, start, &fine, (seeds, wanted), &mut way);
-        let (outputs, mut slopes) = (thinned(&way.outputs, drive), thinned(&way.slopes, drive));
-        for (number, _) in seeds.iter().enumerate().filter(|(_, seed)| matches!(seed, Seed::State(_))) {
-            slopes.iter_mut().skip(number).step_by(seeds.len()).for_each(|it| it.fill(0.0));
-        }
-        let at = |signals: &Signals, sample: usize| signals.iter().map(|it| it[sample]).collect::<Vec<_>>();
+        self.0.followed(parameters, start, &fine, (&own, wanted), &mut way);
+        let (all_outputs, all_slopes) = (thinned(&way.outputs, drive), thinned(&way.slopes, drive));
+        let mut slopes = vec![0.0; wanted.len() * seeds.len()];
         let still = vec![0.0; start.len() * seeds.len()];
-        for (sample, (own, rates)) in way.states.iter().zip(&way.rates).enumerate() {
-            let mut state = own.clone();
+        for (sample, (plain, rates)) in way.states.iter().zip(&way.rates).enumerate() {
+            let mut state = plain.clone();
             follower.state(sample, &mut state);
-            let (outputs, slopes) = (at(&outputs, sample), at(&slopes, sample));
+            let outputs: Vec<f64> = all_outputs.iter().map(|it| it[sample]).collect();
+            for (row, signals) in all_slopes.chunks_exact(own.len().max(1)).enumerate() {
+                for (number, signal) in numbers.iter().zip(signals) {
+                    slopes[row * seeds.len() + number] = signal[sample];
+                }
+            }
             follower.seen(sample, Seen { outputs: &outputs, slopes: &slopes, rates }, &mut state);
             if let Some(next) = way.states.get(sample + 1) {
                 follower.advanced(sample, next, &still);

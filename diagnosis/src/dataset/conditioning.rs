@@ -14,7 +14,7 @@ use crate::data::check::noise_floor;
 use crate::dataset::recorded::{Dataset, Measured, Source, Wide};
 use crate::plant::Between;
 use crate::signal::random::with_noise;
-use crate::signal::spectral::{Complex, FINER, KEPT, about_line, decimated, filled, refined};
+use crate::signal::spectral::{Complex, FINER, KEPT, about_line, decimated, filled, is_kept, refined};
 
 /// Samples a second that are enough.
 const ENOUGH: f64 = 400.0;
@@ -121,7 +121,7 @@ impl Dataset {
 struct Filter {
     /// Standard deviation of the white noise that it takes away, by Wiener's gains.
     noise: f64,
-    /// Above which frequency it does, in those of the samples.
+    /// From which frequency on it does, in cycles a sample.
     quiet: f64,
     /// Of how many samples one is left.
     factor: usize,
@@ -175,14 +175,12 @@ impl Filter {
         let len = spectrum.len();
         let power: Vec<f64> = spectrum.iter().map(Complex::norm_sqr).collect();
         let level = len as f64 * self.noise * self.noise;
-        let cut = KEPT * 0.5 / self.factor as f64;
         (0..len)
             .map(|bin| {
-                let frequency = bin.min(len - bin) as f64 / len as f64;
-                if self.factor > 1 && frequency > cut {
+                if !is_kept(bin, len, self.factor) {
                     return 0.0;
                 }
-                if frequency < self.quiet {
+                if (bin.min(len - bin) as f64) < self.quiet * len as f64 {
                     return 1.0;
                 }
                 let around = (0..=2 * SMOOTHING).map(|offset| power[(bin + len + offset - SMOOTHING) % len]);

@@ -1,5 +1,6 @@
 //! Filters without phase, over a whole signal.
 
+use std::cell::RefCell;
 use std::f64::consts::{PI, TAU};
 
 use rustfft::FftPlanner;
@@ -22,6 +23,11 @@ impl Line {
     }
 }
 
+thread_local! {
+    /// Outputs of a model are filtered in every step of a fit: the plan of a length is made once.
+    static PLANNER: RefCell<FftPlanner<f64>> = RefCell::new(FftPlanner::new());
+}
+
 /// Chooses the gain of each bin of a spectrum.
 pub type Gains<'a> = &'a mut dyn FnMut(&[Complex<f64>]) -> Vec<Complex<f64>>;
 
@@ -40,13 +46,14 @@ pub fn about_line(values: &[f64], gains: Gains<'_>) -> (Line, Vec<f64>) {
         buffer.push(-buffer[k]);
     }
     let len = buffer.len();
-    let mut planner = FftPlanner::new();
-    planner.plan_fft_forward(len).process(&mut buffer);
+    let (forward, inverse) =
+        PLANNER.with_borrow_mut(|it| (it.plan_fft_forward(len), it.plan_fft_inverse(len)));
+    forward.process(&mut buffer);
     let gains = gains(&buffer);
     for (bin, gain) in buffer.iter_mut().zip(gains) {
         *bin *= gain / len as f64;
     }
-    planner.plan_fft_inverse(len).process(&mut buffer);
+    inverse.process(&mut buffer);
     (line, buffer[..n].iter().map(|bin| bin.re).collect())
 }
 
@@ -75,15 +82,19 @@ pub fn in_band(values: &[f64], step: f64, top: f64, order: i32) -> Vec<f64> {
     deviation.into_iter().enumerate().map(add).collect()
 }
 
-/// Every so many samples of a signal, without what is above [`KEPT`] of half their rate.
+/// Whether a bin of a spectrum of `len` bins is kept where one of `factor` samples is left: up to [`KEPT`] of half their rate.
+pub fn is_kept(bin: usize, len: usize, factor: usize) -> bool {
+    factor == 1 || bin.min(len - bin) as f64 <= KEPT * 0.5 * len as f64 / factor as f64
+}
+
+/// One of `factor` samples of a signal, behind a filter without phase for the band that is kept.
 pub fn decimated(values: &[f64], factor: usize) -> Vec<f64> {
     if factor == 1 || values.len() < 2 {
         return values.iter().step_by(factor).copied().collect();
     }
     let (line, deviation) = about_line(values, &mut |spectrum| {
         let len = spectrum.len();
-        let last = (KEPT * 0.5 * len as f64 / factor as f64) as usize;
-        (0..len).map(|bin| Complex::from(if bin.min(len - bin) > last { 0.0 } else { 1.0 })).collect()
+        (0..len).map(|bin| Complex::from(f64::from(is_kept(bin, len, factor)))).collect()
     });
     (0..values.len()).step_by(factor).map(|k| deviation[k] + line.at(k)).collect()
 }
