@@ -135,6 +135,16 @@ const REFUSED: &[Refused] = &[
         says: &["strut.coulomb.forse", "did you mean `strut.coulomb.force`?"],
     },
     Refused {
+        name: "a hidden delay that cannot be",
+        arguments: &["simulate", "--hide", "body.acceleration.delay=1e16"],
+        says: &["body.acceleration.delay has to be from -3600 to 3600 s"],
+    },
+    Refused {
+        name: "a hidden limit that cannot be",
+        arguments: &["simulate", "--hide", "body.acceleration.limit=-2"],
+        says: &["body.acceleration.limit has to be at least 0"],
+    },
+    Refused {
         name: "a hidden value that cannot be",
         arguments: &["simulate", "--hide", "sprung_mass=-4"],
         says: &["--hide sprung_mass=-4", "sprung_mass has to be at least"],

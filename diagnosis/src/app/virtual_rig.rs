@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use crate::data::table::did_you_mean;
-use crate::plant::{Between, Drive};
+use crate::plant::Drive;
 use crate::rig::Rig;
 use crate::screening::rms;
 use crate::signal::derivative;
@@ -31,8 +31,8 @@ pub struct Experiment {
 
 /// Parts of a second to which times are written down.
 const TICKS: f64 = 1e9;
-/// Largest size of a distortion: a delay of an hour in seconds; a gain of ten thousand times a sensor's is none.
-const LARGEST: f64 = 1e4;
+/// Longest delay or lag of a signal in seconds: an hour is longer than any record.
+const LONGEST: f64 = 3600.0;
 
 /// A signal and its distortion: `body.acceleration.gain`. Parameters of the model come first.
 fn distortion<'a>(rig: &Rig, name: &'a str) -> Option<(&'a str, Fault)> {
@@ -52,11 +52,16 @@ pub fn hidden(rig: &Rig, text: &str) -> Result<(String, f64), String> {
     let (name, value) = text.split_once('=').ok_or_else(wrong)?;
     let (name, value) = (name.trim(), value.trim().parse::<f64>().map_err(|_| wrong())?);
     if let Some((_, fault)) = distortion(rig, name) {
-        let least = if matches!(fault, Fault::Lag | Fault::Limit) { 0.0 } else { -LARGEST };
-        if !(least..=LARGEST).contains(&value) {
-            return Err(format!("{text}: {name} has to be from {least} to {LARGEST}"));
-        }
-        return Ok((name.to_owned(), value));
+        let (low, high) = match fault {
+            Fault::Delay => (Some(-LONGEST), Some(LONGEST)),
+            Fault::Lag => (Some(0.0), Some(LONGEST)),
+            Fault::Limit => (Some(0.0), None),
+            _ => (None, None),
+        };
+        let unit = if matches!(fault, Fault::Delay | Fault::Lag) { "s" } else { "" };
+        return within((low, high), unit, value)
+            .map_err(|limits| format!("{text}: {name} has to be {limits}"))
+            .map(|()| (name.to_owned(), value));
     }
     let index = rig.plant.parameter(name).ok_or_else(|| {
         let hint = did_you_mean(name, rig.plant.parameters.iter().map(|it| it.name.as_str()));
@@ -66,18 +71,28 @@ pub fn hidden(rig: &Rig, text: &str) -> Result<(String, f64), String> {
         )
     })?;
     let declared = &rig.plant.parameters[index];
-    let (low, high) = (declared.min.unwrap_or(f64::MIN), declared.max.unwrap_or(f64::MAX));
-    if !(low..=high).contains(&value) {
-        let unit = declared.unit.symbol;
-        let limits = match (declared.min, declared.max) {
-            (Some(low), Some(high)) => format!("from {low} to {high} {unit}"),
-            (Some(low), None) => format!("at least {low} {unit}"),
-            (None, Some(high)) => format!("at most {high} {unit}"),
-            (None, None) => "finite".into(),
-        };
-        return Err(format!("{text}: {name} has to be {limits}"));
-    }
+    let limits = (declared.min, declared.max);
+    within(limits, declared.unit.symbol, value)
+        .map_err(|limits| format!("{text}: {name} has to be {limits}"))?;
     Ok((name.to_owned(), value))
+}
+
+/// Whether a value lies within limits.
+///
+/// # Errors
+/// The limits in words, if it does not.
+fn within(limits: (Option<f64>, Option<f64>), unit: &str, value: f64) -> Result<(), String> {
+    let (low, high) = (limits.0.unwrap_or(f64::MIN), limits.1.unwrap_or(f64::MAX));
+    if (low..=high).contains(&value) {
+        return Ok(());
+    }
+    let words = match limits {
+        (Some(low), Some(high)) => format!("from {low} to {high} {unit}"),
+        (Some(low), None) => format!("at least {low} {unit}"),
+        (None, Some(high)) => format!("at most {high} {unit}"),
+        (None, None) => "finite".into(),
+    };
+    Err(words.trim_end().to_owned())
 }
 
 /// A record as CSV; `number` tells its excitation: one for each.
@@ -120,7 +135,7 @@ pub fn record(rig: &Rig, experiment: &Experiment, number: u64) -> Result<String,
             inputs[index] = derivative(&inputs[position], step);
         }
     }
-    let drive = Drive { start: 0.0, step, inputs, finer: 1, between: Between::Lines, filtered: false };
+    let drive = Drive::sampled(step, inputs);
     let outputs = dynamics.outputs(&parameters, &rig.start, &drive);
     if !outputs.iter().flatten().all(|it| it.is_finite()) {
         return Err(format!(
