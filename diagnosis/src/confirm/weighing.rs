@@ -128,7 +128,7 @@ impl Baseline<'_> {
         self.is_any(left, Account::is_open)
     }
 
-    /// Whether they leave something that is told, in an open account or a closed one.
+    /// Whether they leave an error that the report states, whether the account is open or closed.
     pub(crate) fn leaves_something(&self, left: &Residuals) -> bool {
         self.is_any(left, Account::shows)
     }

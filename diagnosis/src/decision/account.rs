@@ -50,7 +50,7 @@ impl Account {
         self.exceeds(CRITERIA.visible, signal)
     }
 
-    /// Whether it misses more than its noise and what shows in a plot: that is told of an account that is not open, too.
+    /// Whether it misses more than its noise and more than a plot hides: the report states such an error of a closed account, too.
     pub fn shows(&self, signal: f64) -> bool {
         self.exceeds(CRITERIA.improvement, signal)
     }
@@ -94,5 +94,12 @@ mod tests {
         assert!(of(4.0, 1.0) && !of(2.9, 1.0));
         // A tenth of the signal is not worth a sentence, however small the noise is.
         assert!(!of(0.9, 0.01));
+    }
+
+    #[test]
+    fn an_error_shows_beyond_a_plots_accuracy_though_the_account_is_closed() {
+        let of =
+            |left: f64, noise: f64| account(100.0, 50.0, &[left * left], noise * noise, 0.4).shows(100.0);
+        assert!(of(0.9, 0.01) && of(0.2, 0.01) && !of(0.1, 0.01) && !of(0.9, 0.4));
     }
 }

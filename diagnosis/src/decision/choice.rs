@@ -58,9 +58,9 @@ pub fn choose(misses: f64, named: &[Score], features: &[Score]) -> Choice {
     }
 }
 
-/// Whether a candidate explains more of the estimation records than what every rig has a little of.
-pub fn is_large(score: &Score) -> bool {
-    score.share >= CRITERIA.background_share
+/// Names that explain more of the estimation records than background effects do, the best first, whatever the validation records say.
+pub fn likeliest(named: &[Score]) -> Vec<Score> {
+    by_share(named.iter().filter(|it| it.share >= CRITERIA.background_share).copied().collect())
 }
 
 /// The one that explains most, of those that the validation records show, too.
@@ -119,6 +119,12 @@ pub(crate) mod tests {
     #[test]
     fn what_is_within_the_sensors_accuracy_is_nothing() {
         assert_eq!(choose(0.9, &[score(0, 0.9, 0.9)], &[]), Choice::Nothing);
+    }
+
+    #[test]
+    fn the_likeliest_names_need_not_hold_on_other_data() {
+        let named = [score(0, 0.05, -0.2), score(1, 0.03, 0.9), score(2, 0.3, -4.0)];
+        assert_eq!(likeliest(&named), [named[2], named[0]]);
     }
 
     #[test]

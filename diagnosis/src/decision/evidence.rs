@@ -230,6 +230,17 @@ mod tests {
     }
 
     #[test]
+    fn each_waiver_has_its_own_reason() {
+        let bulk = Evidence { residual_reduction: 0.8, ..CLEAR };
+        assert_eq!(bulk.is_steady_enough(), Some(Waiver::Bulk));
+        assert_eq!(CLEAR.is_steady_enough(), Some(Waiver::Validated));
+        assert_eq!(Evidence { validation_p_value: 0.02, ..CLEAR }.is_steady_enough(), None);
+        assert_eq!(Evidence { residual_reduction: 0.6, ..CLEAR }.is_no_chance(), Some(Waiver::Most));
+        assert_eq!(Evidence { variance_explained: 0.3, ..CLEAR }.is_no_chance(), Some(Waiver::ByFar));
+        assert_eq!(CLEAR.is_no_chance(), None);
+    }
+
+    #[test]
     fn every_gate_refuses_on_its_own() {
         for one in [
             Evidence { delta_bic: 19.0, ..CLEAR },

@@ -3,7 +3,7 @@
 use crate::catalogue::Prevalence;
 use crate::catalogue::naming::prevalence;
 use crate::confirm::{Confirmed, Tried, contains_by_name};
-use crate::decision::choice::{Choice, Score, best_of, by_share, choose, is_large, likely};
+use crate::decision::choice::{Choice, Score, best_of, by_share, choose, likeliest, likely};
 use crate::decision::criteria::CRITERIA;
 use crate::decision::description::place_of_rest;
 use crate::estimation::deadline::Stage;
@@ -191,11 +191,8 @@ impl Baseline<'_> {
             let choice = choose(compared.misses, &names, &features);
             let is_last_resort = choice == Choice::Nothing;
             let (scores, least) = match choice {
-                // Amounts by innovations may not hold on other data beside an effect that is in the model only nearly as it is: as long
-                // as something is left to be told, fits say whether a name has it.
-                Choice::Nothing if left => {
-                    (by_share(names.iter().filter(|it| is_large(it)).copied().collect()), 0.0)
-                }
+                // Beside an effect that the model has only roughly, amounts by innovations may not hold on other data: fits decide.
+                Choice::Nothing if left => (likeliest(&names), 0.0),
                 Choice::Nothing => return Ok(Next::Nothing),
                 Choice::Unmodelled(score) => {
                     curve = Some(score);

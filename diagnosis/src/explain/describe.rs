@@ -17,7 +17,7 @@ use super::selection::Compared;
 
 /// Kurtosis beyond which a signal comes in bursts: ten percent of the time hold all of it.
 const BURSTS: f64 = 8.0;
-/// Share of a signal's power on either side of the band that is told of it.
+/// Share of a signal's power on either side of the band in its description.
 const ASIDE: f64 = 0.1;
 /// Share of a band's end below which its beginning is not worth a word.
 const SLOW: f64 = 0.02;

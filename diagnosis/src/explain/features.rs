@@ -326,21 +326,21 @@ mod tests {
         }
     }
 
-    /// Also with fewer than three samples in a period, where steps of a simulation would run away.
+    /// The step response `1 − exp(−ζωt) (cos ω_d t + ζω/ω_d sin ω_d t)`, also with fewer than three samples in a period, where the
+    /// steps of a simulation would run away.
     #[test]
     fn an_oscillator_is_exact_for_a_velocity_that_is_straight_between_samples() {
         for step in [0.001, 0.02] {
-            let (hertz, tau) = (22.0, 2.0 * std::f64::consts::PI);
-            // Uniform acceleration: it comes to rest at −a/ω², where its force per mass is −a.
-            let velocity: Vec<f64> = (0..3000).map(|k| 3.0 * step * f64::from(k)).collect();
-            let [restoring, damping] = resonance(&velocity, hertz, step);
-            assert!((restoring[2999] + 3.0).abs() < 1e-6 && damping[2999].abs() < 1e-6);
-            // On the way there it overshoots by exp(−πζ/√(1 − ζ²)), half a period after the start.
-            let half = (0.5 / (hertz * (1.0 - DAMPING * DAMPING).sqrt()) / step).round() as usize;
-            let overshoot = (-std::f64::consts::PI * DAMPING / (1.0 - DAMPING * DAMPING).sqrt()).exp();
-            let at = half as f64 * step * tau * hertz * (1.0 - DAMPING * DAMPING).sqrt();
-            let exact = 1.0 + overshoot * (at - std::f64::consts::PI).cos();
-            assert!(step > 0.01 || (restoring[half] / -3.0 - exact).abs() < 0.01, "{step}");
+            let (hertz, acceleration) = (22.0, 3.0);
+            let velocity: Vec<f64> = (0..300).map(|k| acceleration * step * f64::from(k)).collect();
+            let [restoring, _] = resonance(&velocity, hertz, step);
+            let omega = 2.0 * std::f64::consts::PI * hertz;
+            let (fading, turning) = (DAMPING * omega, omega * (1.0 - DAMPING * DAMPING).sqrt());
+            for (k, force) in (0..).map(f64::from).zip(restoring) {
+                let (at, left) = (turning * step * k, (-fading * step * k).exp());
+                let exact = -acceleration * (1.0 - left * (at.cos() + fading / turning * at.sin()));
+                assert!((force - exact).abs() < 1e-9, "{step}: {k}");
+            }
         }
     }
 

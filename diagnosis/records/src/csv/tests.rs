@@ -277,6 +277,10 @@ fn columns_without_names_go_by_their_numbers() {
     assert_eq!((channel.name.as_str(), &channel.values[..]), ("column 2", &[1.5, 2.5, 3.5][..]));
     let record = parse("log.txt", b"0,,1.5\n0.1,2,2.5\n0.2,2,3.5\n", &reading).unwrap();
     assert_eq!(record.channels[1].values, [1.5, 2.5, 3.5]);
+    // A value that is missing at the end of the first row is one of a column.
+    let record = parse("log.txt", b"0,1,\n0.1,2,2.5\n0.2,2,3.5\n", &reading).unwrap();
+    assert!(record.channels.len() == 2 && record.channels[1].values[0].is_nan());
+    assert_eq!(record.channels[1].values[1..], [2.5, 3.5]);
     // One name above three columns is not a row of names.
     let message = error("force\n0,1,2\n1,2,3\n");
     assert!(message.contains("write a row that names the columns"), "{message}");
