@@ -6,7 +6,6 @@ use strut_diagnosis::catalogue::naming::name;
 use strut_diagnosis::dataset::recorded::{Dataset, Measured, Source};
 use strut_diagnosis::dataset::split::Split;
 use strut_diagnosis::diagnosis::{Options, diagnose};
-use strut_diagnosis::plant::Between;
 use strut_diagnosis::rig::Rig;
 use strut_model::Value;
 
@@ -48,12 +47,9 @@ fn record(force: impl Fn(f64, f64, f64) -> f64, seed: u64) -> Dataset {
         name: format!("{seed}"),
         step: STEP,
         inputs: rig.plant.inputs.iter().map(|it| input(&it.name)).collect(),
-        between: Between::Lines,
-        wide: None,
         measured: vec![Measured { output: rig.plant.output("force").unwrap(), values, noise_floor: 0.5 }],
-        others: vec![],
-        errors: vec![],
         sections: std::iter::once(0..COUNT).collect(),
+        ..Dataset::default()
     }
 }
 

@@ -10,7 +10,7 @@ use strut_diagnosis::estimation::hypothesis::Baseline;
 use strut_diagnosis::estimation::lsq::Stop;
 use strut_diagnosis::estimation::unknowns::Estimate;
 use strut_diagnosis::experiment::{Excitation, Limits, Rival, Shape, TABLE, Trial, Wave, excitations};
-use strut_diagnosis::plant::{Between, Drive};
+use strut_diagnosis::plant::Drive;
 use strut_diagnosis::rig::Rig;
 use strut_diagnosis::signal::derivative;
 
@@ -24,14 +24,7 @@ const NOISE: f64 = 60.0;
 fn record(rig: &Rig, parameters: &[f64], motion: Vec<f64>, seed: u64) -> Dataset {
     let (count, velocity) = (motion.len(), derivative(&motion, STEP));
     let no_coil = vec![0.0; count];
-    let drive = Drive {
-        start: 0.0,
-        step: STEP,
-        inputs: vec![motion.clone(), velocity, no_coil.clone(), no_coil],
-        finer: 1,
-        between: Between::Lines,
-        filtered: false,
-    };
+    let drive = Drive::sampled(STEP, vec![motion.clone(), velocity, no_coil.clone(), no_coil]);
     let outputs = rig.plant.prepare(&rig.choices).unwrap().outputs(parameters, &rig.start, &drive);
     let (output, mut noise) = (rig.plant.output("force").unwrap(), noise(seed));
     let values = outputs[output].iter().map(|force| force + NOISE * noise()).collect();
@@ -44,12 +37,9 @@ fn record(rig: &Rig, parameters: &[f64], motion: Vec<f64>, seed: u64) -> Dataset
             Source::Constant(0.0),
             Source::Constant(0.0),
         ],
-        between: Between::Lines,
-        wide: None,
         measured: vec![Measured { output, values, noise_floor: NOISE }],
-        others: vec![],
-        errors: vec![],
         sections: std::iter::once(0..count).collect(),
+        ..Dataset::default()
     }
 }
 

@@ -7,7 +7,7 @@ use strut_diagnosis::decision::disagreement::disagreement;
 use strut_diagnosis::diagnosis::{Diagnosis, Options, diagnose};
 use strut_diagnosis::estimation::intervals::Interval;
 use strut_diagnosis::estimation::unknowns::Unknown;
-use strut_diagnosis::plant::{Between, Drive};
+use strut_diagnosis::plant::Drive;
 use strut_diagnosis::rig::Rig;
 use strut_diagnosis::screening::rms;
 use strut_diagnosis::signal::derivative;
@@ -82,14 +82,7 @@ fn seen(rig: &Rig, seed: u64, changes: &[(&str, f64)], push: f64, sensors: &[&st
         "road.velocity" => velocity.clone(),
         _ => force.clone(),
     });
-    let drive = Drive {
-        start: 0.0,
-        step: STEP,
-        inputs: raw.collect(),
-        finer: 1,
-        between: Between::Lines,
-        filtered: false,
-    };
+    let drive = Drive::sampled(STEP, raw.collect());
     let dynamics = rig.plant.prepare(&rig.choices).unwrap();
     let start = vec![0.0; rig.plant.states.len()];
     let outputs = dynamics.outputs(&parameters, &start, &drive);
@@ -105,12 +98,9 @@ fn seen(rig: &Rig, seed: u64, changes: &[(&str, f64)], push: f64, sensors: &[&st
         name: format!("{seed}"),
         step: STEP,
         inputs,
-        between: Between::Lines,
-        wide: None,
         measured: measured.collect(),
-        others: vec![],
-        errors: vec![],
         sections: std::iter::once(0..n).collect(),
+        ..Dataset::default()
     }
 }
 

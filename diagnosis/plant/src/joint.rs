@@ -259,8 +259,7 @@ mod tests {
         let plant = Plant::of::<FullCar>().with_instances(Instance::of("strut", &places));
         let mut inputs: Vec<Vec<f64>> = std::iter::repeat_n(vec![0.0; 200], plant.inputs.len()).collect();
         inputs[0] = (0..200).map(|k| 0.01 * (0.1 * f64::from(k)).sin()).collect();
-        let drive =
-            Drive { start: 0.0, step: 2e-3, inputs, finer: 1, between: Between::Lines, filtered: false };
+        let drive = Drive::sampled(2e-3, inputs);
         let mut parameters: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
         parameters[plant.parameter("strut.front.coulomb.force").unwrap()] = 40.0;
         (plant, drive, parameters)

@@ -188,6 +188,11 @@ pub struct Drive {
 }
 
 impl Drive {
+    /// One value of each input in a sample, from time zero, with straight lines between them; `step` in seconds.
+    pub fn sampled(step: f64, inputs: Vec<Vec<f64>>) -> Self {
+        Self { start: 0.0, step, inputs, finer: 1, between: Between::Lines, filtered: false }
+    }
+
     /// The drive with a sample at each value of the inputs; none if outputs are seen at the samples only.
     fn at_each_value(&self) -> Option<Self> {
         let step = self.step / self.finer as f64;
@@ -328,14 +333,7 @@ mod tests {
 
     #[test]
     fn between_samples_there_may_be_values() {
-        let drive = Drive {
-            start: 0.0,
-            step: 1.0,
-            inputs: vec![vec![0.0, 1.0, 5.0, 6.0, 7.0]],
-            finer: 2,
-            between: Between::Lines,
-            filtered: false,
-        };
+        let drive = Drive { finer: 2, ..Drive::sampled(1.0, vec![vec![0.0, 1.0, 5.0, 6.0, 7.0]]) };
         assert_eq!(drive.len(), 3);
         let at = |sample: usize, share: f64| drive.value(&drive.inputs[0], sample, share);
         assert_eq!([at(0, 0.0), at(0, 0.25), at(0, 0.5), at(0, 0.75), at(0, 1.0)], [0.0, 0.5, 1.0, 3.0, 5.0]);

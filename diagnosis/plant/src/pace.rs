@@ -181,8 +181,7 @@ mod tests {
         let wave = |k: usize, frequency: f64| (std::f64::consts::TAU * frequency * k as f64 * STEP).sin();
         inputs[plant.input("road.position").unwrap()] =
             (0..SAMPLES).map(|k| 0.02 * wave(k, 1.7) + 0.003 * wave(k, 7.1)).collect();
-        let drive =
-            Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines, filtered: false };
+        let drive = Drive::sampled(STEP, inputs);
         let rest = |_| 0.0;
         let mut run =
             Run::new(&model, &parameters, Bundle::from_fn(|i| parameters[i]), Bundle::from_fn(rest), &drive);
@@ -267,7 +266,7 @@ mod tests {
         let phases = || (0..2000).map(|k| turn * f64::from(k) * step);
         inputs[position] = phases().map(|phase| 0.015 * phase.sin()).collect();
         inputs[velocity] = phases().map(|phase| 0.015 * turn * phase.cos()).collect();
-        let drive = Drive { start: 0.0, step, inputs, finer: 1, between: Between::Lines, filtered: false };
+        let drive = Drive::sampled(step, inputs);
         let dynamics = plant.prepare(&plant.choices).unwrap();
         let start = vec![0.0; plant.states.len()];
         let force = plant.output("force").unwrap();

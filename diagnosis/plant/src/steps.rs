@@ -194,8 +194,7 @@ mod tests {
         let states = ["body.position", "body.velocity", "wheel.position", "wheel.velocity"];
         let states = states.map(|name| plant.state(name).unwrap()).to_vec();
         let inputs = vec![vec![0.0; 50]; plant.inputs.len()];
-        let drive =
-            Drive { start: 0.0, step: 2e-3, inputs, finer: 1, between: Between::Lines, filtered: false };
+        let drive = Drive::sampled(2e-3, inputs);
         let wanted: Vec<usize> = (0..plant.outputs.len()).collect();
         let mut given = Given { states, asks, outputs: Vec::new(), advanced: 0 };
         let dynamics = plant.prepare(&plant.choices).unwrap();

@@ -35,10 +35,10 @@ const STILL: f64 = 0.02;
 /// … if it lasts so long, in seconds: a reversal does not.
 const REST: f64 = 0.1;
 
-/// Periods of the band's end beside a section's ends in which a filter does not know what was before or comes after …
+/// Reach of the filter in periods of the band's end: nearer to the ends of a section it lacks the samples before or behind them.
 const REACH: f64 = 2.0;
-/// … if so many of them make a section at least.
-const SHARE_OF_ENDS: usize = 8;
+/// An end takes the eighth part of a section at most.
+const PARTS: usize = 8;
 
 /// Records in the band in which their motion is known.
 #[derive(Clone, Debug)]
@@ -203,11 +203,12 @@ impl Signals {
     /// A record below a frequency in Hz without the force at rest and at its ends, driven by all of its motion that is known.
     fn compared(self, record: &Dataset, top: f64) -> Dataset {
         let mut all = record.compared_below(top);
+        // What rests shows in the band that is compared: in a wider one, noise moves it.
         let wide = all.wide.take();
         let mut known = self.moving(with_exact_rates(all));
         let reach = (REACH / (top * known.step)).ceil() as usize;
         for section in &known.sections {
-            let ends = reach.min(section.len() / SHARE_OF_ENDS);
+            let ends = reach.min(section.len() / PARTS);
             for measured in known.measured.iter_mut().filter(|it| it.output == self.force) {
                 measured.values[section.start..section.start + ends].fill(f64::NAN);
                 measured.values[section.end - ends..section.end].fill(f64::NAN);
@@ -313,7 +314,6 @@ mod tests {
 
     use super::*;
     use crate::dataset::recorded::Measured;
-    use crate::plant::Between;
     use crate::signal::random::Random;
 
     /// A mass and 30 N of friction, moved by 10 mm at 2 Hz, 3 mm at 6.2 Hz and 0.1 mm at 40 Hz.
@@ -333,15 +333,11 @@ mod tests {
         });
         let output = rig.plant.output("motor.force").unwrap();
         Dataset {
-            name: String::new(),
             step,
             inputs: inputs.collect(),
-            between: Between::Lines,
-            wide: None,
             measured: vec![Measured { output, values: force.collect(), noise_floor: 0.1 }],
-            others: vec![],
-            errors: vec![],
             sections: std::iter::once(0..8000).collect(),
+            ..Dataset::default()
         }
     }
 

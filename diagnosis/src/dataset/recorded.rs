@@ -10,7 +10,7 @@ use crate::signal::distortion::{Correction, Samples};
 use crate::signal::spectral::{FINER, in_band, refined};
 
 /// A record on a plant's inputs and outputs, evenly sampled.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Dataset {
     /// The file's name.
     pub name: String,
@@ -37,11 +37,11 @@ pub struct Dataset {
 /// follows goes through the filter of the measured signals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wide {
-    /// Values in a sample of the record.
+    /// Values of an input in a sample of the record.
     pub finer: usize,
-    /// Values that the band needs in a sample: a rate has nothing above half of that.
+    /// Values in a sample that the inputs' band needs: their rates have nothing above half that rate.
     pub needed: usize,
-    /// So many values of each measured input for every sample of the record; none of other inputs.
+    /// Values of each measured input, `finer` for every sample of the record; none of other inputs.
     pub inputs: Vec<Vec<f64>>,
     /// Possible errors of them.
     pub errors: Vec<Vec<f64>>,

@@ -105,22 +105,10 @@ fn in_parts(record: &Dataset) -> Dataset {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plant::Between;
 
     #[test]
     fn parts_leave_nothing_out() {
-        let (name, inputs, between, measured) = (String::new(), vec![], Between::Lines, vec![]);
-        let record = Dataset {
-            name,
-            step: 1e-3,
-            inputs,
-            between,
-            wide: None,
-            measured,
-            others: vec![],
-            errors: vec![],
-            sections: vec![0..10, 20..23],
-        };
+        let record = Dataset { step: 1e-3, sections: vec![0..10, 20..23], ..Dataset::default() };
         let sections = in_parts(&record).sections;
         assert_eq!(sections, [0..3, 3..6, 6..10, 20..21, 21..22, 22..23]);
     }

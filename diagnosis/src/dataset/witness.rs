@@ -156,7 +156,6 @@ fn shows(record: &Dataset, input: usize) -> bool {
 mod tests {
     use super::*;
     use crate::dataset::recorded::Measured;
-    use crate::plant::Between;
     use crate::signal::random::{multisine, white};
     use proptest::prelude::*;
 
@@ -167,12 +166,9 @@ mod tests {
             name: name.into(),
             step: 1e-3,
             inputs: inputs.into_iter().map(Source::Measured).collect(),
-            between: Between::Lines,
-            wide: None,
             measured: vec![Measured { output: 0, values, noise_floor: 0.1 }],
-            others: vec![],
-            errors: vec![],
             sections: std::iter::once(0..length).collect(),
+            ..Dataset::default()
         }
     }
 

@@ -4,7 +4,7 @@ use strut_model::unit;
 
 use crate::data::check::DataProblem;
 use crate::dataset::recorded::Dataset;
-use crate::plant::{Between, Drive, Dynamics};
+use crate::plant::{Drive, Dynamics};
 use crate::report::words::quantity;
 use crate::rig::Rig;
 use crate::signal::distortion::Correction;
@@ -60,8 +60,7 @@ pub fn zeroed(rig: &Rig, records: &mut [Dataset]) -> Vec<DataProblem> {
 /// Outputs that are motions, are no states that start where they are, and are zero where the model rests.
 fn counting_from_equilibrium(rig: &Rig, dynamics: &dyn Dynamics) -> Vec<usize> {
     let still = rig.plant.inputs.iter().map(|it| vec![it.start; 2]).collect();
-    let drive =
-        Drive { start: 0.0, step: STEP, inputs: still, finer: 1, between: Between::Lines, filtered: false };
+    let drive = Drive::sampled(STEP, still);
     let resting = dynamics.outputs(&rig.parameters, &rig.start, &drive);
     let counts = |index: usize| {
         let declared = &rig.plant.outputs[index];
@@ -97,15 +96,10 @@ mod tests {
     fn record(rig: &Rig, force: f64, measured: &[&str]) -> Dataset {
         let road: Vec<f64> = (0..500).map(|k| 2e-3 * (31.0 * f64::from(k) * STEP).sin()).collect();
         let mut record = Dataset {
-            name: String::new(),
             step: STEP,
             inputs: vec![Source::Measured(road), Source::DerivativeOf(0), Source::Measured(vec![force; 500])],
-            between: Between::Lines,
-            wide: None,
-            measured: Vec::new(),
-            others: Vec::new(),
-            errors: vec![],
             sections: std::iter::once(0..500).collect(),
+            ..Dataset::default()
         };
         let outputs = responses(rig, &*rig.plant.prepare(&rig.choices).unwrap(), &record).remove(0);
         let of = |name: &&str| {

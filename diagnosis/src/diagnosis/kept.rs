@@ -188,21 +188,15 @@ fn fit_of(measured: &[Dataset], residuals: &Residuals, row: usize) -> f64 {
 mod tests {
     use super::*;
     use crate::dataset::recorded::Measured;
-    use crate::plant::Between;
 
     #[test]
     fn what_runs_away_is_no_perfect_fit() {
         let values: Vec<f64> = (0..100).map(|k| f64::from(k).sin()).collect();
         let with = |values: Vec<f64>| Dataset {
-            name: String::new(),
             step: 1e-3,
-            inputs: vec![],
-            between: Between::Lines,
-            wide: None,
             measured: vec![Measured { output: 0, values, noise_floor: 0.0 }],
-            others: vec![],
-            errors: vec![],
             sections: std::iter::once(0..100).collect(),
+            ..Dataset::default()
         };
         let left = vec![vec![vec![0.01; 100]]];
         let close = fit_of(&[with(values.clone())], &left, 0);

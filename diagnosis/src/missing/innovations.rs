@@ -315,7 +315,7 @@ impl Setting<'_> {
 mod tests {
     use super::*;
     use crate::estimation::unknowns::Estimate;
-    use crate::plant::{Between, Drive};
+    use crate::plant::Drive;
     use crate::rig::Rig;
 
     const DECAY: f64 = 0.9;
@@ -337,14 +337,7 @@ mod tests {
             rates: vec![0.0; samples],
             predicted: vec![0.0; samples],
             residuals: residuals.to_vec(),
-            drive: Drive {
-                start: 0.0,
-                step: 0.01,
-                inputs: vec![],
-                finer: 1,
-                between: Between::Lines,
-                filtered: false,
-            },
+            drive: Drive::sampled(0.01, vec![]),
             timing: vec![],
             lawful: None,
             loose: (vec![1.0; samples - 1], vec![1.0; samples]),

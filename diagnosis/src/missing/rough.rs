@@ -51,7 +51,6 @@ fn as_if_white(noise: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::dataset::recorded::{Measured, Source};
-    use crate::plant::Between;
     use crate::rig::Rig;
     use crate::signal::random::with_noise;
 
@@ -101,15 +100,12 @@ mod tests {
         });
         let step = 2.5e-3;
         let still = Dataset {
-            name: String::new(),
             step,
             inputs: inputs.collect(),
             errors: errors(0.0),
-            between: Between::Lines,
-            wide: None,
             measured: measured.to_vec(),
-            others: vec![],
             sections: std::iter::once(0..samples).collect(),
+            ..Dataset::default()
         };
         let point = Estimate::undistorted(plant, &rig.parameters);
         let nominal: Vec<f64> = plant.states.iter().map(|it| it.nominal.unwrap_or(1.0)).collect();

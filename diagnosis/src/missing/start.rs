@@ -74,7 +74,7 @@ mod tests {
     use super::*;
     use crate::dataset::recorded::{Measured, Source};
     use crate::estimation::unknowns::Estimate;
-    use crate::plant::{Between, Drive};
+    use crate::plant::Drive;
     use crate::rig::Rig;
     use crate::signal::distortion::Correction;
 
@@ -98,17 +98,8 @@ mod tests {
         let [body, wheel] = [place("body.position"), place("wheel.position")];
         let mut there = rig.start.clone();
         (there[body], there[wheel]) = (0.04, 0.04);
-        let mut record = Dataset {
-            name: String::new(),
-            step,
-            inputs,
-            between: Between::Lines,
-            wide: None,
-            measured: vec![],
-            others: vec![],
-            errors: vec![],
-            sections: std::iter::once(0..400).collect(),
-        };
+        let mut record =
+            Dataset { step, inputs, sections: std::iter::once(0..400).collect(), ..Dataset::default() };
         let drive: Drive = record.drive(&(0..400), &vec![Correction::default(); plant.inputs.len()]);
         let seen = dynamics.outputs(&rig.parameters, &there, &drive);
         record.measured = ["body.acceleration", "wheel.acceleration"]

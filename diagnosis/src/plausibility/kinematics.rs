@@ -159,7 +159,6 @@ fn in_step(record: &Dataset, motion: &[f64], rate: &[f64]) -> Option<Agreement> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plant::Between;
 
     /// A sensor may be some percent off or late; a tenth of the rate is another quantity.
     #[test]
@@ -168,13 +167,8 @@ mod tests {
         let record = Dataset {
             name: "run.csv".into(),
             step: STEP,
-            inputs: vec![],
-            between: Between::Lines,
-            wide: None,
-            measured: vec![],
-            others: vec![],
-            errors: vec![],
             sections: std::iter::once(0..2000).collect(),
+            ..Dataset::default()
         };
         let wave = |of: fn(f64) -> f64| (0..2000).map(|k| of(STEP * f64::from(k))).collect::<Vec<f64>>();
         let position = wave(|t| (5.0 * t).sin() + 0.1 * (13.0 * t).cos());

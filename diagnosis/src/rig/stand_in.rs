@@ -5,7 +5,7 @@ use std::path::Path;
 
 use strut_model::Declaration;
 
-use crate::plant::{Between, Drive, Foreign, Plant};
+use crate::plant::{Drive, Foreign, Plant};
 
 use super::Rig;
 use super::own::fmu_of;
@@ -78,7 +78,7 @@ impl Rig {
             (0..SAMPLES).map(|k| declared.start + size * (TAU * turns * k as f64).sin()).collect()
         };
         let inputs = self.plant.inputs.iter().enumerate().map(sine).collect();
-        Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines, filtered: false }
+        Drive::sampled(STEP, inputs)
     }
 }
 

@@ -41,7 +41,7 @@ fn a_relay_turns_and_changes_its_speed_between_samples_and_its_derivatives_are_t
     let plant = foreign.plant().unwrap();
     let dynamics = plant.prepare(&plant.choices).unwrap();
     let inputs = vec![vec![0.0; SAMPLES]];
-    let drive = Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines, filtered: false };
+    let drive = Drive::sampled(STEP, inputs);
     let seen = dynamics.linearised(&[SLOPE], &[0.0, 0.0], &drive, &[Seed::Parameter(0)], &[0, 1]);
     let (mut area, mut before) = (0.0, 0.0);
     for sample in 0..SAMPLES {

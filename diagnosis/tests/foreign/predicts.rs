@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use strut_diagnosis::plant::{
-    Attachment, Between, Drive, Dynamics, Follower, Foreign, Plant, Role, Seed, Seen, models,
+    Attachment, Drive, Dynamics, Follower, Foreign, Plant, Role, Seed, Seen, models,
 };
 use strut_model::Declaration;
 
@@ -81,7 +81,7 @@ impl Ready {
         for (name, values) in signals {
             inputs[self.plant.input(name).expect(name)].clone_from(values);
         }
-        Drive { start: 0.0, step: 1e-3, inputs, finer: 1, between: Between::Lines, filtered: false }
+        Drive::sampled(1e-3, inputs)
     }
 
     /// One output.

@@ -5,8 +5,8 @@ use strut_physics::rigs::ElementDyno;
 
 use super::exchange::{Fmu, LEAST, Session};
 use super::role::Role;
+use crate::Drive;
 use crate::pace::{ACCURATE, FAST, RESERVE, rates};
-use crate::{Between, Drive};
 
 /// Where an element is attached.
 #[derive(Clone, Debug)]
@@ -258,8 +258,7 @@ impl Attached {
             let inputs = Declarations::of::<<ElementDyno as Model>::Input<f64>>();
             let moved = |it: &Declaration| vec![if it.name == "motion.velocity" { velocity } else { 0.0 }];
             let inputs = inputs.iter().map(moved).collect();
-            let drive =
-                Drive { start: 0.0, step: 1.0, inputs, finer: 1, between: Between::Lines, filtered: false };
+            let drive = Drive::sampled(1.0, inputs);
             rates(&self.model, &parameters, &drive, &Declarations::of::<State>())[0]
         });
         Laws { derived: self.model.derive(&parameters), parameters, forgets }

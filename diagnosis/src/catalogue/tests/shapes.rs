@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::*;
 use crate::decision::criteria::CRITERIA;
-use crate::plant::{Between, Drive, Dynamics, models};
+use crate::plant::{Drive, Dynamics, models};
 use crate::screening::rms;
 
 const SAMPLES: usize = 4000;
@@ -39,8 +39,7 @@ impl Bench {
         let mut inputs = vec![vec![0.0; SAMPLES]; plant.inputs.len()];
         inputs[plant.input("motion.position").unwrap()].clone_from(&position);
         inputs[plant.input("motion.velocity").unwrap()].clone_from(&velocity);
-        let drive =
-            Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines, filtered: false };
+        let drive = Drive::sampled(STEP, inputs);
         let columns = [&vec![1.0; SAMPLES], &position, &velocity].map(|it| DVector::from_column_slice(it));
         let nominal = DMatrix::from_columns(&columns).qr().q();
         let mut bench = Self {

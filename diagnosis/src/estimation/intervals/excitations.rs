@@ -162,7 +162,6 @@ pub(super) fn between(opinions: &[Opinion], own: f64) -> (f64, f64) {
 mod tests {
     use super::*;
     use crate::dataset::recorded::Measured;
-    use crate::plant::Between;
 
     fn shifted(shifts: &[f64], variance: f64) -> Vec<Opinion> {
         let of = |(index, shift): (usize, &f64)| Opinion {
@@ -217,18 +216,7 @@ mod tests {
     #[test]
     fn a_record_is_cut_where_it_may_be() {
         let sections = vec![0..700, 750..1000];
-        let (name, inputs, between, measured) = (String::new(), vec![], Between::Lines, vec![]);
-        let record = Dataset {
-            name,
-            step: 1e-3,
-            inputs,
-            between,
-            wide: None,
-            measured,
-            others: vec![],
-            errors: vec![],
-            sections,
-        };
+        let record = Dataset { step: 1e-3, sections, ..Dataset::default() };
         assert_eq!(cut(&record, 1).concat(), record.sections);
         let measured = vec![Measured { output: 0, values: vec![0.0; 2000], noise_floor: 1.0 }];
         let long = Dataset { measured, sections: vec![0..1400, 1450..2000], ..record };

@@ -6,7 +6,7 @@ use std::path::Path;
 use strut_check::import::{Description, Package, Variable, description};
 use strut_model::unit;
 
-use crate::plant::{Between, Drive, Foreign, Plant};
+use crate::plant::{Drive, Foreign, Plant};
 
 use super::guess::Declared;
 use crate::rig::{Rig, fmu_of};
@@ -82,8 +82,7 @@ fn moved(plant: &Plant) -> Result<BTreeMap<usize, Vec<f64>>, String> {
         let level =
             |index: usize| plant.inputs[index].start + if stepped == Some(index) { STEP } else { 0.0 };
         let inputs = (0..plant.inputs.len()).map(|index| vec![level(index); MOMENT + 1]).collect();
-        let drive =
-            Drive { start: 0.0, step: 1e-3, inputs, finer: 1, between: Between::Lines, filtered: false };
+        let drive = Drive::sampled(1e-3, inputs);
         let signals = dynamics.outputs(&parameters, &start, &drive);
         signals.iter().map(|signal| signal.last().copied()).collect()
     };

@@ -95,21 +95,10 @@ fn stretches(what: &str, so: impl Iterator<Item = bool>, step: f64) -> Vec<Mark>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plant::Between;
 
     #[test]
     fn the_largest_blocks_are_marked_in_the_order_of_time() {
-        let record = Dataset {
-            name: String::new(),
-            step: 0.01,
-            inputs: vec![],
-            between: Between::Lines,
-            wide: None,
-            measured: vec![],
-            others: vec![],
-            errors: vec![],
-            sections: vec![],
-        };
+        let record = Dataset { step: 0.01, sections: vec![], ..Dataset::default() };
         // Blocks of fifty samples; missing samples do not count.
         let mut errors = vec![0.1; 1000];
         (errors[820], errors[130], errors[470], errors[10]) = (9.0, 5.0, -7.0, f64::NAN);

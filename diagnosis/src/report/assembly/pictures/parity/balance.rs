@@ -157,7 +157,7 @@ mod tests {
     use crate::dataset::recorded::{Measured, Source};
     use crate::diagnosis::root_mean_square;
     use crate::estimation::unknowns::Estimate;
-    use crate::plant::{Between, Drive};
+    use crate::plant::Drive;
     use crate::rig::Rig;
     use crate::signal::derivative;
 
@@ -183,23 +183,18 @@ mod tests {
         };
         let (road, force) = (wave(2e-3, [9.0, 31.0, 53.0]), wave(40.0, [5.0, 17.0, 43.0]));
         let inputs = vec![road.clone(), derivative(&road, STEP), force.clone()];
-        let drive =
-            Drive { start: 0.0, step: STEP, inputs, finer: 1, between: Between::Lines, filtered: false };
+        let drive = Drive::sampled(STEP, inputs);
         let outputs = rig.plant.prepare(&rig.choices).unwrap().outputs(&parameters, &rig.start, &drive);
         let measured = MEASURED.map(|name| {
             let output = rig.plant.output(name).unwrap();
             Measured { output, values: outputs[output].clone(), noise_floor: 1e-9 }
         });
         Dataset {
-            name: String::new(),
             step: STEP,
             inputs: vec![Source::Measured(road), Source::DerivativeOf(0), Source::Measured(force)],
-            between: Between::Lines,
-            wide: None,
             measured: measured.into(),
-            others: vec![],
-            errors: vec![],
             sections: vec![0..3000, 3000..6000],
+            ..Dataset::default()
         }
     }
 

@@ -125,7 +125,6 @@ fn part<B: Bundle<f64>>(plant: &Plant, parameters: &[f64], group: &str) -> Optio
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plant::Between;
     use crate::signal::derivative;
 
     /// On its own path through its simulation, a model's parts balance.
@@ -151,15 +150,7 @@ mod tests {
         let road = wave(30.0, 4e-3);
         let road_velocity = derivative(&road, step);
         let force = wave(11.0, 50.0);
-        let between = Between::Lines;
-        let drive = Drive {
-            start: 0.0,
-            step,
-            inputs: vec![road.clone(), road_velocity, force.clone()],
-            finer: 1,
-            between,
-            filtered: false,
-        };
+        let drive = Drive::sampled(step, vec![road.clone(), road_velocity, force.clone()]);
         let names: Vec<&str> = rig.plant.inputs.iter().map(|it| it.name.as_str()).collect();
         assert_eq!(names, ["road.position", "road.velocity", "actuator.force"]);
         let dynamics = rig.plant.prepare(&rig.choices).unwrap();
@@ -167,14 +158,7 @@ mod tests {
         let signal = |name: &str| &outputs[rig.plant.output(name).unwrap()];
         let laws = Laws::of(&rig, &rig.choices, &rig.parameters).unwrap();
         let negative = |values: &[f64]| values.iter().map(|it| -it).collect::<Vec<_>>();
-        let moved = |name: &str, rate: Vec<f64>| Drive {
-            start: 0.0,
-            step,
-            inputs: vec![negative(signal(name)), rate],
-            finer: 1,
-            between,
-            filtered: false,
-        };
+        let moved = |name: &str, rate: Vec<f64>| Drive::sampled(step, vec![negative(signal(name)), rate]);
         let strut = laws.strut(&moved("suspension.deflection", negative(signal("suspension.velocity"))));
         let tire =
             laws.tire(&moved("tire.deflection", derivative(&negative(signal("tire.deflection")), step)));
