@@ -359,14 +359,16 @@ mod tests {
             let drive = record.drive(&record.sections[0], &neutral);
             let outputs = dynamics.outputs(&rig.parameters, &rig.start, &drive);
             let (force, found) = (signals.force(record).unwrap(), &outputs[signals.force]);
-            let known = force.iter().zip(found).filter(|(force, _)| force.is_finite());
+            // Of 0.5 %, half is near the ends: a filter with a sharp edge rings on.
+            let inner = 40..force.len() - 40;
+            let known = force[inner.clone()].iter().zip(&found[inner]).filter(|(force, _)| force.is_finite());
             let errors: Vec<f64> = known.map(|(force, found)| force - found).collect();
             assert!(errors.len() > 200);
             rms(&errors) / rms(force)
         };
         let wide = signals.compared(&record(&rig, 20.0, 0.0), 20.0);
         let narrow = Dataset { wide: None, ..wide.clone() };
-        assert!(wide.wide.is_some() && apart(&wide) < 0.01, "{}", apart(&wide));
+        assert!(wide.wide.is_some() && apart(&wide) < 3e-3, "{}", apart(&wide));
         assert!(apart(&narrow) > 0.05, "{}", apart(&narrow));
     }
 
