@@ -214,7 +214,7 @@ impl Signals {
                 measured.values[section.end - ends..section.end].fill(f64::NAN);
             }
         }
-        Dataset { wide, ..known }
+        Dataset { wide, ..known }.with_rates()
     }
 
     /// The record without the force at rest.
@@ -367,6 +367,12 @@ mod tests {
             rms(&errors) / rms(force)
         };
         let wide = signals.compared(&record(&rig, 20.0, 0.0), 20.0);
+        // A part of a section is driven as in the whole of it.
+        let neutral = vec![Correction::default(); wide.inputs.len()];
+        let [whole, part] = [0..400, 100..300].map(|samples| wide.drive(&samples, &neutral));
+        for (all, some) in whole.inputs.iter().zip(&part.inputs) {
+            assert_eq!(all[100 * whole.finer..][..some.len()], some[..]);
+        }
         let narrow = Dataset { wide: None, ..wide.clone() };
         assert!(wide.wide.is_some() && apart(&wide) < 3e-3, "{}", apart(&wide));
         assert!(apart(&narrow) > 0.05, "{}", apart(&narrow));

@@ -41,10 +41,26 @@ pub struct Wide {
     pub finer: usize,
     /// Values in a sample that the inputs' band needs: their rates have nothing above half that rate.
     pub needed: usize,
-    /// Values of each measured input, `finer` for every sample of the record; none of other inputs.
+    /// Values of each measured input and of its rates, `finer` for every sample of the record; none of other inputs. The rates are of
+    /// whole sections: at the ends of a part, a derivative in a band would not know what comes before or after.
     pub inputs: Vec<Vec<f64>>,
-    /// Possible errors of them.
+    /// Possible errors of what was measured.
     pub errors: Vec<Vec<f64>>,
+}
+
+impl Wide {
+    /// Whether it knows an input.
+    fn has(&self, input: usize) -> bool {
+        !self.inputs[input].is_empty()
+    }
+
+    /// The values of an input in some samples of the record.
+    fn part(&self, input: usize, samples: &Range<usize>) -> Vec<f64> {
+        if samples.is_empty() {
+            return Vec::new();
+        }
+        self.inputs[input][self.finer * samples.start..=self.finer * (samples.end - 1)].to_vec()
+    }
 }
 
 /// Where an input comes from.
@@ -136,7 +152,7 @@ impl Dataset {
             let Wide { inputs, errors, .. } = Arc::make_mut(wide);
             inputs.iter_mut().zip(&*errors).for_each(|(values, errors)| disturb(values, errors));
         }
-        is_disturbed.then_some(disturbed)
+        is_disturbed.then(|| disturbed.with_rates())
     }
 
     /// The same with neighbouring sections in one: a filter needs no new start where a simulation does.
@@ -167,13 +183,34 @@ impl Dataset {
         }
     }
 
+    /// The same with the rates of inputs that are known in a wider band, over each whole section.
+    #[must_use]
+    pub fn with_rates(mut self) -> Self {
+        let Some(mut wide) = self.wide.clone() else { return self };
+        let own = Arc::make_mut(&mut wide);
+        for (index, source) in self.inputs.iter().enumerate() {
+            let Some(other) = source.motion().filter(|it| own.has(*it)) else { continue };
+            let rates = self.sections.iter().flat_map(|section| {
+                let mut rate = self.rate(&own.part(other, section), source);
+                rate.resize(own.finer * section.len(), rate.last().copied().unwrap_or_default());
+                rate
+            });
+            own.inputs[index] = rates.collect();
+        }
+        self.wide = Some(wide);
+        self
+    }
+
+    /// Whether nothing was done to the motion that an input is a rate of.
+    fn is_plain(&self, input: usize, corrections: &[Correction]) -> bool {
+        corrections[input].is_neutral()
+            && self.inputs[input].motion().is_none_or(|it| self.is_plain(it, corrections))
+    }
+
     /// The values of a measured input that drive the plant in a section.
     fn driving(&self, input: usize, values: &[f64], section: &Range<usize>) -> Vec<f64> {
         match (&self.wide, self.between) {
-            (Some(_), _) if section.is_empty() => Vec::new(),
-            (Some(wide), _) => {
-                wide.inputs[input][wide.finer * section.start..=wide.finer * (section.end - 1)].to_vec()
-            }
+            (Some(wide), _) => wide.part(input, section),
             (None, Between::Lines) => values[section.clone()].to_vec(),
             (None, Between::Curves) => refined(&values[section.clone()]),
         }
@@ -196,7 +233,12 @@ impl Dataset {
         }
         for (index, source) in self.inputs.iter().enumerate() {
             if let Some(other) = source.motion() {
-                inputs[index] = self.rate(&inputs[other], source);
+                inputs[index] = match &self.wide {
+                    Some(wide) if wide.has(index) && self.is_plain(other, corrections) => {
+                        wide.part(index, section)
+                    }
+                    _ => self.rate(&inputs[other], source),
+                };
             }
         }
         Drive {
