@@ -250,7 +250,6 @@ impl Follower for Summed<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Between;
     use strut_physics::rigs::FullCar;
 
     /// A car with its struts together, a drive over one wheel, and parameters with friction at both front struts.

@@ -164,7 +164,7 @@ mod tests {
 
     use super::*;
     use crate::integrate::Run;
-    use crate::{Between, Plant, Seed};
+    use crate::{Plant, Seed};
 
     const SAMPLES: usize = 3000;
     const STEP: f64 = 1e-3;

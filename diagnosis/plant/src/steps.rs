@@ -154,7 +154,7 @@ fn follow<M: Model, R: Scalar>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Between, Plant};
+    use crate::Plant;
     use strut_physics::rigs::QuarterCar;
 
     /// Gives some states, and counts how often it is handed the next ones.
