@@ -18,6 +18,8 @@ use crate::signal::spectral::{Complex, FINER, KEPT, about_line, decimated, fille
 
 /// Samples a second that are enough.
 const ENOUGH: f64 = 400.0;
+/// Reach of the filter of a band in periods of its end.
+const REACH: f64 = 2.0;
 /// Samples of a signal whose spectrum tells noise from it, at least.
 const SHORTEST: usize = 16;
 /// New periods over which the filter spreads a sample.
@@ -60,7 +62,9 @@ impl Dataset {
         let inputs = known.inputs.iter().map(|it| it.measured().map(laid).unwrap_or_default());
         let errors = known.errors.iter().map(|it| if it.is_empty() { Vec::new() } else { laid(it) });
         let (inputs, errors) = (inputs.collect(), errors.collect());
-        Self { wide: (needed > 1).then(|| Arc::new(Wide { finer, needed, inputs, errors })), ..banded }
+        let reach = (REACH / (top * banded.step)).ceil() as usize;
+        let wide = Wide { finer, needed, inputs, errors, reach };
+        Self { wide: (needed > 1).then(|| Arc::new(wide)), ..banded }
     }
 
     /// The record without its inputs' noise above a frequency in Hz, and thinned.

@@ -35,11 +35,6 @@ const STILL: f64 = 0.02;
 /// … if it lasts so long, in seconds: a reversal does not.
 const REST: f64 = 0.1;
 
-/// Reach of the filter in periods of the band's end: nearer to the ends of a section it lacks the samples before or behind them.
-const REACH: f64 = 2.0;
-/// An end takes the eighth part of a section at most.
-const PARTS: usize = 8;
-
 /// Records in the band in which their motion is known.
 #[derive(Clone, Debug)]
 pub struct Banded {
@@ -205,16 +200,7 @@ impl Signals {
         let mut all = record.compared_below(top);
         // What rests shows in the band that is compared: in a wider one, noise moves it.
         let wide = all.wide.take();
-        let mut known = self.moving(with_exact_rates(all));
-        let reach = (REACH / (top * known.step)).ceil() as usize;
-        for section in &known.sections {
-            let ends = reach.min(section.len() / PARTS);
-            for measured in known.measured.iter_mut().filter(|it| it.output == self.force) {
-                measured.values[section.start..section.start + ends].fill(f64::NAN);
-                measured.values[section.end - ends..section.end].fill(f64::NAN);
-            }
-        }
-        Dataset { wide, ..known }.with_rates()
+        Dataset { wide, ..self.moving(with_exact_rates(all)) }.with_rates().without_ends()
     }
 
     /// The record without the force at rest.

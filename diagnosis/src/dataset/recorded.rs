@@ -1,5 +1,6 @@
 //! A record as a plant sees it: what drives it, what was measured of it.
 
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -46,6 +47,8 @@ pub struct Wide {
     pub inputs: Vec<Vec<f64>>,
     /// Possible errors of what was measured.
     pub errors: Vec<Vec<f64>>,
+    /// Reach of the outputs' filter in samples of the record: nearer to the ends of a part, it lacks what comes before or after.
+    pub reach: usize,
 }
 
 impl Wide {
@@ -105,6 +108,9 @@ pub struct Measured {
     /// Root mean square of the measurement's noise.
     pub noise_floor: f64,
 }
+
+/// An end takes the eighth part of a section at most.
+const PARTS: usize = 8;
 
 /// Length of a short stretch of data in seconds, over which no model goes far astray.
 pub const SHORT: f64 = 1.0;
@@ -171,6 +177,30 @@ impl Dataset {
     /// Which samples those of a section are.
     pub fn samples(&self, section: &Range<usize>) -> Samples {
         Samples { step: self.step, first: section.start }
+    }
+
+    /// What was measured of an output in a part of a section, by its row, without the samples in the reach of a filter at the part's
+    /// ends: they take the eighth of it on either side at most.
+    pub fn compared(&self, row: usize, part: &Range<usize>) -> Cow<'_, [f64]> {
+        let values = &self.measured[row].values[part.clone()];
+        let Some(wide) = &self.wide else { return Cow::Borrowed(values) };
+        let ends = wide.reach.min(values.len() / PARTS);
+        let mut inner = values.to_vec();
+        inner[..ends].fill(f64::NAN);
+        inner[values.len() - ends..].fill(f64::NAN);
+        Cow::Owned(inner)
+    }
+
+    /// The same without what is not compared at the ends of its sections.
+    #[must_use]
+    pub fn without_ends(mut self) -> Self {
+        for row in 0..self.measured.len() {
+            for section in &self.sections {
+                let inner = self.compared(row, section).into_owned();
+                self.measured[row].values[section.clone()].copy_from_slice(&inner);
+            }
+        }
+        self
     }
 
     /// How many values of an input there are in a step of what drives the plant: where signals go along curves, a cubic

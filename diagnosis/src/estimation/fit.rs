@@ -128,10 +128,10 @@ impl<'a> Fit<'a> {
     /// Half the weighted sum of squares of a section.
     fn section_cost(&self, point: &Estimate, start: &[f64], record: &Dataset, section: &Range<usize>) -> f64 {
         let predicted = self.predicted(point, start, record, section);
-        let signals = record.measured.iter().zip(predicted).map(|(measured, signal)| {
+        let signals = record.measured.iter().zip(predicted).enumerate().map(|(row, (measured, signal))| {
             let weight = self.sigma[measured.output].powi(-2);
-            let values = measured.values[section.clone()].iter();
-            let known = values.zip(signal).filter(|(value, _)| value.is_finite());
+            let values = record.compared(row, section);
+            let known = values.iter().zip(signal).filter(|(value, _)| value.is_finite());
             0.5 * weight * known.map(|(value, y)| (value - y).powi(2)).sum::<f64>()
         });
         signals.sum()

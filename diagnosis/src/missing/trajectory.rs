@@ -1,5 +1,6 @@
 //! The trajectory that a rig has taken by all its sensors, and the model's one-sample predictions about it.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::dataset::recorded::{Dataset, Source};
@@ -218,7 +219,7 @@ impl<'a> Setting<'a> {
         let wanted: Vec<usize> = own.measured.iter().map(|it| it.output).collect();
         let mut about = About {
             active: &self.active,
-            measured: own.measured.iter().map(|it| &it.values[samples.clone()]).collect(),
+            measured: (0..own.measured.len()).map(|row| own.compared(row, &samples)).collect(),
             window: Window {
                 record,
                 samples: samples.clone(),
@@ -275,7 +276,7 @@ impl<'a> Setting<'a> {
             width: n + moving,
             decay,
             active: &self.active,
-            measured: own.measured.iter().map(|it| &it.values[samples.clone()]).collect(),
+            measured: (0..own.measured.len()).map(|row| own.compared(row, samples)).collect(),
             noise: &self.noise,
             driven: driven.collect(),
             passed: Vec::with_capacity(samples.len()),
@@ -305,7 +306,7 @@ struct Pass<'a> {
     width: usize,
     decay: f64,
     active: &'a [usize],
-    measured: Vec<&'a [f64]>,
+    measured: Vec<Cow<'a, [f64]>>,
     noise: &'a [f64],
     driven: Vec<f64>,
     passed: Vec<Passed>,
@@ -362,7 +363,7 @@ impl Follower for Pass<'_> {
 /// Linearises about a given trajectory.
 struct About<'a> {
     active: &'a [usize],
-    measured: Vec<&'a [f64]>,
+    measured: Vec<Cow<'a, [f64]>>,
     window: Window,
 }
 

@@ -136,7 +136,7 @@ impl Fit<'_> {
         }
         let signal = correction.applied(predicted, samples);
         let mut residual = DVector::zeros(section.len());
-        for (k, value) in measured.values[section.clone()].iter().enumerate() {
+        for (k, value) in record.compared(row, section).iter().enumerate() {
             if value.is_finite() {
                 residual[k] = weight * (value - signal[k]);
             } else {
