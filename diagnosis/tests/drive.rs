@@ -1,8 +1,12 @@
 //! A positioning drive of which nothing was known.
 
+use std::f64::consts::TAU;
+use std::fmt::Write;
+use std::fs;
+
 use serde_json::Value;
 
-use crate::simulated::{DAMPING, FRICTION, MASS, plain};
+use crate::simulated::{DAMPING, FRICTION, MASS, diagnosed, plain};
 
 #[test]
 fn friction_is_found_in_a_drive_of_which_nothing_was_known() {
@@ -35,4 +39,42 @@ fn friction_is_found_in_a_drive_of_which_nothing_was_known() {
     let force = &report["signals"][0];
     assert_eq!(force["name"], "motor.force");
     assert!(force["fit_after"].as_f64().unwrap() > 0.94, "{force}");
+}
+
+/// A mass with a damper, moved along sines; its position has the noise of 0.03 mm. In the report's force, that is a hundred times the
+/// noise of a load cell.
+#[test]
+fn what_noise_of_the_motion_makes_of_a_force_is_noise() {
+    const SINES: [(f64, f64); 3] = [(0.08, 0.4), (0.03, 1.3), (0.01, 3.1)];
+    let mut state = 5_u64;
+    // A sum of twelve equally distributed numbers is nearly normal.
+    let mut normal = || {
+        let uniform = |_| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        (0..12).map(uniform).sum::<f64>() - 6.0
+    };
+    let mut record = |seconds: f64, later: f64| {
+        let mut text = "time [s],motor.force [N],position [m]\n".to_owned();
+        for t in (0..(500.0 * seconds) as usize).map(|k| k as f64 / 500.0) {
+            let sum = |of: fn(f64, f64) -> f64| -> f64 {
+                let sine =
+                    |(size, hertz): (f64, f64)| size * of(TAU * hertz, TAU * hertz * (t + later) + hertz);
+                SINES.map(sine).iter().sum()
+            };
+            let (x, v, a) = (sum(|_, p| p.sin()), sum(|w, p| w * p.cos()), sum(|w, p| -w * w * p.sin()));
+            let force = MASS * a + DAMPING * v + 3e-3 * normal();
+            writeln!(text, "{t:.3},{force:.6},{:.8}", x + 3e-5 * normal()).unwrap();
+        }
+        text
+    };
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("train.csv"), record(20.0, 0.0)).unwrap();
+    fs::write(folder.path().join("test.csv"), record(20.0, 31.7)).unwrap();
+    let report = diagnosed(folder.path(), "2");
+    assert_eq!(report["effects"].as_array().unwrap().len(), 0, "{}", report["summary"]);
+    let force = &report["signals"][0];
+    let [left, noise] = ["rms_fitted", "noise_floor"].map(|key| force[key].as_f64().unwrap());
+    assert!((0.8..1.25).contains(&(left / noise)) && noise > 0.3, "{left} N beside {noise} N");
 }

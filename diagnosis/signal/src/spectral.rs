@@ -8,7 +8,7 @@ mod refine;
 mod welch;
 
 pub use cumulative::cumulative_periodogram;
-pub use filter::{Line, about_line, decimated, filled, in_band, is_kept};
+pub use filter::{Line, about_line, decimated, filled, in_band, left_of_noise, passed};
 pub use line::line;
 pub use refine::{FINER, refined};
 pub use rustfft::num_complex::Complex;

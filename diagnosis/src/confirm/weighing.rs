@@ -28,6 +28,11 @@ impl Baseline<'_> {
         Errors { residuals, floor: &self.floor }
     }
 
+    /// Noise of a measured output: of its sensor, and of the measured inputs.
+    pub(crate) fn noise(&self, row: usize) -> f64 {
+        self.floor[row].hypot(self.transmitted[row])
+    }
+
     /// Student's t of the gain over blocks, in units of what the better fit leaves. Of what acts beyond a threshold only, or where
     /// a resonance is excited, the gains are as uneven as the events: there, it is enough if each event's own errors shrink steadily.
     fn steadiness(&self, term: Term, null: &Residuals, other: &Residuals) -> Student {
@@ -135,8 +140,7 @@ impl Baseline<'_> {
 
     fn is_any(&self, left: &Residuals, what: fn(&Account, f64) -> bool) -> bool {
         let is = |(row, power): (usize, f64)| {
-            let noise = self.floor[row].powi(2);
-            what(&account(power, power, &[], noise, 0.0), self.signal(row))
+            what(&account(power, power, &[], self.noise(row).powi(2), 0.0), self.signal(row))
         };
         self.uses(Component::Account) && self.errors(left).mean_squares().into_iter().enumerate().any(is)
     }

@@ -14,12 +14,14 @@ use crate::data::check::noise_floor;
 use crate::dataset::recorded::{Dataset, Measured, Source, Wide};
 use crate::plant::Between;
 use crate::signal::random::with_noise;
-use crate::signal::spectral::{Complex, FINER, KEPT, about_line, decimated, filled, is_kept, refined};
+use crate::signal::spectral::{
+    Complex, FINER, KEPT, about_line, decimated, filled, left_of_noise, passed, refined,
+};
 
 /// Samples a second that are enough.
 const ENOUGH: f64 = 400.0;
 /// Reach of the filter of a band in periods of its end.
-const REACH: f64 = 2.0;
+const REACH: f64 = 4.0;
 /// Samples of a signal whose spectrum tells noise from it, at least.
 const SHORTEST: usize = 16;
 /// New periods over which the filter spreads a sample.
@@ -28,7 +30,7 @@ const SPREAD: usize = 2;
 const SMOOTHING: usize = 20;
 /// Power over that of the noise below which a smoothed bin holds no signal: noise alone is above it once in fifty.
 /// What is let through of it would count where a model takes the derivative of a measured position.
-const BEYOND_CHANCE: f64 = 1.5;
+const BEYOND_CHANCE: f64 = 2.5;
 
 impl Dataset {
     /// The record without its inputs' noise, and thinned.
@@ -103,7 +105,7 @@ impl Dataset {
         let measured = self.measured.iter().map(|measured| Measured {
             output: measured.output,
             values: through(&measured.values, 0.0),
-            noise_floor: measured.noise_floor / (factor as f64 / KEPT.min(factor as f64)).sqrt().max(1.0),
+            noise_floor: measured.noise_floor * left_of_noise(factor),
         });
         let others = self.others.iter().map(|it| Channel { values: through(&it.values, 0.0), ..it.clone() });
         Self {
@@ -181,15 +183,13 @@ impl Filter {
         let level = len as f64 * self.noise * self.noise;
         (0..len)
             .map(|bin| {
-                if !is_kept(bin, len, self.factor) {
-                    return 0.0;
-                }
-                if (bin.min(len - bin) as f64) < self.quiet * len as f64 {
-                    return 1.0;
+                let passed = passed(bin, len, self.factor);
+                if passed == 0.0 || (bin.min(len - bin) as f64) < self.quiet * len as f64 {
+                    return passed;
                 }
                 let around = (0..=2 * SMOOTHING).map(|offset| power[(bin + len + offset - SMOOTHING) % len]);
                 let mean = around.sum::<f64>() / (2 * SMOOTHING + 1) as f64;
-                if mean > BEYOND_CHANCE * level { 1.0 - level / mean } else { 0.0 }
+                if mean > BEYOND_CHANCE * level { passed * (1.0 - level / mean) } else { 0.0 }
             })
             .collect()
     }
@@ -243,7 +243,7 @@ mod tests {
         assert!((0.5..2.0).contains(&ratio) && rms(&drawn) < 0.005, "{ratio}, {}", rms(&drawn));
         // A filter that only ends the band leaves all noise below its end.
         let plain = rms(&Filter { quiet: f64::INFINITY, ..filter(0.01, 2) }.error(&noisy, 3));
-        assert!((plain / (0.01 * (KEPT / 2.0).sqrt()) - 1.0).abs() < 0.05, "{plain}");
+        assert!((plain / (0.01 * left_of_noise(2)) - 1.0).abs() < 0.05, "{plain}");
         assert!(filter(0.0, 2).error(&noisy, 3).iter().all(|it| *it == 0.0));
     }
 

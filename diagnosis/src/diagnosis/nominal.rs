@@ -60,7 +60,23 @@ pub(super) fn fit(baseline: &mut Baseline<'_>) -> Result<(Estimate, Fitted, Vec<
     if let Some(point) = baseline.hold_scale(&base) {
         base = weighted(baseline, Fitted { point, ..base })?;
     }
+    baseline.transmitted = transmitted(baseline, &base)?;
     Ok((before, base, reversed))
+}
+
+/// Root mean square of what noise of the measured inputs changes each measured output by, on the validation data. The states at
+/// the start make up for what they can, as they do for the noise that is there.
+fn transmitted(baseline: &Baseline<'_>, base: &Fitted) -> Result<Vec<f64>, String> {
+    let all = baseline.test.iter().map(|record| record.disturbed().unwrap_or_else(|| record.clone()));
+    let noisier: Vec<Dataset> = all.collect();
+    let dynamics = baseline.dynamics(&[])?;
+    let left = Baseline { test: &noisier, ..baseline.clone() }.held_out(&*dynamics, &base.point);
+    let change = |row: usize| {
+        let records =
+            left.iter().zip(&base.test).flat_map(|(noisy, clean)| noisy[row].iter().zip(&clean[row]));
+        root_mean_square(&records.map(|(noisy, clean)| noisy - clean).collect::<Vec<_>>())
+    };
+    Ok((0..baseline.floor.len()).map(change).collect())
 }
 
 /// A start with the parameters of a balance of forces, which become the sheet; none if the order of each is known. A simulation from a

@@ -72,6 +72,9 @@ pub struct Baseline<'a> {
     pub sigma: Vec<f64>,
     /// Noise of each measured output, in the order of a record's.
     pub floor: Vec<f64>,
+    /// What noise of the measured inputs makes of each of them by way of the fitted starting model, as a root mean square on the
+    /// validation data.
+    pub transmitted: Vec<f64>,
     /// Until when it may be looked further.
     pub deadline: Deadline,
 }
@@ -142,6 +145,7 @@ impl<'a> Baseline<'a> {
             looks: 1.0,
             sigma: vec![1.0; rig.plant.outputs.len()],
             floor: Vec::new(),
+            transmitted: Vec::new(),
             deadline: options.deadline,
         }
     }
@@ -292,7 +296,7 @@ impl Baseline<'_> {
         self.fit(dynamics, self.test, Vec::new()).settled(point)
     }
 
-    fn held_out(&self, dynamics: &dyn Dynamics, point: &Estimate) -> Residuals {
+    pub(crate) fn held_out(&self, dynamics: &dyn Dynamics, point: &Estimate) -> Residuals {
         let point = self.held_out_point(dynamics, point);
         self.fit(dynamics, self.test, Vec::new()).residuals(&point)
     }

@@ -236,7 +236,7 @@ impl Diagnosis<'_> {
                 rms_before: root_mean_square(&before),
                 rms_fitted: root_mean_square(&fitted),
                 rms_after: root_mean_square(&after),
-                noise_floor: first.noise_floor,
+                noise_floor: first.noise_floor.hypot(baseline.transmitted[row]),
                 repeatability: repeatability(self.measured, row),
             }
         };

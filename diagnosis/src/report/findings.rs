@@ -197,7 +197,7 @@ pub struct Signal {
     pub rms_fitted: f64,
     /// The same of the extended model.
     pub rms_after: f64,
-    /// Root mean square of the measurement's noise.
+    /// Root mean square of the noise: of its sensor's, and of what noise of the measured inputs makes of it.
     pub noise_floor: f64,
     /// Root mean square of the difference of two repeats, over √2; where there are repeats.
     pub repeatability: Option<f64>,
@@ -247,7 +247,7 @@ pub struct SignalAccount {
     pub signal: String,
     /// Root mean square of the starting model's error, in the signal's unit.
     pub error: f64,
-    /// Measurement noise.
+    /// Noise of its sensor and of the measured inputs.
     pub noise: f64,
     /// What fitting the nominal parameters takes away; negative if it makes this signal worse.
     pub parameters: f64,

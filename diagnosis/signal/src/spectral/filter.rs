@@ -68,9 +68,7 @@ pub fn in_band(values: &[f64], step: f64, top: f64, order: i32) -> Vec<f64> {
         let gain = |bin: usize| {
             let bin = if 2 * bin > len { bin as f64 - len as f64 } else { bin as f64 };
             let frequency = bin / (len as f64 * step);
-            let place = (frequency.abs() / top - 0.8) / 0.4;
-            let passed = if place > 1.0 { 0.0 } else { 0.5 + 0.5 * (PI * place.max(0.0)).cos() };
-            Complex::new(0.0, TAU * frequency).powi(order) * passed
+            Complex::new(0.0, TAU * frequency).powi(order) * round((frequency.abs() / top - 0.8) / 0.4)
         };
         (0..len).map(gain).collect()
     });
@@ -82,9 +80,27 @@ pub fn in_band(values: &[f64], step: f64, top: f64, order: i32) -> Vec<f64> {
     deviation.into_iter().enumerate().map(add).collect()
 }
 
-/// Whether a bin of a spectrum of `len` bins is kept where one of `factor` samples is left: up to [`KEPT`] of half their rate.
-pub fn is_kept(bin: usize, len: usize, factor: usize) -> bool {
-    factor == 1 || bin.min(len - bin) as f64 <= KEPT * 0.5 * len as f64 / factor as f64
+/// The gain at a place of a filter's edge, which begins at 0 and ends at 1. It is a raised cosine: what is wrong at an end of a signal
+/// would ring on over all of it behind a sharp one.
+fn round(place: f64) -> f64 {
+    0.5 + 0.5 * (PI * place.clamp(0.0, 1.0)).cos()
+}
+
+/// Share of the kept band that passes as it is.
+const FLAT: f64 = 0.75;
+
+/// The gain of a bin of a spectrum of `len` bins where one of `factor` samples is left: nothing is left beyond [`KEPT`] of half their
+/// rate.
+pub fn passed(bin: usize, len: usize, factor: usize) -> f64 {
+    let end = KEPT * 0.5 * len as f64 / factor as f64;
+    if factor == 1 { 1.0 } else { round((bin.min(len - bin) as f64 / end - FLAT) / (1.0 - FLAT)) }
+}
+
+/// What is left there of white noise, as a root mean square.
+pub fn left_of_noise(factor: usize) -> f64 {
+    // The mean square of a raised cosine is three eighths.
+    let passed = KEPT * (FLAT + 0.375 * (1.0 - FLAT));
+    if factor == 1 { 1.0 } else { (passed / factor as f64).sqrt() }
 }
 
 /// One of `factor` samples of a signal, behind a filter without phase for the band that is kept.
@@ -94,7 +110,7 @@ pub fn decimated(values: &[f64], factor: usize) -> Vec<f64> {
     }
     let (line, deviation) = about_line(values, &mut |spectrum| {
         let len = spectrum.len();
-        (0..len).map(|bin| Complex::from(f64::from(is_kept(bin, len, factor)))).collect()
+        (0..len).map(|bin| Complex::from(passed(bin, len, factor))).collect()
     });
     (0..values.len()).step_by(factor).map(|k| deviation[k] + line.at(k)).collect()
 }

@@ -19,8 +19,7 @@ impl Diagnosis<'_> {
         let rows = baseline.test.first().map_or(&[][..], |record| &record.measured);
         let of = |(row, measured): (usize, &crate::dataset::recorded::Measured)| {
             let after: Vec<f64> = stages.iter().map(|stage| stage[row]).collect();
-            let noise = baseline.floor.get(row).map_or(0.0, |floor| floor * floor);
-            let account = account(start[row], fitted[row], &after, noise, share);
+            let account = account(start[row], fitted[row], &after, baseline.noise(row).powi(2), share);
             let total = account.total.max(f64::MIN_POSITIVE);
             let item = |(taken, accepted): (&f64, &crate::confirm::Accepted)| {
                 let words = name(accepted.term, &baseline.rig.plant);
