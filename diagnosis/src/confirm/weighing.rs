@@ -30,7 +30,8 @@ impl Baseline<'_> {
 
     /// Noise of a measured output: of its sensor, and of the measured inputs.
     pub(crate) fn noise(&self, row: usize) -> f64 {
-        self.floor[row].hypot(self.transmitted[row])
+        let sensor = self.train.first().map_or(0.0, |record| record.measured[row].noise_floor);
+        sensor.max(self.floor[row]).hypot(self.transmitted[row])
     }
 
     /// Student's t of the gain over blocks, in units of what the better fit leaves. Of what acts beyond a threshold only, or where

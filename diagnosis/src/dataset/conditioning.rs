@@ -33,9 +33,15 @@ const SMOOTHING: usize = 20;
 const BEYOND_CHANCE: f64 = 2.5;
 
 impl Dataset {
-    /// The record without its inputs' noise, and thinned.
+    /// The record without its inputs' noise, and thinned; where its motion is imposed, driven by all of it that is known.
     pub fn conditioned(&self) -> Self {
-        self.without_noise_above(0.0)
+        let thinned = self.without_noise_above(0.0);
+        let is_thinner = thinned.step > self.step;
+        if self.imposed && is_thinner {
+            self.thinned(f64::INFINITY, 0.0).behind(thinned, 1).with_rates()
+        } else {
+            thinned
+        }
     }
 
     /// The record below a frequency in Hz, thinned. All signals pass the same filter: whatever it takes away of a motion, it
@@ -48,25 +54,31 @@ impl Dataset {
     pub fn compared_below(&self, top: f64) -> Self {
         let known = self.without_noise_above(top);
         let banded = known.below(top);
-        let needed = (banded.step / known.step).round() as usize;
-        let refining = if needed < FINER { FINER } else { 1 };
+        // Between samples that are hardly finer, a rate that is exact in its band would be too coarse.
+        let refining = if banded.step < (FINER as f64 - 0.5) * known.step { FINER } else { 1 };
+        if banded.step > known.step { known.behind(banded, refining) } else { banded }
+    }
+
+    /// A thinned copy of this record that is driven by all of this one's inputs, its outputs being behind the filter of the copy;
+    /// `refining` is one or [`FINER`].
+    fn behind(&self, thinned: Self, refining: usize) -> Self {
+        let needed = (thinned.step / self.step).round() as usize;
         let finer = needed * refining;
         let laid = |values: &[f64]| -> Vec<f64> {
-            let of = |(known, banded): (&Range<usize>, &Range<usize>)| {
+            let of = |(known, thinned): (&Range<usize>, &Range<usize>)| {
                 let part = &values[known.clone()];
                 let mut part = if refining == 1 { part.to_vec() } else { refined(part) };
                 let last = part.last().copied().unwrap_or_default();
-                part.resize(finer * banded.len(), last);
+                part.resize(finer * thinned.len(), last);
                 part
             };
-            known.sections.iter().zip(&banded.sections).flat_map(of).collect()
+            self.sections.iter().zip(&thinned.sections).flat_map(of).collect()
         };
-        let inputs = known.inputs.iter().map(|it| it.measured().map(laid).unwrap_or_default());
-        let errors = known.errors.iter().map(|it| if it.is_empty() { Vec::new() } else { laid(it) });
-        let (inputs, errors) = (inputs.collect(), errors.collect());
-        let reach = (REACH / (top * banded.step)).ceil() as usize;
-        let wide = Wide { finer, needed, inputs, errors, reach };
-        Self { wide: (needed > 1).then(|| Arc::new(wide)), ..banded }
+        let inputs = self.inputs.iter().map(|it| it.measured().map(laid).unwrap_or_default()).collect();
+        let errors = self.errors.iter().map(|it| if it.is_empty() { Vec::new() } else { laid(it) }).collect();
+        // The kept band ends at KEPT of half the rate.
+        let reach = (2.0 * REACH / KEPT).ceil() as usize;
+        Self { wide: Some(Arc::new(Wide { finer, needed, inputs, errors, reach })), ..thinned }
     }
 
     /// The record without its inputs' noise above a frequency in Hz, and thinned.
@@ -115,6 +127,7 @@ impl Dataset {
             errors: errors.collect(),
             between: Between::Curves,
             wide: None,
+            imposed: self.imposed,
             measured: measured.collect(),
             others: others.collect(),
             sections,

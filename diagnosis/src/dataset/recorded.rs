@@ -26,6 +26,8 @@ pub struct Dataset {
     pub between: Between,
     /// The inputs in a wider band than that in which the record is compared, if they are known there.
     pub wide: Option<Arc<Wide>>,
+    /// Whether the rig's motion is imposed by its inputs.
+    pub imposed: bool,
     /// What was measured.
     pub measured: Vec<Measured>,
     /// Columns that no signal of the rig is.
@@ -355,15 +357,11 @@ mod tests {
             let position: Vec<f64> = (0..80).map(|k| (omega * time(k)).sin()).collect();
             let inputs = vec![Source::Measured(position), Source::DerivativeOf(0)];
             let record = Dataset {
-                name: String::new(),
                 step,
                 inputs,
                 between,
-                wide: None,
-                measured: vec![],
-                others: vec![],
-                errors: vec![],
                 sections: std::iter::once(0..80).collect(),
+                ..Dataset::default()
             };
             let error = |(k, rate): (i32, &f64)| (rate / omega - (omega * time(k)).cos()).abs();
             let drive = record.drive(&(0..80), &[Correction::default(); 2]);

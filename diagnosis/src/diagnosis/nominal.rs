@@ -19,6 +19,9 @@ use super::{phi, root_mean_square};
 /// Cost of a fit with an input turned over, in that of the fit without, below which the input had the wrong sign.
 const CLEARLY: f64 = 0.8;
 
+/// Share of an estimated noise that is there for sure: estimates are some per cent off.
+const SURE: f64 = 0.9;
+
 /// The starting model as it was given, the fit of its nominal parameters, and the signals that had to be turned over.
 pub(super) fn fit(baseline: &mut Baseline<'_>) -> Result<(Estimate, Fitted, Vec<Unknown>), String> {
     let dynamics = baseline.dynamics(&[])?;
@@ -207,6 +210,8 @@ fn floors(train: &[Dataset]) -> Vec<f64> {
     first
         .measured
         .iter()
-        .map(|measured| measured.noise_floor.max(1e-6 * rms(&measured.values)).max(f64::MIN_POSITIVE))
+        .map(|measured| {
+            (SURE * measured.noise_floor).max(1e-6 * rms(&measured.values)).max(f64::MIN_POSITIVE)
+        })
         .collect()
 }

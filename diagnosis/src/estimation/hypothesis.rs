@@ -70,7 +70,7 @@ pub struct Baseline<'a> {
     pub looks: f64,
     /// Standard deviation of each output's residuals.
     pub sigma: Vec<f64>,
-    /// Noise of each measured output, in the order of a record's.
+    /// The least noise that is believed of each measured output, in the order of a record's.
     pub floor: Vec<f64>,
     /// What noise of the measured inputs makes of each of them by way of the fitted starting model, as a root mean square on the
     /// validation data.

@@ -1,7 +1,6 @@
 //! The excitations that are compared: for each input that can be driven, shapes and sizes.
 
 use crate::dataset::recorded::{Dataset, Measured, Source};
-use crate::plant::Between;
 use crate::rig::Rig;
 
 use super::bounds::{Bounds, InputBounds};
@@ -71,12 +70,9 @@ impl Excitation {
             name: "experiment".into(),
             step: like.step,
             inputs: inputs.collect(),
-            between: Between::Lines,
-            wide: None,
             measured: like.measured.iter().map(unknown).collect(),
-            others: vec![],
-            errors: vec![],
             sections: (0..parts).map(|part| count * part / parts..count * (part + 1) / parts).collect(),
+            ..Dataset::default()
         }
     }
 }
@@ -125,6 +121,7 @@ fn shapes(input: &InputBounds, duration: f64) -> Vec<Shape> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plant::Between;
 
     fn bounds() -> Bounds {
         let of = |input, amplitude, rate| InputBounds { input, amplitude, rate, band: (0.5, 15.0) };
@@ -153,15 +150,12 @@ mod tests {
         let inputs = rig.plant.inputs.iter().map(|_| Source::Measured(vec![1.0; 1000])).collect();
         let sections = vec![0..400, 400..1000];
         let like = Dataset {
-            name: String::new(),
             step: 2e-3,
             inputs,
             between: Between::Curves,
-            wide: None,
             measured,
-            others: vec![],
-            errors: vec![],
             sections,
+            ..Dataset::default()
         };
         let waves = vec![Wave { input: road, shape: Shape::Sine { frequency: 1.0 }, amplitude: 0.01 }];
         let record = Excitation { waves }.record(&rig, &like, 4.0);
