@@ -2,13 +2,15 @@
 //! that makes it between its samples.
 
 mod cumulative;
+mod decimate;
 mod filter;
 mod line;
 mod refine;
 mod welch;
 
 pub use cumulative::cumulative_periodogram;
-pub use filter::{Line, about_line, decimated, filled, in_band, left_of_noise, passed};
+pub use decimate::{decimated, left_of_noise};
+pub use filter::{Line, about_line, filled, in_band};
 pub use line::line;
 pub use refine::{FINER, refined};
 pub use rustfft::num_complex::Complex;

@@ -15,7 +15,7 @@ use crate::dataset::recorded::{Dataset, Measured, Source, Wide};
 use crate::plant::Between;
 use crate::signal::random::with_noise;
 use crate::signal::spectral::{
-    Complex, FINER, KEPT, about_line, decimated, filled, left_of_noise, passed, refined,
+    Complex, FINER, KEPT, Line, about_line, decimated, filled, left_of_noise, refined,
 };
 
 /// Samples a second that are enough.
@@ -170,7 +170,7 @@ impl Filter {
         }
         let (line, deviation) =
             about_line(values, &mut |spectrum| self.gains(spectrum).into_iter().map(Complex::from).collect());
-        (0..values.len()).step_by(self.factor).map(|k| deviation[k] + line.at(k)).collect()
+        self.thinned(line, deviation)
     }
 
     /// Its noise behind the gains that a signal has.
@@ -186,23 +186,27 @@ impl Filter {
         });
         let drawn = with_noise(&vec![0.0; values.len()], self.noise, channel);
         let (line, deviation) = about_line(&drawn, &mut |_| own.iter().map(Complex::from).collect());
-        (0..values.len()).step_by(self.factor).map(|k| deviation[k] + line.at(k)).collect()
+        self.thinned(line, deviation)
     }
 
-    /// The gain of each bin: what of its power is no noise, and nothing above the kept band.
+    fn thinned(self, line: Line, mut deviation: Vec<f64>) -> Vec<f64> {
+        deviation.iter_mut().enumerate().for_each(|(k, value)| *value += line.at(k));
+        decimated(&deviation, self.factor)
+    }
+
+    /// The gain of each bin: what of its power is no noise.
     fn gains(self, spectrum: &[Complex<f64>]) -> Vec<f64> {
         let len = spectrum.len();
         let power: Vec<f64> = spectrum.iter().map(Complex::norm_sqr).collect();
         let level = len as f64 * self.noise * self.noise;
         (0..len)
             .map(|bin| {
-                let passed = passed(bin, len, self.factor);
-                if passed == 0.0 || (bin.min(len - bin) as f64) < self.quiet * len as f64 {
-                    return passed;
+                if (bin.min(len - bin) as f64) < self.quiet * len as f64 {
+                    return 1.0;
                 }
                 let around = (0..=2 * SMOOTHING).map(|offset| power[(bin + len + offset - SMOOTHING) % len]);
                 let mean = around.sum::<f64>() / (2 * SMOOTHING + 1) as f64;
-                if mean > BEYOND_CHANCE * level { passed * (1.0 - level / mean) } else { 0.0 }
+                if mean > BEYOND_CHANCE * level { 1.0 - level / mean } else { 0.0 }
             })
             .collect()
     }

@@ -6,8 +6,6 @@ use std::f64::consts::{PI, TAU};
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
-use super::KEPT;
-
 /// The straight line through a signal's ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Line {
@@ -68,7 +66,8 @@ pub fn in_band(values: &[f64], step: f64, top: f64, order: i32) -> Vec<f64> {
         let gain = |bin: usize| {
             let bin = if 2 * bin > len { bin as f64 - len as f64 } else { bin as f64 };
             let frequency = bin / (len as f64 * step);
-            Complex::new(0.0, TAU * frequency).powi(order) * round((frequency.abs() / top - 0.8) / 0.4)
+            let place = (frequency.abs() / top - 0.8) / 0.4;
+            Complex::new(0.0, TAU * frequency).powi(order) * (0.5 + 0.5 * (PI * place.clamp(0.0, 1.0)).cos())
         };
         (0..len).map(gain).collect()
     });
@@ -78,41 +77,6 @@ pub fn in_band(values: &[f64], step: f64, top: f64, order: i32) -> Vec<f64> {
         _ => value,
     };
     deviation.into_iter().enumerate().map(add).collect()
-}
-
-/// The gain at a place of a filter's edge, which begins at 0 and ends at 1. It is a raised cosine: what is wrong at an end of a signal
-/// would ring on over all of it behind a sharp one.
-fn round(place: f64) -> f64 {
-    0.5 + 0.5 * (PI * place.clamp(0.0, 1.0)).cos()
-}
-
-/// Share of the kept band that passes as it is.
-const FLAT: f64 = 0.75;
-
-/// The gain of a bin of a spectrum of `len` bins where one of `factor` samples is left: nothing is left beyond [`KEPT`] of half their
-/// rate.
-pub fn passed(bin: usize, len: usize, factor: usize) -> f64 {
-    let end = KEPT * 0.5 * len as f64 / factor as f64;
-    if factor == 1 { 1.0 } else { round((bin.min(len - bin) as f64 / end - FLAT) / (1.0 - FLAT)) }
-}
-
-/// What is left there of white noise, as a root mean square.
-pub fn left_of_noise(factor: usize) -> f64 {
-    // The mean square of a raised cosine is three eighths.
-    let passed = KEPT * (FLAT + 0.375 * (1.0 - FLAT));
-    if factor == 1 { 1.0 } else { (passed / factor as f64).sqrt() }
-}
-
-/// One of `factor` samples of a signal, behind a filter without phase for the band that is kept.
-pub fn decimated(values: &[f64], factor: usize) -> Vec<f64> {
-    if factor == 1 || values.len() < 2 {
-        return values.iter().step_by(factor).copied().collect();
-    }
-    let (line, deviation) = about_line(values, &mut |spectrum| {
-        let len = spectrum.len();
-        (0..len).map(|bin| Complex::from(passed(bin, len, factor))).collect()
-    });
-    (0..values.len()).step_by(factor).map(|k| deviation[k] + line.at(k)).collect()
 }
 
 /// A signal with straight lines where samples are missing, its ends held; none if no sample is there.
@@ -164,20 +128,6 @@ mod tests {
         let found = in_band(&sampled(|t| (TAU * 40.0 * t).sin()), STEP, 25.0, 2);
         let largest = found[500..5500].iter().fold(0.0, |a: f64, b| a.max(b.abs()));
         assert!(largest < 1e-3 * (TAU * 40.0_f64).powi(2), "{largest}");
-    }
-
-    #[test]
-    fn of_a_decimated_signal_the_band_is_left() {
-        // Up to 40 Hz of half a rate of 50 Hz.
-        let [slow, fast] = [30.0, 45.0].map(|hertz| sampled(move |t| 1.0 - t + (TAU * hertz * t).sin()));
-        let kept = |signal: &[f64]| {
-            let found = decimated(signal, 10);
-            assert_eq!(found.len(), 600);
-            (50..550).map(|k| (found[k] - (1.0 - 0.01 * k as f64)).powi(2)).sum::<f64>() / 500.0
-        };
-        assert!((kept(&slow) - 0.5).abs() < 1e-3 && kept(&fast) < 1e-4, "{} {}", kept(&slow), kept(&fast));
-        assert_eq!(decimated(&[1.0, 2.0, 4.0], 1), [1.0, 2.0, 4.0]);
-        assert_eq!((decimated(&[3.0], 4), decimated(&[], 4)), (vec![3.0], vec![]));
     }
 
     #[test]
