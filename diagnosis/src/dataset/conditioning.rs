@@ -28,9 +28,9 @@ const SHORTEST: usize = 16;
 const SPREAD: usize = 2;
 /// Bins to each side over which a spectrum is smoothed before it is compared to the noise.
 const SMOOTHING: usize = 20;
-/// Power over that of the noise below which a smoothed bin holds no signal: noise alone is above it once in fifty.
-/// What is let through of it would count where a model takes the derivative of a measured position.
-const BEYOND_CHANCE: f64 = 2.5;
+/// Power over that of the noise below which a smoothed bin holds no signal: noise alone is above it once in six
+/// thousand (χ² of as many degrees of freedom). What is let through of it would count where a model takes the derivative of a measured position.
+const BEYOND_CHANCE: f64 = 2.0;
 
 impl Dataset {
     /// The record without its inputs' noise, and thinned; where its motion is imposed, driven by all of it that is known.
