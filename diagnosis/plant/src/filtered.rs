@@ -34,7 +34,7 @@ impl Dynamics for Filtered {
         }
     }
 
-    /// The filter looks ahead: the model goes its own way, whatever the follower replaces, and its states have no slopes.
+    /// The filter looks ahead, where nobody knows what the follower will say. So what it changes is that along the model's own way.
     fn followed(
         &self,
         parameters: &[f64],
@@ -49,31 +49,20 @@ impl Dynamics for Filtered {
         let numbers: Vec<usize> =
             (0..seeds.len()).filter(|it| !matches!(seeds[*it], Seed::State(_))).collect();
         let own: Vec<Seed> = numbers.iter().map(|it| seeds[*it].clone()).collect();
-        let mut way = Way {
-            every: drive.finer,
-            outputs: vec![Vec::new(); wanted.len()],
-            slopes: vec![Vec::new(); wanted.len() * own.len()],
-            states: Vec::new(),
-            rates: Vec::new(),
+        let Linearised { outputs, slopes } = self.0.linearised(parameters, start, &fine, &own, wanted);
+        let change = |signal: &Vec<f64>| -> Vec<f64> {
+            let passed = decimated(signal, drive.finer).into_iter();
+            passed.zip(signal.iter().step_by(drive.finer)).map(|(passed, now)| passed - now).collect()
         };
-        self.0.followed(parameters, start, &fine, (&own, wanted), &mut way);
-        let (all_outputs, all_slopes) = (thinned(&way.outputs, drive), thinned(&way.slopes, drive));
-        let mut slopes = vec![0.0; wanted.len() * seeds.len()];
-        let still = vec![0.0; start.len() * seeds.len()];
-        for (sample, (plain, rates)) in way.states.iter().zip(&way.rates).enumerate() {
-            let mut state = plain.clone();
-            follower.state(sample, &mut state);
-            let outputs: Vec<f64> = all_outputs.iter().map(|it| it[sample]).collect();
-            for (row, signals) in all_slopes.chunks_exact(own.len().max(1)).enumerate() {
-                for (number, signal) in numbers.iter().zip(signals) {
-                    slopes[row * seeds.len() + number] = signal[sample];
-                }
-            }
-            follower.seen(sample, Seen { outputs: &outputs, slopes: &slopes, rates }, &mut state);
-            if let Some(next) = way.states.get(sample + 1) {
-                follower.advanced(sample, next, &still);
-            }
-        }
+        let mut changed = Changed {
+            follower,
+            outputs: outputs.iter().map(change).collect(),
+            slopes: slopes.iter().map(|it| it.iter().map(change).collect()).collect(),
+            numbers,
+            seeds: seeds.len(),
+        };
+        let plain = Drive { filtered: false, ..drive.clone() };
+        self.0.followed(parameters, start, &plain, (seeds, wanted), &mut changed);
     }
 
     fn check(&self, parameters: &[f64]) -> Result<(), String> {
@@ -85,30 +74,42 @@ fn thinned(signals: &Signals, drive: &Drive) -> Signals {
     signals.iter().map(|it| decimated(it, drive.finer)).collect()
 }
 
-/// A model's own way: what it says at each value of its inputs, and its states at the samples.
-struct Way {
-    /// Values in a sample.
-    every: usize,
+/// A follower of what the filter leaves of the outputs.
+struct Changed<'a> {
+    follower: &'a mut dyn Follower,
+    /// What the filter changes of each wanted output.
     outputs: Signals,
-    /// Output by output, seed by seed.
-    slopes: Signals,
-    states: Vec<Vec<f64>>,
-    rates: Vec<Vec<f64>>,
+    /// The same of the derivatives by each seed that is no state, output by output.
+    slopes: Vec<Signals>,
+    /// Places of these seeds among all.
+    numbers: Vec<usize>,
+    /// How many there are.
+    seeds: usize,
 }
 
-impl Follower for Way {
-    fn state(&mut self, _: usize, _: &mut [f64]) {}
-
-    fn seen(&mut self, value: usize, Seen { outputs, slopes, rates }: Seen<'_>, state: &mut [f64]) {
-        let all = self.outputs.iter_mut().zip(outputs).chain(self.slopes.iter_mut().zip(slopes));
-        all.for_each(|(signal, now)| signal.push(*now));
-        if value.is_multiple_of(self.every) {
-            self.states.push(state.to_vec());
-            self.rates.push(rates.to_vec());
-        }
+impl Follower for Changed<'_> {
+    fn given(&self) -> Option<&[usize]> {
+        self.follower.given()
     }
 
-    fn advanced(&mut self, _: usize, _: &[f64], _: &[f64]) {}
+    fn state(&mut self, sample: usize, state: &mut [f64]) {
+        self.follower.state(sample, state);
+    }
+
+    fn seen(&mut self, sample: usize, Seen { outputs, slopes, rates }: Seen<'_>, state: &mut [f64]) {
+        let of = self.outputs.iter().zip(outputs);
+        let outputs: Vec<f64> = of.map(|(change, now)| now + change[sample]).collect();
+        let mut slopes = slopes.to_vec();
+        for (number, changes) in self.numbers.iter().zip(&self.slopes) {
+            let of_seed = slopes.iter_mut().skip(*number).step_by(self.seeds);
+            of_seed.zip(changes).for_each(|(slope, change)| *slope += change[sample]);
+        }
+        self.follower.seen(sample, Seen { outputs: &outputs, slopes: &slopes, rates }, state);
+    }
+
+    fn advanced(&mut self, sample: usize, next: &[f64], moved: &[f64]) {
+        self.follower.advanced(sample, next, moved);
+    }
 }
 
 #[cfg(test)]
