@@ -70,7 +70,11 @@ impl Baseline<'_> {
             point
         };
         let start = &self.by_clock(null, proposal.term).unwrap_or_else(|| proposal.start.clone());
-        let starts = [self.with_its_amounts(&terms, proposal.term, with(start, &null.point.parameters))];
+        let mut starts =
+            vec![self.with_its_amounts(&terms, proposal.term, with(start, &null.point.parameters))];
+        if null.terms.is_empty() {
+            starts.push(with(start, &start.parameters));
+        }
         // No fit begins after the time limit.
         let fitted = match self.deadline.is_over(Stage::Search) {
             true => Err("not fitted: the time limit was reached".into()),
