@@ -16,13 +16,10 @@ use crate::decision::rules::{Amount, is_determined};
 use crate::diagnosis::component::Component;
 use crate::estimation::deadline::Stage;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
-use crate::estimation::lsq::{self, Problem, Stop};
+use crate::estimation::lsq::Stop;
 use crate::estimation::unknowns::{Estimate, Unknown};
 use crate::explain::selection::Proposal;
 use crate::signal::distortion::Fault;
-
-/// Steps in which amounts follow a held shape: they are nearly linear in it.
-const EASING: usize = 3;
 
 /// Share of what may matter that any fit that is compared has to promise.
 const HINT: f64 = 0.2;
@@ -62,7 +59,7 @@ pub struct Confirmed {
 impl Baseline<'_> {
     fn tried(&self, base: &Fitted, null: &Fitted, proposal: &Proposal) -> Tried {
         let terms = self.terms_with(&null.terms, proposal.term);
-        // From where the fit without the effect is, and from where the smoother is.
+        // From where the fit without the effect is, from where the smoother is, and from where a simulation wants another shape.
         let own = self.own_coordinates(proposal.term);
         let with = |start: &Estimate, parameters: &[f64]| {
             let mut point = Estimate { parameters: parameters.to_vec(), ..null.point.clone() };
@@ -70,10 +67,17 @@ impl Baseline<'_> {
             point
         };
         let start = &self.by_clock(null, proposal.term).unwrap_or_else(|| proposal.start.clone());
-        let mut starts =
-            vec![self.with_its_amounts(&terms, proposal.term, with(start, &null.point.parameters))];
+        let mut starts = vec![with(start, &null.point.parameters)];
         if null.terms.is_empty() {
             starts.push(with(start, &start.parameters));
+            let amounts = self.sizes(proposal.term);
+            let has_another_shape = |other: &Estimate| {
+                let mut shape = own.iter().map(|it| it.handle).filter(|it| !amounts.contains(it));
+                shape.any(|it| other.get(it) != start.get(it))
+            };
+            let of_term = self.shapes.iter().filter(|(term, _)| *term == proposal.term);
+            let others = of_term.map(|(_, start)| start).filter(|start| has_another_shape(start));
+            starts.extend(others.map(|start| with(start, &start.parameters)));
         }
         // No fit begins after the time limit.
         let fitted = match self.deadline.is_over(Stage::Search) {
@@ -81,20 +85,6 @@ impl Baseline<'_> {
             false => self.fitted(&terms, &starts, comparing(base, null)),
         };
         self.weighed(base, null, proposal.term, fitted)
-    }
-
-    /// A start with the best amounts of a term and of all else, the term's shape being held. A shape is a guess among a few: where nominal
-    /// parameters stand for the effect, the way from there would change it before they give way.
-    fn with_its_amounts(&self, terms: &[Term], term: Term, start: Estimate) -> Estimate {
-        let amounts = self.sizes(term);
-        let own = self.own_coordinates(term).into_iter().map(|it| it.handle);
-        let shape: Vec<Unknown> = own.filter(|it| !amounts.contains(it)).collect();
-        let Some(dynamics) = self.dynamics(terms).ok().filter(|_| !shape.is_empty()) else { return start };
-        let mut coordinates = self.coordinates(terms);
-        coordinates.retain(|it| !shape.contains(&it.handle));
-        let fit = self.fit(&*dynamics, self.train, coordinates);
-        let stop = Stop { iterations: EASING, until: self.deadline.instant(), ..Stop::ROUGH };
-        if fit.cost(&start).is_finite() { lsq::minimise(&fit, fit.settled(start), stop).point } else { start }
     }
 
     /// Some terms and another one, in the place of those that it has as limits of its own parameters: two laws of the same
@@ -168,6 +158,7 @@ impl Baseline<'_> {
     pub fn try_all(&self, base: &Fitted, null: &Fitted, proposals: &[Proposal]) -> Vec<Tried> {
         let mut tried: Vec<Tried> = proposals.par_iter().map(|it| self.tried(base, null, it)).collect();
         self.beside_their_limits(base, null, proposals, &mut tried);
+        self.limits_of_the_best(base, null, &mut tried);
         tried.sort_by(|a, b| b.score.total_cmp(&a.score));
         tried
     }

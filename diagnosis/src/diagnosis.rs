@@ -66,7 +66,7 @@ pub fn diagnose<'a>(
     let base = if baseline.deadline.is_over(Stage::Search) { base } else { baseline.look_at(base)? };
     let mut found = Found::nothing(base);
     let judged = baseline.uses(Component::Confirmation);
-    let intervals = loop {
+    let (weighed, extended, intervals) = loop {
         // After a retraction, other effects get their turn.
         baseline.identify(&mut found, progress)?;
         if judged && let Some(harmful) = baseline.harmful(&found, &records.measured) {
@@ -74,13 +74,17 @@ pub fn diagnose<'a>(
             continue;
         }
         progress("comparing what each excitation says");
-        let intervals = baseline.intervals(&found.extended)?;
+        let (weighed, extended) = baseline.weighed_by_what_is_left(&found)?;
+        let intervals = weighed.intervals(&extended)?;
         match baseline.doubtful(&found, &intervals).filter(|_| judged) {
             Some(doubtful) => baseline.explained_away(&mut found, doubtful),
-            None => break intervals,
+            None => break (weighed, extended, intervals),
         }
     };
+    // Fits are told apart by the weights that they have in common.
     baseline.tell_apart(&mut found);
+    let baseline = weighed;
+    found.settle_on(extended);
     Ok(Diagnosis { baseline, measured: &records.measured, before, found, intervals, reversed })
 }
 

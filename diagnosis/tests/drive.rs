@@ -6,6 +6,7 @@ use std::fs;
 
 use serde_json::Value;
 
+use crate::common::noise;
 use crate::simulated::{DAMPING, FRICTION, MASS, diagnosed, plain};
 
 #[test]
@@ -46,15 +47,7 @@ fn friction_is_found_in_a_drive_of_which_nothing_was_known() {
 #[test]
 fn what_noise_of_the_motion_makes_of_a_force_is_noise() {
     const SINES: [(f64, f64); 3] = [(0.08, 0.4), (0.03, 1.3), (0.01, 3.1)];
-    let mut state = 5_u64;
-    // A sum of twelve equally distributed numbers is nearly normal.
-    let mut normal = || {
-        let uniform = |_| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64
-        };
-        (0..12).map(uniform).sum::<f64>() - 6.0
-    };
+    let mut normal = noise(5);
     let mut record = |seconds: f64, later: f64| {
         let mut text = "time [s],motor.force [N],position [m]\n".to_owned();
         for t in (0..(500.0 * seconds) as usize).map(|k| k as f64 / 500.0) {

@@ -13,6 +13,7 @@ mod nist;
 mod nist_sets;
 mod plants;
 mod plausibility;
+mod presliding;
 mod program;
 mod report;
 mod search;

@@ -56,7 +56,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         contains: &["01"],
         parts: &[
             part("hysteresis.presliding.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
-            part("hysteresis.presliding.stiffness", Scale::STIFFNESS, (1e-2, 1e3), &[0.5, 3.0]),
+            part("hysteresis.presliding.stiffness", Scale::STIFFNESS, (1e-2, 1e3), &[0.5, 3.0, 20.0]),
             part("hysteresis.presliding.exponent", Scale::ONE, (0.2, 4.0), &[1.0]),
         ],
         literature: &["Dahl1968"],
@@ -71,7 +71,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         contains: &["01", "03"],
         parts: &[
             part("hysteresis.presliding.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
-            part("hysteresis.presliding.stiffness", Scale::STIFFNESS, (1e-2, 1e3), &[0.5, 3.0]),
+            part("hysteresis.presliding.stiffness", Scale::STIFFNESS, (1e-2, 1e3), &[0.5, 3.0, 20.0]),
             part("hysteresis.presliding.gap", Scale::DEFLECTION, (0.0, 1.0), &[0.05, 0.2, 0.6]),
             part("hysteresis.presliding.exponent", Scale::ONE, (0.2, 4.0), &[1.0]),
         ],

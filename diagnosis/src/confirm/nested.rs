@@ -31,11 +31,27 @@ impl Baseline<'_> {
             (fitted.cost < cost(it)).then(|| self.weighed(base, null, it.term, Ok(fitted)))
         });
         let again: Vec<Option<Tried>> = again.collect();
-        for (it, again) in tried.iter_mut().zip(again) {
-            if let Some(again) = again {
-                *it = again;
+        replace(tried, again);
+    }
+
+    /// Fits the limits of the law that leaves least once more, from its minimum without what it has alone, and keeps what leaves less: one
+    /// of them may be all that it is.
+    pub(super) fn limits_of_the_best(&self, base: &Fitted, null: &Fitted, tried: &mut [Tried]) {
+        let Some(best) = tried.iter().min_by(|a, b| cost(a).total_cmp(&cost(b))) else { return };
+        let Ok(at) = &best.fitted else { return };
+        let again = tried.par_iter().map(|it| {
+            let terms =
+                contains_by_name(best.term, it.term).then(|| self.terms_with(&null.terms, it.term))?;
+            let own = self.own_coordinates(it.term).into_iter().map(|it| it.handle);
+            let mut start = null.point.clone();
+            for handle in parts(null).into_iter().chain(own) {
+                start.set(handle, at.point.get(handle));
             }
-        }
+            let fitted = self.fitted(&terms, &[start], comparing(base, null)).ok()?;
+            (fitted.cost < cost(it)).then(|| self.weighed(base, null, it.term, Ok(fitted)))
+        });
+        let again: Vec<Option<Tried>> = again.collect();
+        replace(tried, again);
     }
 
     /// Fits laws that contain a fitted one, from its minimum: a rough shape of a richer law may promise less than its limit.
@@ -63,6 +79,15 @@ impl Baseline<'_> {
             start.set(coordinate.handle, before + share * (value - before));
         }
         Some(start)
+    }
+}
+
+/// Keeps what was fitted again.
+fn replace(tried: &mut [Tried], again: Vec<Option<Tried>>) {
+    for (it, again) in tried.iter_mut().zip(again) {
+        if let Some(again) = again {
+            *it = again;
+        }
     }
 }
 

@@ -51,6 +51,14 @@ impl Found {
         error_left(outside.map(|it| it.validated))
     }
 
+    /// Takes another fit of the model with all effects.
+    pub(super) fn settle_on(&mut self, extended: Fitted) {
+        if let Some(last) = self.stages.last_mut() {
+            *last = extended.clone();
+        }
+        self.extended = extended;
+    }
+
     /// Takes a confirmed effect into the model, in the place of a law that is its limit.
     pub(super) fn extend(&mut self, Confirmed { accepted, fitted }: Confirmed) {
         let stays: Vec<bool> = self.accepted.iter().map(|it| fitted.terms.contains(&it.term)).collect();

@@ -14,7 +14,7 @@ use crate::rig::Rig;
 use crate::screening::rms;
 use crate::signal::distortion::Fault;
 
-use super::{phi, root_mean_square};
+use super::{Found, phi, root_mean_square};
 
 /// Cost of a fit with an input turned over, in that of the fit without, below which the input had the wrong sign.
 const CLEARLY: f64 = 0.8;
@@ -96,9 +96,22 @@ fn weighed(baseline: &mut Baseline<'_>, start: &Estimate) -> Result<Option<Estim
 pub(super) fn weighted(baseline: &mut Baseline<'_>, mut base: Fitted) -> Result<Fitted, String> {
     for _ in 0..2 {
         baseline.sigma = left_sigma(baseline, &base.train);
-        base = baseline.fitted(&[], &[base.point.clone()], Stop::NOISY)?;
+        base = baseline.fitted(&base.terms, &[base.point.clone()], Stop::NOISY)?;
     }
     Ok(base)
+}
+
+impl<'a> Baseline<'a> {
+    /// The extended model with weights by what it leaves, and what knows these weights. In a search, all fits have those of the nominal
+    /// fit, by which the effects, once found, would count for little beside what was known of parameters before.
+    pub(super) fn weighed_by_what_is_left(&self, found: &Found) -> Result<(Baseline<'a>, Fitted), String> {
+        let mut weighed = self.clone();
+        let extended = match found.accepted.is_empty() {
+            true => found.extended.clone(),
+            false => weighted(&mut weighed, found.extended.clone())?,
+        };
+        Ok((weighed, extended))
+    }
 }
 
 /// The nominal fit from where many short stretches lead, each with states of its own at the start: over a long stretch, a

@@ -62,7 +62,8 @@ impl Baseline<'_> {
         if self.coordinates(&[]) != base.coordinates {
             base = nominal::weighted(self, base)?;
         }
-        self.looks = self.tried_out(&base)?.looks(&base);
+        let tried = self.tried_out(&base)?;
+        (self.looks, self.shapes) = (tried.looks(&base), self.best_shapes(&base, &tried));
         Ok(base)
     }
 

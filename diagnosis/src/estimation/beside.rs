@@ -11,7 +11,7 @@ use crate::estimation::coordinates::POINTS;
 use crate::estimation::deadline::Stage;
 use crate::estimation::fit::Normal;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
-use crate::estimation::unknowns::Unknown;
+use crate::estimation::unknowns::{Estimate, FreeParameter, Unknown};
 use crate::screening::{TriedOut, of_gain};
 use crate::signal::distortion::Fault;
 
@@ -79,6 +79,27 @@ impl Baseline<'_> {
         }
         let pulls = together(most.into_iter().flatten().collect(), beside.left);
         Ok(Assumed { pulls, twins })
+    }
+
+    /// Where a fit of each term that comes in several shapes may begin: with the shape in which the errors of a simulation contain most of
+    /// it, and as much of it as they do, all else having given way. From one sample to the next, another shape may do as well.
+    pub fn best_shapes(&self, fitted: &Fitted, tried: &TriedOut) -> Vec<(Term, Estimate)> {
+        let TriedOut { terms, probes, normal: Normal { h, g, .. } } = tried;
+        let effects = vec![false; fitted.coordinates.len()];
+        let beside = Beside { h, g, effects: &effects, left: 2.0 * fitted.cost };
+        let best = |(index, term): (usize, &Term)| {
+            let own = || probes.iter().filter(move |(probe, _)| probe.term == index);
+            let pulls = own().filter_map(|(probe, range)| Some((probe, beside.pull(range)?)));
+            let (probe, pull) = pulls.max_by(|(_, a), (_, b)| a.gain.total_cmp(&b.gain))?;
+            let (_, mut start) = self.start(*term, probe, &pull.amounts, &fitted.point);
+            for (FreeParameter { handle, bounds: (low, high), .. }, moved) in
+                fitted.coordinates.iter().zip(pull.moved.iter())
+            {
+                start.set(*handle, (fitted.point.get(*handle) + moved).clamp(*low, *high));
+            }
+            (own().count() > 1).then_some((*term, start))
+        };
+        terms.iter().enumerate().filter_map(best).collect()
     }
 }
 

@@ -68,6 +68,8 @@ pub struct Baseline<'a> {
     pub without: Option<Component>,
     /// Number of independent looks at the errors that comparing every effect to them amounts to.
     pub looks: f64,
+    /// Where fits of terms that come in several shapes may begin.
+    pub shapes: Vec<(Term, Estimate)>,
     /// Standard deviation of each output's residuals.
     pub sigma: Vec<f64>,
     /// The least noise that is believed of each measured output, in the order of a record's.
@@ -143,6 +145,7 @@ impl<'a> Baseline<'a> {
             only: options.only,
             without: options.without,
             looks: 1.0,
+            shapes: Vec::new(),
             sigma: vec![1.0; rig.plant.outputs.len()],
             floor: Vec::new(),
             transmitted: Vec::new(),
