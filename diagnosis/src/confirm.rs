@@ -59,7 +59,7 @@ pub struct Confirmed {
 impl Baseline<'_> {
     fn tried(&self, base: &Fitted, null: &Fitted, proposal: &Proposal) -> Tried {
         let terms = self.terms_with(&null.terms, proposal.term);
-        // From where the fit without the effect is, from where the smoother is, and from where a simulation wants another shape.
+        // From where the fit without the effect is, from where the smoother is, and from where a simulation wants it.
         let own = self.own_coordinates(proposal.term);
         let with = |start: &Estimate, parameters: &[f64]| {
             let mut point = Estimate { parameters: parameters.to_vec(), ..null.point.clone() };
@@ -70,14 +70,8 @@ impl Baseline<'_> {
         let mut starts = vec![with(start, &null.point.parameters)];
         if null.terms.is_empty() {
             starts.push(with(start, &start.parameters));
-            let amounts = self.sizes(proposal.term);
-            let has_another_shape = |other: &Estimate| {
-                let mut shape = own.iter().map(|it| it.handle).filter(|it| !amounts.contains(it));
-                shape.any(|it| other.get(it) != start.get(it))
-            };
             let of_term = self.shapes.iter().filter(|(term, _)| *term == proposal.term);
-            let others = of_term.map(|(_, start)| start).filter(|start| has_another_shape(start));
-            starts.extend(others.map(|start| with(start, &start.parameters)));
+            starts.extend(of_term.map(|(_, start)| with(start, &start.parameters)));
         }
         // No fit begins after the time limit.
         let fitted = match self.deadline.is_over(Stage::Search) {
