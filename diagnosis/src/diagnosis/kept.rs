@@ -23,8 +23,9 @@ impl Baseline<'_> {
         let amount = |handle: Unknown| {
             let it = intervals.iter().find(|it| it.handle == handle)?;
             let value = self.amount(handle, it.value, &found.base);
-            // A common scale that only the parameter set knows makes no amount zero.
-            Some(Amount { value, bounds: (f64::NEG_INFINITY, f64::INFINITY), half: it.half_of_data })
+            // A common scale that only the parameter set knows makes no amount zero, but a gain is that scale.
+            let half = if handle.fault() == Some(Fault::Gain) { it.half } else { it.half_of_data };
+            Some(Amount { value, bounds: (f64::NEG_INFINITY, f64::INFINITY), half })
         };
         found.accepted.iter().rposition(|it| {
             let amounts: Vec<Amount> = self.sizes(it.term).into_iter().filter_map(amount).collect();
