@@ -245,6 +245,17 @@ fn a_damper_alone_has_no_spring() {
     assert!(squares < 11.3, "{squares}");
 }
 
+/// Of a thousand samples a second, four hundred are compared. Friction is sharper than these show; in a filtered motion it was 20.2 N.
+#[test]
+fn friction_that_is_sharper_than_the_samples_compared_is_exact() {
+    let hidden = [("strut.stiffness", 200.0), ("strut.damping", 700.0), ("strut.coulomb.force", 20.0)];
+    let case = Case { step: 1e-3, length: 10.0, noise: 0.002, ..Case::of("element-dyno") };
+    let said = case.diagnosed(&hidden);
+    assert_eq!(said.terms, ["01 strut"]);
+    said.meets("strut.coulomb.force", 20.0, 2e-3);
+    said.covers("strut.coulomb.force", 20.0, 5e-3);
+}
+
 /// A damper's preload takes what a cell shows at rest, and nothing takes what it shows more and more of.
 #[test]
 fn a_cell_that_drifts_is_found_though_its_offset_is_a_preload_s() {

@@ -117,7 +117,7 @@ mod tests {
     use super::*;
     use crate::{Between, Plant};
     use strut_model::{SettingKind, Value};
-    use strut_physics::rigs::LinearDrive;
+    use strut_physics::rigs::{ElementDyno, LinearDrive};
 
     /// A drive with sharp friction that is moved by 20 mm at 2 Hz, seen ten times in each of its samples.
     fn moved(filtered: bool) -> (Plant, Vec<f64>, Drive) {
@@ -195,6 +195,48 @@ mod tests {
             assert!((after[k] - before[k] - slope).abs() < 1e-6, "{k}: {slope}");
         }
         assert_eq!(seens.0.len(), drive.len());
+    }
+
+    /// A state that a follower replaces changes the output by what it is otherwise, beside what the filter makes of the model's way.
+    #[test]
+    fn a_replaced_state_shows_in_the_filtered_output() {
+        struct Replaced {
+            state: usize,
+            by: f64,
+            outputs: Vec<f64>,
+        }
+        impl Follower for Replaced {
+            fn state(&mut self, _: usize, state: &mut [f64]) {
+                state[self.state] += self.by;
+            }
+            fn seen(&mut self, _: usize, seen: Seen<'_>, _: &mut [f64]) {
+                self.outputs.push(seen.outputs[0]);
+            }
+            fn advanced(&mut self, _: usize, _: &[f64], _: &[f64]) {}
+        }
+        let plant = Plant::of::<ElementDyno>();
+        let mut parameters: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
+        for (name, value) in
+            [("hysteresis.presliding.force", 100.0), ("hysteresis.presliding.stiffness", 1e5)]
+        {
+            parameters[plant.parameter(name).unwrap()] = value;
+        }
+        let start: Vec<f64> = plant.states.iter().map(|it| it.start).collect();
+        let dynamics = plant.prepare(&plant.choices).unwrap();
+        let force = plant.output("force").unwrap();
+        let still = Drive::sampled(2e-3, vec![vec![0.0; 401]; plant.inputs.len()]);
+        let outputs = |filtered: bool, state: usize, by: f64| {
+            let drive = Drive { finer: 4, filtered, ..still.clone() };
+            let mut replaced = Replaced { state, by, outputs: Vec::new() };
+            dynamics.followed(&parameters, &start, &drive, (&[], &[force]), &mut replaced);
+            replaced.outputs
+        };
+        let changes = (0..plant.states.len()).map(|state| {
+            let change = |filtered: bool| outputs(filtered, state, 1.0)[0] - outputs(filtered, state, 0.0)[0];
+            assert!((change(true) - change(false)).abs() < 1e-9, "{}", plant.states[state].name);
+            change(true).abs()
+        });
+        assert!(changes.fold(0.0, f64::max) > 0.5);
     }
 
     /// The choices with which the motion drives the model.

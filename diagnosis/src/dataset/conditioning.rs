@@ -28,8 +28,8 @@ const SHORTEST: usize = 16;
 const SPREAD: usize = 2;
 /// Bins to each side over which a spectrum is smoothed before it is compared to the noise.
 const SMOOTHING: usize = 20;
-/// Power over that of the noise below which a smoothed bin holds no signal: noise alone is above it once in six
-/// thousand (χ² of as many degrees of freedom). What is let through of it would count where a model takes the derivative of a measured position.
+/// Power over that of the noise below which a smoothed bin holds no signal: noise alone is above it once in six thousand (χ² of as many
+/// degrees of freedom). What is let through of it would count where a model takes the derivative of a measured position.
 const BEYOND_CHANCE: f64 = 2.0;
 
 impl Dataset {

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::confirm::has_no_name;
 use crate::dataset::rate::along;
 use crate::dataset::recorded::{Dataset, SHORT, Source};
 use crate::decision::criteria::CRITERIA;
@@ -103,13 +104,14 @@ pub(super) fn weighted(baseline: &mut Baseline<'_>, mut base: Fitted) -> Result<
 
 impl<'a> Baseline<'a> {
     /// The extended model with weights by what it leaves, and what knows these weights. In a search, all fits have those of the nominal
-    /// fit, by which the effects, once found, would count for little beside what was known of parameters before.
+    /// fit, by which the effects, once found, would count for little beside what was known of parameters before. A curve without a name
+    /// is no law: what it leaves is not noise, and weighs as before.
     pub(super) fn weighed_by_what_is_left(&self, found: &Found) -> Result<(Baseline<'a>, Fitted), String> {
         let mut weighed = self.clone();
-        let extended = match found.accepted.is_empty() {
-            true => found.extended.clone(),
-            false => weighted(&mut weighed, found.extended.clone())?,
-        };
+        let terms = &found.extended.terms;
+        let are_laws = !terms.is_empty() && !terms.iter().any(|it| has_no_name(*it));
+        let extended = found.extended.clone();
+        let extended = if are_laws { weighted(&mut weighed, extended)? } else { extended };
         Ok((weighed, extended))
     }
 }
