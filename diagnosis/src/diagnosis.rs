@@ -81,7 +81,7 @@ pub fn diagnose<'a>(
             None => break (weighed, extended, intervals),
         }
     };
-    // Fits are told apart by the weights that they have in common.
+    // Rivals are compared with the weights of the search, which all fits have.
     baseline.tell_apart(&mut found);
     let baseline = weighed;
     found.settle_on(extended);

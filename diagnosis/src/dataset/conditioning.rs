@@ -20,8 +20,6 @@ use crate::signal::spectral::{
 
 /// Samples a second that are enough.
 const ENOUGH: f64 = 400.0;
-/// Reach of the filter of a band in periods of its end.
-const REACH: f64 = 4.0;
 /// Samples of a signal whose spectrum tells noise from it, at least.
 const SHORTEST: usize = 16;
 /// New periods over which the filter spreads a sample.
@@ -54,15 +52,14 @@ impl Dataset {
     pub fn compared_below(&self, top: f64) -> Self {
         let known = self.without_noise_above(top);
         let banded = known.below(top);
-        // Between samples that are hardly finer, a rate that is exact in its band would be too coarse.
-        let refining = if banded.step < (FINER as f64 - 0.5) * known.step { FINER } else { 1 };
-        if banded.step > known.step { known.behind(banded, refining) } else { banded }
+        if banded.step > known.step { known.behind(banded, FINER) } else { banded }
     }
 
-    /// A thinned copy of this record that is driven by all of this one's inputs, its outputs being behind the filter of the copy;
-    /// `refining` is one or [`FINER`].
-    fn behind(&self, thinned: Self, refining: usize) -> Self {
+    /// A thinned copy of this record that is driven by all of this one's inputs, its outputs being behind the filter of the copy. Where
+    /// a sample of the copy is fewer than `least` of this record's, these are refined.
+    fn behind(&self, thinned: Self, least: usize) -> Self {
         let needed = (thinned.step / self.step).round() as usize;
+        let refining = if needed < least { FINER } else { 1 };
         let finer = needed * refining;
         let laid = |values: &[f64]| -> Vec<f64> {
             let of = |(known, thinned): (&Range<usize>, &Range<usize>)| {
@@ -76,9 +73,7 @@ impl Dataset {
         };
         let inputs = self.inputs.iter().map(|it| it.measured().map(laid).unwrap_or_default()).collect();
         let errors = self.errors.iter().map(|it| if it.is_empty() { Vec::new() } else { laid(it) }).collect();
-        // The kept band ends at KEPT of half the rate.
-        let reach = (2.0 * REACH / KEPT).ceil() as usize;
-        Self { wide: Some(Arc::new(Wide { finer, needed, inputs, errors, reach })), ..thinned }
+        Self { wide: Some(Arc::new(Wide { finer, needed, inputs, errors })), ..thinned }
     }
 
     /// The record without its inputs' noise above a frequency in Hz, and thinned.

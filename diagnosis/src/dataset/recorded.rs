@@ -49,8 +49,6 @@ pub struct Wide {
     pub inputs: Vec<Vec<f64>>,
     /// Possible errors of what was measured.
     pub errors: Vec<Vec<f64>>,
-    /// Reach of the outputs' filter in samples of the record: nearer to the ends of a part, it lacks what comes before or after.
-    pub reach: usize,
 }
 
 impl Wide {
@@ -111,7 +109,9 @@ pub struct Measured {
     pub noise_floor: f64,
 }
 
-/// An end takes the eighth part of a section at most.
+/// Samples beside the ends of a part in which the outputs' filter lacks what comes before or after: four periods of the band's end …
+const ENDS: usize = 10;
+/// … but the eighth of the part at most.
 const PARTS: usize = 8;
 
 /// Length of a short stretch of data in seconds, over which no model goes far astray.
@@ -181,19 +181,20 @@ impl Dataset {
         Samples { step: self.step, first: section.start }
     }
 
-    /// What was measured of an output in a part of a section, by its row, without the samples in the reach of a filter at the part's
-    /// ends: they take the eighth of it on either side at most.
+    /// What was measured of an output in a part of a section, by its row; behind a filter, without the samples at the part's ends.
     pub fn compared(&self, row: usize, part: &Range<usize>) -> Cow<'_, [f64]> {
         let values = &self.measured[row].values[part.clone()];
-        let Some(wide) = &self.wide else { return Cow::Borrowed(values) };
-        let ends = wide.reach.min(values.len() / PARTS);
+        if self.wide.is_none() {
+            return Cow::Borrowed(values);
+        }
+        let ends = ENDS.min(values.len() / PARTS);
         let mut inner = values.to_vec();
         inner[..ends].fill(f64::NAN);
         inner[values.len() - ends..].fill(f64::NAN);
         Cow::Owned(inner)
     }
 
-    /// The same without what is not compared at the ends of its sections.
+    /// The same without the samples at the ends of its sections.
     #[must_use]
     pub fn without_ends(mut self) -> Self {
         for row in 0..self.measured.len() {

@@ -88,8 +88,9 @@ impl Baseline<'_> {
         let effects = vec![false; fitted.coordinates.len()];
         let beside = Beside { h, g, effects: &effects, left: 2.0 * fitted.cost };
         let best = |(index, term): (usize, &Term)| {
-            let own = || probes.iter().filter(move |(probe, _)| probe.term == index);
-            let pulls = own().filter_map(|(probe, range)| Some((probe, beside.pull(range)?)));
+            let own: Vec<_> = probes.iter().filter(|(probe, _)| probe.term == index).collect();
+            let several = own.iter().filter(|_| own.len() > 1);
+            let pulls = several.filter_map(|(probe, range)| Some((probe, beside.pull(range)?)));
             let (probe, pull) = pulls.max_by(|(_, a), (_, b)| a.gain.total_cmp(&b.gain))?;
             let (_, mut start) = self.start(*term, probe, &pull.amounts, &fitted.point);
             for (FreeParameter { handle, bounds: (low, high), .. }, moved) in
@@ -97,7 +98,7 @@ impl Baseline<'_> {
             {
                 start.set(*handle, (fitted.point.get(*handle) + moved).clamp(*low, *high));
             }
-            (own().count() > 1).then_some((*term, start))
+            Some((*term, start))
         };
         terms.iter().enumerate().filter_map(best).collect()
     }

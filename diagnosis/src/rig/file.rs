@@ -196,7 +196,7 @@ impl Kind {
         }
         or(&mut self.shows, shows);
         or(&mut self.follows_inputs, follows_inputs);
-        self.imposed |= imposed;
+        self.imposed = self.imposed.or(imposed);
         self.opposed = self.opposed.or(opposed);
         self.segment = self.segment.or(segment);
         self.undriven = self.undriven.or(undriven);

@@ -37,8 +37,7 @@ pub struct Kind {
     #[serde(default)]
     pub follows_inputs: Vec<String>,
     /// Whether its motion is imposed, so that nothing that the model lacks moves it: its laws can see more of the motion than is compared.
-    #[serde(default)]
-    pub imposed: bool,
+    pub imposed: Option<bool>,
     /// A signal that is of opposite sign where records have a column.
     pub opposed: Option<Opposed>,
     /// What the force that the model misses is made of.

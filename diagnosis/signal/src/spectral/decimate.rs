@@ -21,9 +21,8 @@ thread_local! {
     static WEIGHTS: RefCell<HashMap<usize, Rc<[f64]>>> = RefCell::default();
 }
 
-/// One of `factor` samples of a signal, the first one among them. Up to three quarters of [`KEPT`] of half the new rate all passes, and
-/// nothing beyond that. The signal goes on beyond its ends as it is before them, reflected: within a few new samples of an end, that is
-/// a guess.
+/// One of `factor` samples of a signal, the first one among them. Of half the new rate, [`KEPT`] passes, its last quarter more and more
+/// weakly. Beyond its ends, the signal is continued by its reflection, which is a guess: it counts within a few new samples of an end.
 pub fn decimated(values: &[f64], factor: usize) -> Vec<f64> {
     let n = values.len();
     if factor == 1 || n < 2 {
@@ -36,13 +35,13 @@ pub fn decimated(values: &[f64], factor: usize) -> Vec<f64> {
     starts.map(|start| product(&longer[start..start + weights.len()], &weights)).collect()
 }
 
-/// What is left there of white noise, as a root mean square.
+/// Root mean square of decimated white noise whose own is one.
 pub fn left_of_noise(factor: usize) -> f64 {
     if factor == 1 { 1.0 } else { weights(factor).iter().map(|it| it * it).sum::<f64>().sqrt() }
 }
 
-/// A signal with `reach` more samples before it, and so many behind it that the weights fit on its last one. About the line through its
-/// ends, it is reflected at them as often as it takes.
+/// A signal that is continued by `reach` samples before its first one, and behind its last one as far as the filter for that one
+/// reaches: reflected at its ends about the line through them, as often as necessary.
 fn reflected(values: &[f64], reach: usize, weights: usize) -> Vec<f64> {
     let last = values.len() - 1;
     let slope = (values[last] - values[0]) / last as f64;
@@ -106,7 +105,7 @@ mod tests {
         (0..6000).map(|k| of(k as f64 * STEP)).collect()
     }
 
-    /// The root mean square about a line of slope −1, of half the rate of 50 Hz.
+    /// The mean square about a line of slope −1; half the new rate is 50 Hz.
     fn kept(signal: &[f64]) -> f64 {
         let found = decimated(signal, 10);
         assert_eq!(found.len(), 600);

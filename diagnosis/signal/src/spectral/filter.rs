@@ -22,7 +22,7 @@ impl Line {
 }
 
 thread_local! {
-    /// Outputs of a model are filtered in every step of a fit: the plan of a length is made once.
+    /// The rate of a delayed motion is taken in every step of a fit: the plan of a length is made once.
     static PLANNER: RefCell<FftPlanner<f64>> = RefCell::new(FftPlanner::new());
 }
 
