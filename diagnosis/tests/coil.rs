@@ -3,13 +3,13 @@
 use std::f64::consts::TAU;
 
 use strut_diagnosis::catalogue::naming::name;
-use strut_diagnosis::dataset::recorded::{Dataset, Measured, Source};
+use strut_diagnosis::dataset::recorded::Dataset;
 use strut_diagnosis::dataset::split::Split;
 use strut_diagnosis::diagnosis::{Options, diagnose};
 use strut_diagnosis::rig::Rig;
 use strut_model::Value;
 
-use crate::common::noise;
+use crate::common::{noise, on_a_bench};
 
 const STEP: f64 = 2.5e-3;
 const COUNT: usize = 4000;
@@ -36,21 +36,13 @@ fn record(force: impl Fn(f64, f64, f64) -> f64, seed: u64) -> Dataset {
     let moved: Vec<(f64, f64, f64)> = (0..COUNT).map(at).collect();
     // The lower end is moved: a positive position compresses.
     let values = moved.iter().map(|(x, v, i)| force(*x, *v, *i) + 0.5 * random()).collect();
-    let rig = rig();
-    let input = |name: &str| match name {
-        "motion.position" => Source::Measured(moved.iter().map(|it| it.0).collect()),
-        "motion.velocity" => Source::Measured(moved.iter().map(|it| it.1).collect()),
-        "control.current" => Source::Measured(moved.iter().map(|it| it.2).collect()),
-        _ => Source::Constant(0.0),
-    };
-    Dataset {
-        name: format!("{seed}"),
-        step: STEP,
-        inputs: rig.plant.inputs.iter().map(|it| input(&it.name)).collect(),
-        measured: vec![Measured { output: rig.plant.output("force").unwrap(), values, noise_floor: 0.5 }],
-        sections: std::iter::once(0..COUNT).collect(),
-        ..Dataset::default()
-    }
+    let signal = |of: fn(&(f64, f64, f64)) -> f64| moved.iter().map(of).collect();
+    let driven = [
+        ("motion.position", signal(|it| it.0)),
+        ("motion.velocity", signal(|it| it.1)),
+        ("control.current", signal(|it| it.2)),
+    ];
+    on_a_bench(&rig(), (format!("{seed}"), STEP), &driven, (values, 0.5))
 }
 
 /// A bench whose damper is set by a current.

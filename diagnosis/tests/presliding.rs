@@ -4,12 +4,12 @@
 use std::f64::consts::TAU;
 
 use strut_diagnosis::catalogue::naming::name;
-use strut_diagnosis::dataset::recorded::{Dataset, Measured, Source};
+use strut_diagnosis::dataset::recorded::Dataset;
 use strut_diagnosis::dataset::split::Split;
 use strut_diagnosis::diagnosis::{Options, diagnose};
 use strut_diagnosis::rig::Rig;
 
-use crate::common::noise;
+use crate::common::{noise, on_a_bench};
 
 /// In N.
 const FRICTION: f64 = 11_000.0;
@@ -35,19 +35,11 @@ fn record(rig: &Rig, hertz: f64, count: usize, seed: u64) -> Dataset {
         }
     }
     let time = || (0..count).map(|k| STEP * k as f64);
-    let input = |name: &str| match name {
-        "motion.position" => Source::Measured(time().map(position).collect()),
-        "motion.velocity" => Source::Measured(time().map(velocity).collect()),
-        _ => Source::Constant(0.0),
-    };
-    Dataset {
-        name: format!("{seed}"),
-        step: STEP,
-        inputs: rig.plant.inputs.iter().map(|it| input(&it.name)).collect(),
-        measured: vec![Measured { output: rig.plant.output("force").unwrap(), values, noise_floor: 10.0 }],
-        sections: std::iter::once(0..count).collect(),
-        ..Dataset::default()
-    }
+    let driven = [
+        ("motion.position", time().map(position).collect()),
+        ("motion.velocity", time().map(velocity).collect()),
+    ];
+    on_a_bench(rig, (format!("{seed}"), STEP), &driven, (values, 10.0))
 }
 
 /// The nominal stiffness becomes 300 kN/m and the damping 160 kN s/m before anything is looked for, and they have to give way.
