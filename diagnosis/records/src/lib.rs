@@ -68,6 +68,12 @@ pub struct Unread {
 }
 
 impl Unread {
+    /// What a message says where nothing else is left; nothing without any.
+    pub(crate) fn list(all: &[Self]) -> String {
+        let list: Vec<String> = all.iter().map(|it| format!("{}: {}", it.name, it.why)).collect();
+        if list.is_empty() { String::new() } else { format!(" (left out: {})", list.join("; ")) }
+    }
+
     /// Whether somebody means it by a name, as [`Channel::is_called`].
     pub(crate) fn is_called(&self, name: &str) -> bool {
         is_called((&self.name, &self.unit), name)

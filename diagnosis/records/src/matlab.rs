@@ -1,18 +1,23 @@
 //! Records from MATLAB's MAT-files of version 5 to 7: MathWorks, MAT-File Format, R2023b. Those of version 7.3 are HDF5.
 //!
-//! Real numeric vectors (n×1 or 1×n) and the columns of matrices, by their names, and those in the fields of structs; scalars, text
-//! and objects are left out. There are no units: SI is assumed unless the map says otherwise.
+//! Real numeric vectors (n×1 or 1×n) and the columns of matrices, by their names, and those in the fields of structs. What else is
+//! there is listed as not read, but for single values. There are no units: SI is assumed unless the map says otherwise.
 
 use super::DataError;
 use super::bytes::Bytes;
 use super::table::Table;
-use super::vectors::{self, Vector};
+use super::vectors::{self, Contents};
 
 /// Types of data elements, `mi…`.
 const MATRIX: u32 = 14;
 const COMPRESSED: u32 = 15;
 /// Classes of arrays, `mx…_CLASS`: numeric ones are from double to uint64.
+const CELLS: u8 = 1;
 const STRUCT: u8 = 2;
+const TEXT: u8 = 4;
+const SPARSE: u8 = 5;
+/// Tables, timetables, strings: theirs is a layout without sizes.
+const OPAQUE: u8 = 17;
 const NUMERIC: std::ops::RangeInclusive<u8> = 6..=15;
 /// Flag of arrays with an imaginary part.
 const COMPLEX: u8 = 0x08;
@@ -31,7 +36,7 @@ pub(crate) fn parse(file: &str, all: &[u8]) -> Result<Table, DataError> {
     let bytes = Bytes { file, all };
     let big_endian = bytes.get(126, 2)? == b"MI";
     let mut elements = Elements { bytes, at: HEADER, big_endian };
-    let mut vectors = Vec::new();
+    let mut contents = Contents::default();
     while let Some((kind, data)) = elements.next()? {
         let unpacked;
         let (kind, data) = if kind == COMPRESSED {
@@ -46,18 +51,18 @@ pub(crate) fn parse(file: &str, all: &[u8]) -> Result<Table, DataError> {
         };
         if kind == MATRIX {
             let inner = Elements { bytes: Bytes { file, all: data }, at: 0, big_endian };
-            matrix(inner, &mut Vec::new(), None, &mut vectors)?;
+            matrix(inner, &mut Vec::new(), None, &mut contents)?;
         }
     }
-    vectors::table(file, vectors)
+    contents.into_table(file)
 }
 
-/// Reads an array element and adds its vectors; a field's name comes from its struct.
+/// Reads an array element and adds what it has; a field's name comes from its struct.
 fn matrix(
     mut parts: Elements,
     path: &mut Vec<String>,
     field: Option<&str>,
-    vectors: &mut Vec<Vector>,
+    contents: &mut Contents,
 ) -> Result<(), DataError> {
     let bytes = parts.bytes;
     let damaged = || bytes.error("is damaged: an array without its parts");
@@ -68,37 +73,51 @@ fn matrix(
         (true, &[_, _, flags, class, ..]) => (class, flags),
         _ => (low, high),
     };
-    if class != STRUCT && !NUMERIC.contains(&class) {
-        return Ok(());
-    }
-    let (kind, data) = parts.next()?.ok_or_else(damaged)?;
-    let sizes: Vec<f64> = numbers(kind, data, parts.big_endian).ok_or_else(damaged)?;
+    let sizes: Vec<f64> = match class {
+        OPAQUE => Vec::new(),
+        _ => {
+            let (kind, data) = parts.next()?.ok_or_else(damaged)?;
+            numbers(kind, data, parts.big_endian).ok_or_else(damaged)?
+        }
+    };
     let (_, own_name) = parts.next()?.ok_or_else(damaged)?;
     let name = field.map_or_else(|| String::from_utf8_lossy(own_name).into_owned(), str::to_owned);
+    // What objects share stands in the file without a name.
+    if name.is_empty() {
+        return Ok(());
+    }
     path.push(name);
-    if class == STRUCT {
-        // Arrays of structs have several values for each field.
-        if path.len() <= DEEPEST && sizes.iter().product::<f64>() == 1.0 {
-            fields(&mut parts, path, vectors)?;
-        }
-    } else if flags & COMPLEX == 0
-        && let [rows, columns] = sizes[..]
-    {
-        let (kind, data) = parts.next()?.ok_or_else(damaged)?;
-        let values = numbers(kind, data, parts.big_endian).ok_or_else(damaged)?;
-        if values.len() as f64 != rows * columns {
-            return Err(damaged());
-        }
+    let count: f64 = sizes.iter().product();
+    match (class, &sizes[..]) {
+        (STRUCT, _) if path.len() > DEEPEST => contents.leave_out(path, "a struct in too many others"),
+        (STRUCT, _) if count == 1.0 => fields(&mut parts, path, contents)?,
+        (STRUCT, _) => contents.leave_out(path, format!("an array of {count} structs")),
+        (CELLS, _) => contents.leave_out(path, "a cell array: save its vectors by themselves"),
+        (TEXT, _) => contents.leave_out(path, "text"),
+        (SPARSE, _) => contents.leave_out(path, "a sparse matrix"),
         // A scalar is no signal.
-        if values.len() > 1 {
-            vectors.extend(vectors::of_matrix(path, "", [rows as usize, columns as usize], values));
+        (class, _) if NUMERIC.contains(&class) && count <= 1.0 => (),
+        (class, _) if NUMERIC.contains(&class) && flags & COMPLEX != 0 => {
+            contents.leave_out(path, "complex numbers");
         }
+        (class, &[rows, columns]) if NUMERIC.contains(&class) => {
+            let (kind, data) = parts.next()?.ok_or_else(damaged)?;
+            let values = numbers(kind, data, parts.big_endian).ok_or_else(damaged)?;
+            if values.len() as f64 != count {
+                return Err(damaged());
+            }
+            contents.add(path, "", [rows as usize, columns as usize], values);
+        }
+        (class, sizes) if NUMERIC.contains(&class) => {
+            contents.leave_out(path, format!("an array of {} dimensions", sizes.len()));
+        }
+        _ => contents.leave_out(path, vectors::OBJECT),
     }
     path.pop();
     Ok(())
 }
 
-fn fields(parts: &mut Elements, path: &mut Vec<String>, vectors: &mut Vec<Vector>) -> Result<(), DataError> {
+fn fields(parts: &mut Elements, path: &mut Vec<String>, contents: &mut Contents) -> Result<(), DataError> {
     let bytes = parts.bytes;
     let damaged = || bytes.error("is damaged: a struct without its fields");
     let (kind, data) = parts.next()?.ok_or_else(damaged)?;
@@ -113,7 +132,7 @@ fn fields(parts: &mut Elements, path: &mut Vec<String>, vectors: &mut Vec<Vector
         let (kind, data) = parts.next()?.ok_or_else(damaged)?;
         if kind == MATRIX {
             let inner = Elements { bytes: Bytes { all: data, ..bytes }, at: 0, big_endian: parts.big_endian };
-            matrix(inner, path, Some(&name), vectors)?;
+            matrix(inner, path, Some(&name), contents)?;
         }
     }
     Ok(())

@@ -2,7 +2,7 @@
 //!
 //! Read are sorted and unsorted records, plain, listed and compressed data, integer and floating channels of either
 //! byte order, linear conversions and invalidation bits (missing samples). Text channels, arrays and channels with
-//! other conversions are left out; if nothing is left, the message says so. Groups with other times are
+//! other conversions are listed as not read; if nothing is left, the message says so. Groups with other times are
 //! interpolated linearly onto the times of the fastest one; the second channel of a name `x` becomes `x#2`.
 
 mod channel;
@@ -11,7 +11,7 @@ mod records;
 use super::bytes::Bytes;
 use super::interpolate::linear;
 use super::table::Table;
-use super::{Channel, DataError};
+use super::{Channel, DataError, Unread};
 use channel::Reader;
 use std::collections::BTreeMap;
 
@@ -104,6 +104,14 @@ struct Group {
     channels: Vec<Channel>,
 }
 
+impl Group {
+    /// Its channels as not read.
+    fn left_out(self, why: &'static str) -> impl Iterator<Item = Unread> {
+        let unread = move |it: Channel| Unread { name: it.name, unit: it.unit, why: why.into() };
+        self.channels.into_iter().map(unread)
+    }
+}
+
 /// Columns of an MDF file.
 pub(crate) fn parse(file: &str, all: &[u8]) -> Result<Table, DataError> {
     let bytes = Bytes { file, all };
@@ -118,18 +126,18 @@ pub(crate) fn parse(file: &str, all: &[u8]) -> Result<Table, DataError> {
     }
     let header = Block::read(bytes, 64, "##HD")?;
     let mut groups = Vec::new();
-    let mut left_out = Vec::new();
+    let mut unread = Vec::new();
     for group in Block::chain(bytes, header.link(0), "##DG")? {
-        read_data_group(bytes, &group, &mut groups, &mut left_out)?;
+        read_data_group(bytes, &group, &mut groups, &mut unread)?;
     }
-    groups.retain(|group| !group.channels.is_empty() && !group.time.is_empty());
+    let (groups, empty): (Vec<Group>, Vec<Group>) = groups.into_iter().partition(|it| !it.time.is_empty());
+    unread.extend(empty.into_iter().flat_map(|it| it.left_out("there are no samples")));
+    let groups = groups.into_iter().filter(|it| !it.channels.is_empty()).collect();
     let mut columns = join(groups).ok_or_else(|| {
-        let why =
-            if left_out.is_empty() { String::new() } else { format!(" (left out: {})", left_out.join("; ")) };
-        bytes.error(format!("has no numeric channel with a master channel of time{why}"))
+        bytes.error(format!("has no numeric channel with a master channel of time{}", Unread::list(&unread)))
     })?;
     number_doubles(&mut columns);
-    Ok(Table { name: file.to_owned(), columns, master: Some(0), ..Table::default() })
+    Ok(Table { name: file.to_owned(), columns, master: Some(0), unread, ..Table::default() })
 }
 
 /// Names are free in MDF: the second channel `x` becomes `x#2`.
@@ -149,7 +157,7 @@ fn read_data_group(
     bytes: Bytes,
     data_group: &Block,
     groups: &mut Vec<Group>,
-    left_out: &mut Vec<String>,
+    unread: &mut Vec<Unread>,
 ) -> Result<(), DataError> {
     let id_size = data_group.number(0, 1)?;
     let channel_groups = Block::chain(bytes, data_group.link(1), "##CG")?;
@@ -170,13 +178,14 @@ fn read_data_group(
                         channels.push(Channel { name, unit: reader.unit, values });
                     }
                 }
-                Err(why) => left_out.push(format!("{name}: {why}")),
+                Err(why) => unread.push(Unread { name, unit: String::new(), why }),
             }
         }
         match time {
             Some(time) => groups.push(Group { time, channels }),
             None => {
-                left_out.extend(channels.iter().map(|c| format!("{}: no master channel of time", c.name)));
+                let without_time = Group { time: Vec::new(), channels };
+                unread.extend(without_time.left_out("no master channel of time"));
             }
         }
     }

@@ -1,17 +1,60 @@
 //! Vectors of a file of many (MATLAB, HDF5): those that belong together are the columns of a table.
 
 use super::table::{self, Table};
-use super::{Channel, DataError};
+use super::{Channel, DataError, Unread};
 use std::collections::BTreeMap;
 
 /// Columns up to which a matrix holds signals: an image does not.
-pub(super) const WIDEST: usize = 64;
+const WIDEST: usize = 64;
+
+/// Why an object of MATLAB's is not read.
+pub(super) const OBJECT: &str = "an object, such as a table or timetable: save its columns as vectors";
 
 /// A vector, with the names of the structs or groups that it is in before its own.
 pub(super) struct Vector {
     pub path: Vec<String>,
     pub unit: String,
     pub values: Vec<f64>,
+}
+
+/// What a file of many has: what may be signals, and what is none. Single numbers are left out without a word.
+#[derive(Default)]
+pub(super) struct Contents {
+    vectors: Vec<Vector>,
+    unread: Vec<Unread>,
+}
+
+impl Contents {
+    /// Takes a matrix with its numbers column after column, as MATLAB has them.
+    pub fn add(&mut self, path: &[String], unit: &str, [rows, columns]: [usize; 2], values: Vec<f64>) {
+        match too_wide([rows, columns]) {
+            Some(why) => self.leave_out(path, why),
+            None => self.vectors.extend(of_matrix(path, unit, [rows, columns], values)),
+        }
+    }
+
+    /// Says why something is not used.
+    pub fn leave_out(&mut self, path: &[String], why: impl Into<String>) {
+        self.unread.push(Unread { name: path.join("."), unit: String::new(), why: why.into() });
+    }
+
+    /// The vectors as long as the time. Without a time, all of the length in which there are most samples: a matrix of gains has few.
+    ///
+    /// # Errors
+    /// The file has no vectors, or two of one name.
+    pub fn into_table(self, file: &str) -> Result<Table, DataError> {
+        let Self { vectors, mut unread } = self;
+        let length = length(&vectors);
+        let (vectors, others): (Vec<Vector>, Vec<Vector>) =
+            vectors.into_iter().partition(|it| it.values.len() == length);
+        let of_another = others.into_iter().map(|it| Unread {
+            name: it.path.join("."),
+            unit: it.unit,
+            why: format!("{} values where the others have {length}", it.values.len()),
+        });
+        unread.extend(of_another);
+        table(file, vectors, unread)
+    }
 }
 
 /// The columns of a matrix, or its rows if it is wider than high, as `To File` of Simulink saves them; of a vector its only one. They
@@ -39,28 +82,34 @@ pub(super) fn of_matrix(
         }
         Vector { path, unit: unit.to_owned(), values: numbers(index) }
     };
-    if count <= WIDEST { (0..count).map(of).collect() } else { Vec::new() }
+    (0..count).map(of).collect()
 }
 
-/// The vectors as long as the time. Without a time, all of the length in which there are most samples: a matrix of gains has few. A
-/// vector goes by its own name, unless another has it too.
-///
-/// # Errors
-/// The file has no vectors, or two of one name.
-pub(super) fn table(file: &str, mut vectors: Vec<Vector>) -> Result<Table, DataError> {
-    let length = vectors
-        .iter()
-        .find(|v| table::is_time(v.path.last().map_or("", |name| name)))
-        .map(|v| v.values.len());
-    let length = length.or_else(|| {
-        let mut counts = BTreeMap::new();
-        vectors.iter().for_each(|v| *counts.entry(v.values.len()).or_insert(0) += v.values.len());
-        counts.into_iter().max_by_key(|&(length, samples)| (samples, length)).map(|(length, _)| length)
-    });
-    vectors.retain(|vector| Some(vector.values.len()) == length);
+/// Why a matrix of these sizes holds no signals, if it does not.
+pub(super) fn too_wide([rows, columns]: [usize; 2]) -> Option<String> {
+    (rows.min(columns) > WIDEST).then(|| format!("{rows} by {columns} values: more than {WIDEST} columns"))
+}
+
+/// Number of values of the time; without one, that in which there are most samples.
+fn length(vectors: &[Vector]) -> usize {
+    let is_time = |it: &&Vector| table::is_time(it.path.last().map_or("", |name| name));
+    if let Some(time) = vectors.iter().find(is_time) {
+        return time.values.len();
+    }
+    let mut counts = BTreeMap::new();
+    vectors.iter().for_each(|it| *counts.entry(it.values.len()).or_insert(0) += it.values.len());
+    let most = counts.into_iter().max_by_key(|&(length, samples)| (samples, length));
+    most.map_or(0, |(length, _)| length)
+}
+
+/// A table of vectors of one length. A vector goes by its own name, unless another has it too.
+fn table(file: &str, vectors: Vec<Vector>, unread: Vec<Unread>) -> Result<Table, DataError> {
     if vectors.is_empty() {
-        let text = "has no real numeric vectors or matrices: save time and signals as vectors, in MATLAB `save('run.mat', 't', \
-                    'x')`; tables, timetables and cell arrays are not read";
+        let text = format!(
+            "has no real numeric vectors or matrices: save time and signals as vectors, in MATLAB `save('run.mat', 't', 'x')`; \
+             tables, timetables and cell arrays are not read{}",
+            Unread::list(&unread)
+        );
         return Err(DataError::file(file, text));
     }
     let names: Vec<String> = vectors
@@ -80,7 +129,7 @@ pub(super) fn table(file: &str, mut vectors: Vec<Vector>) -> Result<Table, DataE
         Channel { name: title.into(), unit: unit.into(), values: vector.values }
     };
     let columns = names.into_iter().zip(vectors).map(channel).collect();
-    Ok(Table { name: file.to_owned(), columns, ..Table::default() })
+    Ok(Table { name: file.to_owned(), columns, unread, ..Table::default() })
 }
 
 #[cfg(test)]
@@ -113,15 +162,23 @@ mod tests {
             unit: String::new(),
             values: vec![1.0; count],
         };
-        let gains = of_matrix(&["k".to_owned()], "", [4, 4], vec![0.0; 16]);
-        let all = [vector("force", 500), vector("position", 500)].into_iter().chain(gains).collect();
-        let names: Vec<String> =
-            table("run.mat", all).unwrap().columns.into_iter().map(|it| it.name).collect();
+        let mut contents =
+            Contents { vectors: vec![vector("force", 500), vector("position", 500)], unread: Vec::new() };
+        contents.add(&["k".to_owned()], "", [4, 4], vec![0.0; 16]);
+        let table = contents.into_table("run.mat").unwrap();
+        let names: Vec<String> = table.columns.into_iter().map(|it| it.name).collect();
         assert_eq!(names, ["force", "position"]);
+        let gains: Vec<String> =
+            table.unread.into_iter().map(|it| format!("{}: {}", it.name, it.why)).collect();
+        assert_eq!(gains.len(), 4);
+        assert_eq!(gains[0], "k column 1: 4 values where the others have 500");
     }
 
     #[test]
     fn an_image_holds_no_signals() {
-        assert!(named([100, 80], &[0.0; 8000]).is_empty());
+        let mut contents = Contents::default();
+        contents.add(&["image".to_owned()], "", [100, 80], vec![0.0; 8000]);
+        assert!(contents.vectors.is_empty());
+        assert_eq!(contents.unread[0].why, "100 by 80 values: more than 64 columns");
     }
 }

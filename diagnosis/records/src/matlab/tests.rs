@@ -65,6 +65,51 @@ fn big_endian_and_compactly_stored_doubles() {
     let record = read(&file);
     assert_eq!(record.time, [0.0, 1.0, 2.0]);
     assert_eq!(record.channels[0].values, [-300.0, 7.0, 5.0]);
+    assert!(record.unread.is_empty());
+}
+
+/// An array of a class, big-endian; without sizes where there are none, as in MATLAB's objects.
+fn array(class: u8, sizes: &[u32], name: &str, data: &[u8]) -> Vec<u8> {
+    let sizes: Vec<u8> = sizes.iter().flat_map(|it| it.to_be_bytes()).collect();
+    let sizes = if sizes.is_empty() { Vec::new() } else { element(5, &sizes) };
+    let flags = element(6, &[0, 0, 0, class, 0, 0, 0, 0]);
+    element(14, &[flags, sizes, element(1, name.as_bytes()), data.to_vec()].concat())
+}
+
+#[test]
+fn what_is_no_signal_is_listed() {
+    let mut file = b"MATLAB 5.0 MAT-file".to_vec();
+    file.resize(124, b' ');
+    file.extend(b"\x01\x00MI");
+    let doubles =
+        |count: usize| element(9, &(0..count).flat_map(|k| (k as f64).to_be_bytes()).collect::<Vec<_>>());
+    let of_objects = [element(1, b"MCOS"), element(1, b"table")].concat();
+    for bytes in [
+        array(6, &[3, 1], "t", &doubles(3)),
+        array(6, &[3, 1], "x", &doubles(3)),
+        array(6, &[1, 1], "mass", &doubles(1)),
+        array(6, &[1, 2], "limits", &doubles(2)),
+        array(6, &[2, 2, 2], "cube", &doubles(8)),
+        array(4, &[1, 2], "note", &element(16, b"hi")),
+        array(1, &[1, 2], "runs", &[]),
+        array(2, &[1, 2], "tests", &[]),
+        array(17, &[], "log", &of_objects),
+        array(13, &[1, 3], "", &element(2, &[1, 2, 3])),
+    ] {
+        file.extend(bytes);
+    }
+    let record = read(&file);
+    assert_eq!(record.channels.iter().map(|it| it.name.as_str()).collect::<Vec<_>>(), ["x"]);
+    let unread: Vec<String> = record.unread.iter().map(|it| format!("{}: {}", it.name, it.why)).collect();
+    let wanted = [
+        "cube: an array of 3 dimensions",
+        "note: text",
+        "runs: a cell array: save its vectors by themselves",
+        "tests: an array of 2 structs",
+        "log: an object, such as a table or timetable: save its columns as vectors",
+        "limits: 2 values where the others have 3",
+    ];
+    assert_eq!(unread, wanted);
 }
 
 #[test]

@@ -117,7 +117,8 @@ fn unsorted() -> Vec<u8> {
     let mut file = b"MDF     4.10    ".to_vec();
     file.resize(64, 0);
     block(&mut file, "##HD", &[0; 6], &[0; 32]);
-    let low = channel(&mut file, 0, "low", [0, 0, 2, 0, 8, 12]);
+    let note = channel(&mut file, 0, "note", [0, 0, 6, 0, 8, 8]);
+    let low = channel(&mut file, note, "low", [0, 0, 2, 0, 8, 12]);
     let high = channel(&mut file, low, "high", [0, 0, 0, 4, 9, 12]);
     let channels = channel(&mut file, high, "t", [2, 1, 4, 0, 0, 64]);
     let other_value = channel(&mut file, 0, "other", [0, 0, 5, 0, 8, 32]);
@@ -153,6 +154,8 @@ fn unsorted_records_in_a_list_of_blocks() {
     assert_eq!(record.channels[0].values, [100.0, 101.0, 102.0, 103.0]);
     assert_eq!(record.channels[1].values, [-2.0, -1.0, 0.0, 1.0]);
     assert_eq!(record.channels[2].values[..3], [0.0, 0.5, 1.0]);
+    let unread: Vec<_> = record.unread.iter().map(|it| (it.name.as_str(), it.why.as_str())).collect();
+    assert_eq!(unread, [("note", "text")]);
     // The slow group ends before the fast one.
     assert!(record.channels[2].values[3].is_nan());
 }
