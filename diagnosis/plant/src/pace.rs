@@ -283,6 +283,33 @@ mod tests {
         assert!(apart < 0.02 * rms(differences.iter().copied()), "{apart}");
     }
 
+    /// Behind a backlash, more than a newton is displaced before anything holds, and that may be beyond where it slides.
+    #[test]
+    fn friction_behind_a_backlash_slides_in_as_small_steps_as_without() {
+        let plant = Plant::of::<QuarterCar>();
+        let model = QuarterCar::prepare(&strut_model::Settings::starts(), None).unwrap();
+        let tight = |exponent: f64, gap: f64| {
+            let mut parameters: Vec<f64> = plant.parameters.iter().map(|it| it.start).collect();
+            for (name, value) in [
+                ("hysteresis.presliding.force", 52.0),
+                ("hysteresis.presliding.stiffness", 8.3e4),
+                ("hysteresis.presliding.exponent", exponent),
+                ("hysteresis.presliding.gap", gap),
+            ] {
+                parameters[plant.parameter(name).unwrap()] = value;
+            }
+            let drive = Drive::sampled(STEP, vec![vec![0.0; 2]; plant.inputs.len()]);
+            Pace::of(&model, &Bundle::from_fn(|i| parameters[i]), &drive).tight
+        };
+        for exponent in [0.2, 0.5, 0.8] {
+            let plain = tight(exponent, 0.0);
+            assert!(plain > 5);
+            for gap in [1e-4, 5e-4, 2e-3, 5e-3] {
+                assert_eq!(tight(exponent, gap), plain, "{exponent} {gap}");
+            }
+        }
+    }
+
     #[test]
     fn a_linear_rig_makes_one_step() {
         let (_, steps) = driven(&[], false);

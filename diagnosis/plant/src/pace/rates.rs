@@ -117,9 +117,10 @@ pub(crate) fn rates<M: Model>(
     [fastest, late.map(|(row, _)| resting.row(row).amax()).fold(0.0, f64::max)]
 }
 
-/// The force at which friction slides, where it neither grows nor falls: in the direction in which it grows at another force.
+/// The force at which friction slides, where it neither grows nor falls: in the direction in which it grows at rest, or, if it does
+/// not there, in contact. Behind a backlash, contact may be found beyond that force.
 fn sliding(slope: impl Fn(f64) -> f64, contact: f64) -> Option<f64> {
-    let sign = slope(contact).signum();
+    let sign = [0.0, contact].map(&slope).into_iter().find(|it| *it != 0.0)?.signum();
     let falls = |by: &f64| sign * slope(sign * by) <= 0.0;
     let (mut below, mut limit) = (0.0, doubled().find(falls)?);
     for _ in 0..HALVED {
