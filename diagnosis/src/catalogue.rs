@@ -33,8 +33,9 @@ pub const LIFT_OFF: &str = "tire.lift_off";
 pub const TIMES: &[f64] = &[1e-3, 2.5e-3, 6e-3, 15e-3];
 
 /// Bounds of the velocity at which friction is regularised, in an element's usual velocities: below, a rig that really sticks
-/// is met no better, and equations become too stiff.
-const FRICTION_VELOCITY: (f64, f64) = (5e-3, 1.0);
+/// is met no better, and equations become too stiff. Above, it would not have its full force at the usual velocities, as friction
+/// has: that is what a damper's valves do.
+const FRICTION_VELOCITY: (f64, f64) = (5e-3, 1.0 / 3.0);
 
 /// An effect with a name that acts through a plant's parameters.
 #[derive(Clone, Copy, Debug)]

@@ -207,15 +207,22 @@ impl Baseline<'_> {
         let passes = |it: &&Tried| {
             it.evidence.refusal().is_none() && self.is_sized(it, base) || !sure && it.fitted.is_ok()
         };
-        let passing: Vec<&Tried> = tried.iter().filter(passes).collect();
-        let Some(chosen) = self.chosen(base, &passing).cloned() else { return Ok(None) };
-        let Ok(fitted) = &chosen.fitted else { return Ok(None) };
-        let close = self.fitted(&fitted.terms, std::slice::from_ref(&fitted.point), Stop::NOISY)?;
-        let beside: Vec<&Tried> =
-            tried.iter().filter(|it| passes(it) || it.evidence.passes_beside_another()).collect();
-        let rivals = self.rivals(base, &chosen, &close, &beside);
-        let accepted = Accepted { term: chosen.term, evidence: chosen.evidence, rivals };
-        Ok(Some(Confirmed { accepted, fitted: close }))
+        let mut passing: Vec<&Tried> = tried.iter().filter(passes).collect();
+        loop {
+            let Some(chosen) = self.chosen(base, &passing).cloned() else { return Ok(None) };
+            let Ok(fitted) = &chosen.fitted else { return Ok(None) };
+            let close = self.fitted(&fitted.terms, std::slice::from_ref(&fitted.point), Stop::NOISY)?;
+            // Only a close fit may come to where its law is another one.
+            if sure && self.is_straight(chosen.term, &close) {
+                passing.retain(|it| it.term != chosen.term);
+                continue;
+            }
+            let beside: Vec<&Tried> =
+                tried.iter().filter(|it| passes(it) || it.evidence.passes_beside_another()).collect();
+            let rivals = self.rivals(base, &chosen, &close, &beside);
+            let accepted = Accepted { term: chosen.term, evidence: chosen.evidence, rivals };
+            return Ok(Some(Confirmed { accepted, fitted: close }));
+        }
     }
 }
 

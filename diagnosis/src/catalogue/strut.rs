@@ -24,7 +24,8 @@ pub(super) const EFFECTS: &[Effect] = &[
         prevalence: Prevalence::Expected,
         parts: &[
             part("strut.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
-            part("strut.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02, 0.2]),
+            // At its upper end it is digressive damping.
+            bends(part("strut.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02, 0.2])),
         ],
         literature: &["ArmstrongHelouvry1994", "TUM"],
         experiment: "sweep the amplitude at one frequency, or drive a slow triangle",
@@ -40,7 +41,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         parts: &[
             // A peak that is narrower and higher than this imitates sticking.
             part("strut.stribeck.force", Scale::FORCE, (0.0, 2.0), &[0.1]),
-            part("strut.stribeck.velocity", Scale::VELOCITY, (2e-2, 1.0), &[0.1]),
+            part("strut.stribeck.velocity", Scale::VELOCITY, (2e-2, 1.0), &[0.1, 0.3]),
             part("strut.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
             part("strut.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02]),
         ],
@@ -104,6 +105,20 @@ pub(super) const EFFECTS: &[Effect] = &[
             ),
         ],
         literature: &["Dixon2007"],
+        experiment: "sweep the velocity",
+        ..PLAIN
+    },
+    Effect {
+        id: "05s",
+        element: Element::STRUT,
+        name: "digressive damping",
+        equation: "F = F_y tanh(v/v_y)",
+        parts: &[
+            part("strut.yield.force", Scale::FORCE, (0.0, 10.0), &[0.3]),
+            // What has its full force at lower velocities is friction.
+            bends(part("strut.yield.velocity", Scale::VELOCITY, (FRICTION_VELOCITY.1, 3.0), &[0.5, 1.0])),
+        ],
+        literature: &["Dixon2007", "Heissing2011"],
         experiment: "sweep the velocity",
         ..PLAIN
     },
@@ -249,7 +264,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         element: Element::STRUT,
         name: "dry yield force with hysteresis",
         equation: "F = F_y tanh(v/v_y + beta x)",
-        contains: &["01", "02"],
+        contains: &["01", "02", "05s"],
         parts: &[part("strut.yield.force", Scale::FORCE, (0.0, 10.0), &[0.3]), YIELD_VELOCITY, YIELD_SLOPE],
         literature: &["Kwok2006", "Spencer1997"],
         experiment: "hold the coil's voltage and compare slow and fast strokes",

@@ -89,8 +89,11 @@ impl Baseline<'_> {
             if other.term == chosen.term || has_no_name(other.term) || more || fewer {
                 return false;
             }
-            let closer = || self.closely(base, Ok(fitted.clone()), best);
-            self.as_good(base, best, fitted) || closer().is_ok_and(|it| self.as_good(base, close, &it))
+            let is_rival = |closer: Fitted| {
+                let as_good = self.as_good(base, best, fitted) || self.as_good(base, close, &closer);
+                as_good && !self.is_straight(other.term, &closer)
+            };
+            self.closely(base, Ok(fitted.clone()), best).is_ok_and(is_rival)
         };
         passing.par_iter().filter(rival).map(|it| it.term).collect()
     }
