@@ -74,7 +74,7 @@ pub fn diagnose<'a>(
             continue;
         }
         progress("comparing what each excitation says");
-        let (weighed, extended) = baseline.weighed_by_what_is_left(&found)?;
+        let (weighed, extended) = baseline.weighed_by_what_is_left(&found, records)?;
         let intervals = weighed.intervals(&extended)?;
         match baseline.doubtful(&found, &intervals).filter(|_| judged) {
             Some(doubtful) => baseline.explained_away(&mut found, doubtful),
@@ -83,7 +83,7 @@ pub fn diagnose<'a>(
     };
     // Rivals are compared with the weights of the search, which all fits have.
     baseline.tell_apart(&mut found);
-    let baseline = weighed;
+    let baseline = Baseline { train: &records.train, test: &records.test, ..weighed };
     found.settle_on(extended);
     Ok(Diagnosis { baseline, measured: &records.measured, before, found, intervals, reversed })
 }

@@ -20,6 +20,9 @@ use crate::signal::spectral::{
 
 /// Samples a second that are enough.
 const ENOUGH: f64 = 400.0;
+/// How many times as many the extended model is fitted to at last, if there are: in a damper, backlash ends within a thousandth of a
+/// second, and a law that sees less than that of its motion comes out a tenth too small.
+const SHARPER: usize = 2;
 /// Samples of a signal whose spectrum tells noise from it, at least.
 const SHORTEST: usize = 16;
 /// New periods over which the filter spreads a sample.
@@ -36,16 +39,25 @@ impl Dataset {
         let thinned = self.without_noise_above(0.0);
         let is_thinner = thinned.step > self.step;
         if self.imposed && is_thinner {
-            self.thinned(f64::INFINITY, 0.0).behind(thinned, 1).with_rates()
+            self.thinned(1, 0.0).behind(thinned, 1).with_rates()
         } else {
             thinned
         }
     }
 
+    /// The same with motion that is computed with more samples before it passes the filter; none where there are no more, or all of
+    /// them are seen already.
+    pub fn sharper(&self) -> Option<Self> {
+        let thinned = self.conditioned();
+        let factor = (thinned.step / self.step).round() as usize;
+        let is_sharper = factor >= SHARPER && thinned.wide.is_none();
+        is_sharper.then(|| self.thinned(factor / SHARPER, 0.0).behind(thinned, 1).with_rates())
+    }
+
     /// The record below a frequency in Hz, thinned. All signals pass the same filter: whatever it takes away of a motion, it
     /// takes away of the force that made it.
     pub fn below(&self, top: f64) -> Self {
-        self.thinned(2.0 * top / KEPT, f64::INFINITY)
+        self.thinned(self.spared(2.0 * top / KEPT), f64::INFINITY)
     }
 
     /// The record below a frequency in Hz, driven by its inputs as far as they are known above it, too.
@@ -79,13 +91,21 @@ impl Dataset {
     /// The record without its inputs' noise above a frequency in Hz, and thinned.
     fn without_noise_above(&self, frequency: f64) -> Self {
         // In a record that is thinned to its band already, noise and signal look alike.
-        if self.between == Between::Curves { self.clone() } else { self.thinned(ENOUGH, frequency) }
+        if self.between == Between::Curves {
+            return self.clone();
+        }
+        let factor = self.spared(ENOUGH);
+        self.thinned(if factor < SHARPER { factor } else { factor - factor % SHARPER }, frequency)
     }
 
-    /// The record with at least `rate` samples a second, without frequencies above four fifths of half of them; without the
+    /// Of how many samples one is enough where `rate` a second are.
+    fn spared(&self, rate: f64) -> usize {
+        ((1.0 / (self.step * rate)).floor() as usize).max(1)
+    }
+
+    /// The record with one of `factor` samples, without frequencies above four fifths of half of what is left; without the
     /// inputs' noise above the frequency `quiet` in Hz.
-    fn thinned(&self, rate: f64, quiet: f64) -> Self {
-        let factor = ((1.0 / (self.step * rate)).floor() as usize).max(1);
+    fn thinned(&self, factor: usize, quiet: f64) -> Self {
         let mut sections: Vec<Range<usize>> = Vec::new();
         for section in &self.sections {
             let first = sections.last().map_or(0, |before: &Range<usize>| before.end);

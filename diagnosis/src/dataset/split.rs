@@ -21,6 +21,8 @@ pub struct Split {
     pub train: Vec<Dataset>,
     /// Validation records, ready for the search.
     pub test: Vec<Dataset>,
+    /// Both as the extended model is fitted to them at last, if that is another way: with motion of more samples.
+    pub sharper: Option<[Vec<Dataset>; 2]>,
     /// Validation records as they were measured.
     pub measured: Vec<Dataset>,
     /// Both, estimation records first, without divisions.
@@ -31,7 +33,7 @@ impl Split {
     /// Without a record, for what needs none.
     #[cfg(test)]
     pub fn of_nothing() -> Self {
-        Self { train: Vec::new(), test: Vec::new(), measured: Vec::new(), whole: Vec::new() }
+        Self { train: Vec::new(), test: Vec::new(), sharper: None, measured: Vec::new(), whole: Vec::new() }
     }
 
     /// Records as they were measured.
@@ -45,7 +47,10 @@ impl Split {
         let all = train.par_iter().chain(&measured).map(both);
         let (mut own, whole): (Vec<Dataset>, Vec<Dataset>) = all.unzip();
         let test = own.split_off(train.len());
-        Self { train: own, test, measured, whole }
+        let sharper =
+            |records: &[Dataset]| records.par_iter().map(Dataset::sharper).collect::<Option<Vec<_>>>();
+        let sharper = sharper(train).zip(sharper(&measured)).map(<[Vec<Dataset>; 2]>::from);
+        Self { train: own, test, sharper, measured, whole }
     }
 
     /// The same in shorter stretches, each with states of its own at the start; none if the rig's models keep to long ones.
@@ -55,6 +60,7 @@ impl Split {
         drifts.then(|| Self {
             train: cut(&self.train),
             test: cut(&self.test),
+            sharper: self.sharper.as_ref().map(|both| both.each_ref().map(|it| cut(it))),
             measured: cut(&self.measured),
             whole: self.whole.clone(),
         })

@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::confirm::has_no_name;
 use crate::dataset::rate::along;
 use crate::dataset::recorded::{Dataset, SHORT, Source};
+use crate::dataset::split::Split;
 use crate::decision::criteria::CRITERIA;
 use crate::estimation::deadline::Stage;
 use crate::estimation::fit::{Residuals, contained};
@@ -103,15 +104,28 @@ pub(super) fn weighted(baseline: &mut Baseline<'_>, mut base: Fitted) -> Result<
 }
 
 impl<'a> Baseline<'a> {
-    /// The extended model with weights by what it leaves, and what knows these weights. In a search, all fits have those of the nominal
-    /// fit, by which the effects, once found, would count for little beside what was known of parameters before. A curve without a name
-    /// is no law: what it leaves is not noise, and weighs as before.
-    pub(super) fn weighed_by_what_is_left(&self, found: &Found) -> Result<(Baseline<'a>, Fitted), String> {
+    /// The extended model as it is told, and what knows the weights and the records that it was fitted with. In a search, all fits have
+    /// the weights of the nominal fit, by which the effects, once found, would count for little beside what was known of parameters
+    /// before, and records with as few samples as tell effects from each other. A curve without a name is no law: what it leaves is
+    /// not noise, and weighs as before.
+    pub(super) fn weighed_by_what_is_left(
+        &self,
+        found: &Found,
+        records: &'a Split,
+    ) -> Result<(Baseline<'a>, Fitted), String> {
         let mut weighed = self.clone();
         let terms = &found.extended.terms;
         let are_laws = !terms.is_empty() && !terms.iter().any(|it| has_no_name(*it));
-        let extended = found.extended.clone();
-        let extended = if are_laws { weighted(&mut weighed, extended)? } else { extended };
+        if !are_laws {
+            return Ok((weighed, found.extended.clone()));
+        }
+        if let Some([train, test]) = &records.sharper {
+            let mut sharper = Baseline { train, test, ..self.clone() };
+            if let Ok(extended) = weighted(&mut sharper, found.extended.clone()) {
+                return Ok((sharper, extended));
+            }
+        }
+        let extended = weighted(&mut weighed, found.extended.clone())?;
         Ok((weighed, extended))
     }
 }
