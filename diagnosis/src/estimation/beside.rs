@@ -28,7 +28,8 @@ const ANOTHER_SHAPE: f64 = 0.5;
 pub struct Assumed {
     /// How far each coordinate moves with each of them.
     pub pulls: Vec<DVector<f64>>,
-    /// For each coordinate: those that do what it does.
+    /// For each coordinate: those that do what it does, of a parameter that the starting model has at zero; of another, those that do
+    /// on their own what it and others do together, by as much as they differ from what was known before.
     pub twins: Vec<Vec<Term>>,
 }
 
@@ -49,19 +50,24 @@ impl Baseline<'_> {
         let effects = fitted.coordinates.iter().map(|it| amounts.contains(&it.handle)).collect::<Vec<_>>();
         let beside = Beside { h: &h, g: &g, effects: &effects, left: 2.0 * fitted.cost };
         let mut twins: Vec<Vec<Term>> = vec![Vec::new(); fitted.coordinates.len()];
+        let absent: Vec<bool> = fitted.coordinates.iter().map(|it| self.is_absent(it.handle)).collect();
+        let known = fitted.coordinates.iter().map(|it| it.distance(&fitted.point));
+        let known: Vec<Option<(f64, f64)>> = known.collect();
         for (probe, range) in &probes {
             // It can do all that a gain, a lag and a delay can, which count on their own.
             if matches!(terms[probe.term], Term::Response(_)) {
                 continue;
             }
             let term = terms[probe.term];
+            let is_single = range.len() == 1;
+            let does_all = is_single && beside.does_all_of(range.start, &known);
             for (coordinate, twins) in twins.iter_mut().enumerate() {
                 // A gain scales all of a drive's parameters alike, which says nothing of any of them.
-                if range.len() == 1
-                    && !is_gain(term)
-                    && !twins.contains(&term)
-                    && beside.is_twin(range.start, coordinate)
-                {
+                let is_twin = match absent[coordinate] {
+                    true => is_single && !is_gain(term) && beside.is_twin(range.start, coordinate),
+                    false => does_all && known[coordinate].is_some(),
+                };
+                if is_twin && !twins.contains(&term) {
                     twins.push(term);
                 }
             }
@@ -79,6 +85,11 @@ impl Baseline<'_> {
         }
         let pulls = together(most.into_iter().flatten().collect(), beside.left);
         Ok(Assumed { pulls, twins })
+    }
+
+    /// Whether the starting model is without what a parameter does.
+    fn is_absent(&self, handle: Unknown) -> bool {
+        matches!(handle, Unknown::Parameter(index) if self.rig.parameters[index] == 0.0)
     }
 
     /// Where a fit of each term that comes in several shapes may begin: with the shape in which the errors of a simulation contain most of
@@ -167,6 +178,41 @@ impl Beside<'_> {
         together + alone > POINTS_OWN && together > CRITERIA.decides * (together + alone)
     }
 
+    /// Whether a further column does what the coordinates do together, by as much as they differ from what was known before: with an
+    /// amount of it in their place, most of these differences are gone. `known` has the distance of each coordinate from what was known
+    /// in standard deviations, and its derivative.
+    fn does_all_of(&self, column: usize, known: &[Option<(f64, f64)>]) -> bool {
+        let own = known.len();
+        let order: Vec<usize> = (0..own).chain([own + column]).collect();
+        // What was known before tells the coordinates apart, but is nothing that records say.
+        let said = |it: usize| {
+            let before = known.get(it).copied().flatten().map_or(0.0, |(_, slope)| slope * slope);
+            (self.h[(it, it)] - before).max(f64::MIN_POSITIVE)
+        };
+        let norm: Vec<f64> = order.iter().map(|it| said(*it).sqrt()).collect();
+        let all = DMatrix::from_fn(own + 1, own + 1, |i, j| match i == j {
+            true => 1.0 + 1e-9,
+            false => self.h[(order[i], order[j])] / norm[i] / norm[j],
+        });
+        let Some(factor) = all.view((0, 0), (own, own)).into_owned().cholesky() else { return false };
+        let cross = all.view((0, own), (own, 1)).into_owned();
+        let together = factor.solve(&cross);
+        if 1.0 - together.dot(&cross) > ITS_OWN {
+            return false;
+        }
+        let moved = (0..own).filter_map(|it| {
+            let (distance, slope) = known[it]?;
+            Some((distance, slope * together[it] * norm[own] / norm[it]))
+        });
+        let (mut differences, mut both, mut moves) = (0.0, 0.0, 0.0);
+        for (distance, moved) in moved {
+            differences += distance * distance;
+            both += distance * moved;
+            moves += moved * moved;
+        }
+        moves > 0.0 && both * both / moves > CRITERIA.majority * differences
+    }
+
     /// By how much the sum of squares falls with some further columns, and how far the fit's coordinates move with them.
     /// None if the columns do nothing that the coordinates could not do, or are another shape of an identified effect.
     fn pull(&self, columns: &Range<usize>) -> Option<Pull> {
@@ -248,6 +294,33 @@ mod tests {
         // Half of an effect takes three quarters of what all of it takes.
         let half = pull.held(0.5);
         assert_eq!((half.gain, half.moved[0], half.amounts[0]), (1.5, 1.5, 0.5));
+    }
+
+    /// A force over a mass and a damping: a gain of the force is a factor of both, unless one of them is the only one that is off.
+    #[test]
+    fn one_column_may_do_what_all_coordinates_do_together() {
+        let all = DMatrix::from_fn(50, 3, |k, column| {
+            let x = 0.2 * k as f64;
+            match column {
+                0 => x.sin(),
+                1 => (1.7 * x).cos(),
+                _ => -1.25 * x.sin() - 0.5 * (1.7 * x).cos(),
+            }
+        });
+        let known = |off: [f64; 2]| off.map(|it| Some((it / 0.3, 1.0 / 0.3)));
+        let does_all = |all: &DMatrix<f64>, off: [f64; 2]| {
+            let mut h = all.tr_mul(all);
+            // What was known before.
+            (0..2).for_each(|it| h[(it, it)] += 1.0 / 0.09);
+            let g = DVector::zeros(3);
+            Beside { h: &h, g: &g, effects: &[false; 2], left: 1.0 }.does_all_of(0, &known(off))
+        };
+        assert!(does_all(&all, [0.25, 0.1]) && does_all(&all, [-0.25, -0.1]));
+        assert!(!does_all(&all, [0.05, -0.3]));
+        // Something that the coordinates cannot do.
+        let mut other = all;
+        other[(10, 2)] += 0.5;
+        assert!(!does_all(&other, [0.25, 0.1]));
     }
 
     /// An offset and a friction are one for a body that never turns back, and two for one that does.

@@ -158,7 +158,7 @@ impl Diagnosis<'_> {
             let contradicted = given.is_some_and(|(_, value, deviation)| {
                 (after - value).abs() > (1.0 - MISMATCH) * SURE * deviation
             });
-            let twins = interval.twins.iter().filter(|_| mismatch && before == 0.0);
+            let twins = interval.twins.iter().filter(|_| mismatch);
             let twins = twins.map(|term| name(*term, &rig.plant));
             list.push(NominalParameter {
                 name: declared.name.clone(),

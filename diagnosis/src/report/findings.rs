@@ -172,7 +172,8 @@ pub struct NominalParameter {
     pub is_yardstick: bool,
     /// Whether the data contradict the value that the user gave with its standard deviation.
     pub contradicted: bool,
-    /// Effects that do the same on these records, of a parameter that the starting model is without.
+    /// Effects that do the same on these records: of a parameter that the starting model is without, what it does; of another, what it
+    /// and others do together.
     pub equivalent_effects: Vec<String>,
 }
 

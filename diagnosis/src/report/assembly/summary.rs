@@ -4,9 +4,7 @@
 mod tests;
 
 use crate::decision::rules::FALL;
-use crate::report::findings::{
-    Candidate, Effect, Findings, NominalParameter, RecordValue, Signal, Unmodelled, Verdict,
-};
+use crate::report::findings::{Candidate, Effect, Findings, RecordValue, Signal, Unmodelled, Verdict};
 use crate::report::words::{
     count, digits, effect_name, fit, interval, list, located, none_beyond, open_signals, percent,
     reservation, sized, small_rest, unit, value,
@@ -14,6 +12,8 @@ use crate::report::words::{
 
 /// Fit that the noise of the inputs costs, to be worth a sentence.
 const NOISY: f64 = 0.1;
+/// Names that a sentence lists one by one.
+const LISTED: usize = 3;
 /// Improvement of the fit that is worth a sentence.
 const IMPROVED: f64 = 0.005;
 
@@ -174,12 +174,23 @@ fn contradictions(findings: &Findings) -> Option<String> {
 }
 
 fn twins(findings: &Findings) -> Option<String> {
-    let of = |it: &NominalParameter| {
-        format!("These records cannot tell {} from {}.", it.name, list(&it.equivalent_effects, "or"))
+    let mut all: Vec<(&[String], Vec<String>)> = Vec::new();
+    for it in findings.nominal_parameters.iter().filter(|it| !it.equivalent_effects.is_empty()) {
+        match all.iter_mut().find(|(effects, _)| *effects == it.equivalent_effects) {
+            Some((_, names)) => names.push(it.name.clone()),
+            None => all.push((&it.equivalent_effects, vec![it.name.clone()])),
+        }
+    }
+    let of = |(effects, names): (&[String], Vec<String>)| {
+        let (these, together) = match names.len() {
+            1..=LISTED => (list(&names, "and"), if names.len() > 1 { " together" } else { "" }),
+            more => (format!("these {more} parameters"), " together"),
+        };
+        let remedy =
+            if names.len() > 1 { " Measure one of them otherwise and give it (--known)." } else { "" };
+        format!("These records cannot tell {these}{together} from {}.{remedy}", list(effects, "or"))
     };
-    let all: Vec<String> =
-        findings.nominal_parameters.iter().filter(|it| !it.equivalent_effects.is_empty()).map(of).collect();
-    (!all.is_empty()).then(|| all.join(" "))
+    (!all.is_empty()).then(|| all.into_iter().map(of).collect::<Vec<_>>().join(" "))
 }
 
 /// A signal that the final model meets less well than the starting model: the records want something else of it.

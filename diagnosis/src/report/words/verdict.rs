@@ -1,7 +1,7 @@
 //! The verdict as a sentence and as a badge.
 
 use super::{effect_name, list, located, percent, small_rest};
-use crate::report::findings::{Effect, Findings, Verdict};
+use crate::report::findings::{Effect, Findings, NominalParameter, Verdict};
 
 /// Names that a headline lists one by one; of more it gives the number.
 const LISTED: usize = 3;
@@ -76,14 +76,25 @@ fn sensor_fault(findings: &Findings, faults: &str) -> String {
 
 /// The nominal parameters that are off.
 fn mismatched(findings: &Findings) -> Option<String> {
-    let wrong = findings.nominal_parameters.iter().filter(|parameter| parameter.mismatch);
-    let names: Vec<String> = wrong.map(|parameter| parameter.name.clone()).collect();
-    match names.len() {
-        0 => None,
-        1 => Some(format!("{} differs from the starting model.", names[0])),
-        2..=LISTED => Some(format!("{} differ from the starting model.", list(&names, "and"))),
-        more => Some(format!("{more} parameters differ from the starting model.")),
-    }
+    let wrong: Vec<&NominalParameter> =
+        findings.nominal_parameters.iter().filter(|parameter| parameter.mismatch).collect();
+    let names: Vec<String> = wrong.iter().map(|parameter| parameter.name.clone()).collect();
+    let differ = match names.len() {
+        0 => return None,
+        1 => format!("{} differs", names[0]),
+        2..=LISTED => format!("{} differ", list(&names, "and")),
+        more => format!("{more} parameters differ"),
+    };
+    // One effect in the place of them all.
+    let instead = &wrong[0].equivalent_effects;
+    let is_one = !instead.is_empty() && wrong.iter().all(|it| it.equivalent_effects == *instead);
+    Some(match is_one {
+        true => format!(
+            "{differ} from the starting model, unless it is {}: these records cannot tell.",
+            list(instead, "or")
+        ),
+        false => format!("{differ} from the starting model."),
+    })
 }
 
 /// The clearest of what records disagree on.
@@ -160,6 +171,37 @@ mod tests {
         assert_eq!(
             headline(&Findings { verdict: Verdict::NoEffect, ..found }),
             "These records show no effect beyond the model."
+        );
+    }
+
+    #[test]
+    fn one_effect_in_the_place_of_several_parameters_is_named() {
+        let named = |name: &str, effects: &[&str]| NominalParameter {
+            name: name.into(),
+            unit: "kg".into(),
+            before: 20.0,
+            after: 24.0,
+            low: 23.0,
+            high: 25.0,
+            mismatch: true,
+            from_parameter_set: false,
+            is_yardstick: false,
+            contradicted: false,
+            equivalent_effects: effects.iter().map(|it| (*it).to_owned()).collect(),
+        };
+        let told = |all: Vec<NominalParameter>| {
+            let bad = Findings::of_bad_data("rig", vec![], vec![], vec![]);
+            headline(&Findings { verdict: Verdict::ParameterMismatch, nominal_parameters: all, ..bad })
+        };
+        let gain: &[&str] = &["gain of the actuator"];
+        assert_eq!(
+            told(vec![named("a", gain), named("b", gain)]),
+            "a and b differ from the starting model, unless it is gain of the actuator: these records cannot tell. The \
+             records show no further effect."
+        );
+        assert!(
+            told(vec![named("a", gain), named("b", &[])])
+                .starts_with("a and b differ from the starting model.")
         );
     }
 

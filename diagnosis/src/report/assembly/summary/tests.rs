@@ -1,5 +1,5 @@
 use super::*;
-use crate::report::findings::{Disagreement, Evidence, FittedValue, SignalAccount};
+use crate::report::findings::{Disagreement, Evidence, FittedValue, NominalParameter, SignalAccount};
 
 fn findings(verdict: Verdict) -> Findings {
     Findings { verdict, ..Findings::of_bad_data("rig", vec![], vec![], vec![]) }
@@ -118,6 +118,30 @@ fn what_the_records_say_of_a_parameter_beyond_its_value_is_told() {
     assert!(text.contains("The records contradict the given value of constant_load."), "{text}");
     assert!(!text.contains("ratios"), "{text}");
     assert!(text.contains("cannot tell constant_load from guide friction in the guide."), "{text}");
+}
+
+#[test]
+fn what_does_the_same_as_several_parameters_is_told_once() {
+    let named = |name: &str| NominalParameter {
+        name: name.into(),
+        unit: "kg".into(),
+        before: 20.0,
+        after: 24.0,
+        low: 23.0,
+        high: 25.0,
+        mismatch: true,
+        from_parameter_set: false,
+        is_yardstick: false,
+        contradicted: false,
+        equivalent_effects: vec!["gain of the actuator".into()],
+    };
+    let nominal_parameters: Vec<NominalParameter> = ["a", "b", "c", "d"].into_iter().map(named).collect();
+    let text = of(&Findings { nominal_parameters, ..findings(Verdict::ParameterMismatch) });
+    assert!(
+        text.contains("These records cannot tell these 4 parameters together from gain of the actuator."),
+        "{text}"
+    );
+    assert_eq!(text.matches("cannot tell").count(), 1);
 }
 
 #[test]
