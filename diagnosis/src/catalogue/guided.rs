@@ -28,7 +28,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         onset: Onset::Standstill,
         parts: &[
             part("guide.stribeck.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
-            part("guide.stribeck.velocity", Scale::VELOCITY, (5e-3, 1.0), &[0.1, 0.3]),
+            part("guide.stribeck.velocity", Scale::VELOCITY, (5e-3, 1.0), &[0.1]),
             part("guide.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
             part("guide.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02]),
         ],

@@ -41,7 +41,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         parts: &[
             // A peak that is narrower and higher than this imitates sticking.
             part("strut.stribeck.force", Scale::FORCE, (0.0, 2.0), &[0.1]),
-            part("strut.stribeck.velocity", Scale::VELOCITY, (2e-2, 1.0), &[0.1, 0.3]),
+            part("strut.stribeck.velocity", Scale::VELOCITY, (2e-2, 1.0), &[0.1]),
             part("strut.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
             part("strut.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02]),
         ],

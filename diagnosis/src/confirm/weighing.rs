@@ -2,7 +2,7 @@
 
 use crate::catalogue::naming::{name, prevalence};
 use crate::catalogue::{Element, Prevalence};
-use crate::dataset::recorded::Dataset;
+use crate::dataset::recorded::{Dataset, LEAST_NOISE, noise_floor};
 use crate::decision::account::{Account, account};
 use crate::decision::evidence::{Evidence, Left};
 use crate::diagnosis::component::Component;
@@ -28,10 +28,11 @@ impl Baseline<'_> {
         Errors { residuals, floor: &self.floor }
     }
 
-    /// Noise of a measured output: of its sensor, and of the measured inputs.
+    /// Noise of a measured output on the validation records: of its sensor, and of the measured inputs.
     pub(crate) fn noise(&self, row: usize) -> f64 {
-        let sensor = self.train.first().map_or(0.0, |record| record.measured[row].noise_floor);
-        sensor.max(self.floor[row]).hypot(self.transmitted[row])
+        // Without any, nothing would be compared to nothing.
+        let least = LEAST_NOISE * self.signal(row).sqrt();
+        noise_floor(self.test, row).max(least).hypot(self.transmitted[row])
     }
 
     /// Student's t of the gain over blocks, in units of what the better fit leaves. Of what acts beyond a threshold only, or where

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::confirm::has_no_name;
 use crate::dataset::rate::along;
-use crate::dataset::recorded::{Dataset, SHORT, Source};
+use crate::dataset::recorded::{Dataset, LEAST_NOISE, SHORT, Source};
 use crate::dataset::split::Split;
 use crate::decision::criteria::CRITERIA;
 use crate::estimation::deadline::Stage;
@@ -240,7 +240,7 @@ fn floors(train: &[Dataset]) -> Vec<f64> {
         .measured
         .iter()
         .map(|measured| {
-            (SURE * measured.noise_floor).max(1e-6 * rms(&measured.values)).max(f64::MIN_POSITIVE)
+            (SURE * measured.noise_floor).max(LEAST_NOISE * rms(&measured.values)).max(f64::MIN_POSITIVE)
         })
         .collect()
 }

@@ -15,7 +15,7 @@ use unmodelled::missing;
 use crate::catalogue::naming::{self, name};
 use crate::confirm::{Accepted, Tried, has_no_name};
 use crate::data::check::DataProblem;
-use crate::dataset::recorded::Dataset;
+use crate::dataset::recorded::{Dataset, noise_floor};
 use crate::dataset::witness::same_excitation;
 use crate::decision::choice::Score;
 use crate::decision::evidence::Evidence;
@@ -218,8 +218,7 @@ impl Diagnosis<'_> {
         let rows = self.measured.first().map_or(0, |record| record.measured.len());
         let left = self.left();
         let of = |row: usize| {
-            let first = &self.measured[0].measured[row];
-            let declared = &baseline.rig.plant.outputs[first.output];
+            let declared = &baseline.rig.plant.outputs[self.measured[0].measured[row].output];
             let all = |residuals: &Residuals| -> Vec<f64> {
                 residuals.iter().flat_map(|record| record[row].iter().copied()).collect()
             };
@@ -236,7 +235,7 @@ impl Diagnosis<'_> {
                 rms_before: root_mean_square(&before),
                 rms_fitted: root_mean_square(&fitted),
                 rms_after: root_mean_square(&after),
-                noise_floor: first.noise_floor.hypot(baseline.transmitted[row]),
+                noise_floor: noise_floor(self.measured, row).hypot(baseline.transmitted[row]),
                 repeatability: repeatability(self.measured, row),
             }
         };
