@@ -4,8 +4,8 @@ use textwrap::Options;
 use unicode_width::UnicodeWidthStr;
 
 use super::words::{
-    UNREACHED, badge, capitalised, chance, count, digits, effect_name, effect_rank, headline, interval,
-    located, number, percent, quantity, unit,
+    LIMIT_DIGITS, UNREACHED, badge, capitalised, chance, count, digits, effect_name, effect_rank, headline,
+    interval, limit, located, number, percent, quantity, unit,
 };
 use crate::report::findings::{AccountItem, Effect, Findings, RecordRead, SignalAccount};
 use crate::report::words;
@@ -120,8 +120,16 @@ impl Lines {
             }
             let [value, low, high] = interval(parameter.value, parameter.low, parameter.high);
             let unit = unit(&parameter.unit);
-            let text = format!("{} = {value} {unit}", parameter.name);
-            self.wrapped("  ", &format!("{} (95 %: {low} … {high})", text.trim_end()));
+            let text = match limit(parameter) {
+                Some((sign, end)) => {
+                    format!("{} {sign} {} {unit}", parameter.name, digits(end, LIMIT_DIGITS))
+                }
+                None => {
+                    let text = format!("{} = {value} {unit}", parameter.name);
+                    format!("{} (95 %: {low} … {high})", text.trim_end())
+                }
+            };
+            self.wrapped("  ", text.trim_end());
         }
         self.wrapped(
             "  ",

@@ -4,7 +4,9 @@ use maud::{Markup, html};
 
 use crate::report::evidence::{gates, sentences};
 use crate::report::findings::{Effect, Evidence, Findings};
-use crate::report::words::{UNREACHED, capitalised, effect_name, interval, located, unit};
+use crate::report::words::{
+    LIMIT_DIGITS, UNREACHED, capitalised, digits, effect_name, interval, limit, located, unit,
+};
 
 /// All identified effects.
 pub fn section(findings: &Findings) -> Markup {
@@ -99,7 +101,11 @@ fn added(findings: &Findings, effect: &Effect) -> Markup {
                             @for parameter in &effect.parameters {
                                 tr {
                                     td { code { (parameter.name) } }
-                                    @if parameter.reached {
+                                    @if let Some((sign, end)) = limit(parameter).filter(|_| parameter.reached) {
+                                        td.number { strong { (sign) " " (digits(end, LIMIT_DIGITS)) } }
+                                        td.number { "–" }
+                                        td.unit { (unit(&parameter.unit)) }
+                                    } @else if parameter.reached {
                                         @let [value, low, high] = interval(parameter.value, parameter.low, parameter.high);
                                         td.number { strong { (value) } }
                                         td.number { (low) " … " (high) }

@@ -2,7 +2,7 @@
 
 use super::value;
 use crate::catalogue::Element;
-use crate::report::findings::{AccountItem, Candidate, Effect, Findings};
+use crate::report::findings::{AccountItem, Candidate, Effect, EffectParameter, Findings};
 
 /// A part of the rig.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,6 +78,19 @@ pub fn sized(effect: &Effect) -> String {
     }
 }
 
+/// Digits of a limit.
+pub const LIMIT_DIGITS: usize = 2;
+
+/// Of a parameter at an end of where it is looked for there is no value, only a limit: its sign and the other end of the interval.
+pub fn limit(parameter: &EffectParameter) -> Option<(&'static str, f64)> {
+    let EffectParameter { value, low, high, .. } = *parameter;
+    match (value <= low, value >= high) {
+        (true, false) => Some(("≤", high)),
+        (false, true) => Some(("≥", low)),
+        _ => None,
+    }
+}
+
 /// Number and element of an effect that is given as `01 strut`.
 fn split(key: &str) -> (&str, &str) {
     let key = key.trim();
@@ -144,6 +157,19 @@ mod tests {
         let findings = Findings { candidates, ..Findings::of_bad_data("rig", vec![], vec![], vec![]) };
         assert_eq!(effect_name(&findings, "42 tau"), "lag of the sensor at tau");
         assert_eq!(effect_name(&findings, "43 tau"), "43 tau");
+    }
+
+    #[test]
+    fn what_is_at_its_bound_has_a_limit_and_no_value() {
+        let of = |[value, low, high]: [f64; 3]| {
+            let name = "strut.coulomb.velocity".into();
+            limit(&EffectParameter { name, value, unit: "m/s".into(), low, high, reached: true })
+        };
+        assert_eq!(of([2e-4, 2e-4, 3.5e-4]), Some(("≤", 3.5e-4)));
+        assert_eq!(of([4.0, 2.5, 4.0]), Some(("≥", 2.5)));
+        assert_eq!(of([3e-4, 2e-4, 3.5e-4]), None);
+        // Of what nothing is known, there is no limit either.
+        assert_eq!(of([1.0, 1.0, 1.0]), None);
     }
 
     #[test]
