@@ -45,6 +45,8 @@ pub struct Interval {
     pub value: f64,
     /// Half the interval that holds the true value with 95 %; infinite if nothing is known.
     pub half: f64,
+    /// The same at the scale of the parameter that keeps its value: how sure the ratio to that is; none where the scale is known.
+    pub half_of_ratio: Option<f64>,
     /// The same if what was known before were exact: what the data alone tell, beside the scale of the parameter set.
     pub half_of_data: f64,
     /// The same if no effect that is not in the model pulled at it, either: whether it moved at all, whatever moved it.
@@ -65,6 +67,12 @@ impl Interval {
     /// Its lower end, within what is possible.
     pub fn low(&self) -> f64 {
         (self.value - self.half).max(self.bounds.0)
+    }
+
+    /// Both ends at the scale of the parameter that keeps its value.
+    pub fn of_ratio(&self) -> Option<[f64; 2]> {
+        let half = self.half_of_ratio?;
+        Some([(self.value - half).max(self.bounds.0), (self.value + half).min(self.bounds.1)])
     }
 
     /// Its upper end, within what is possible.
@@ -106,7 +114,9 @@ impl Baseline<'_> {
             let scale = self.variance_of_scale(handle, value);
             let from_parameter_set = scale > FROM_SET * data
                 || is_of_parameter_set(coordinate, &fitted.point, [before[(index, index)], data]);
-            let mut half = (variance + of(&vouched_for) + NORMAL.powi(2) * scale).sqrt();
+            let of_ratio = variance + of(&vouched_for);
+            let mut half = (of_ratio + NORMAL.powi(2) * scale).sqrt();
+            let mut half_of_ratio = (scale > 0.0).then_some(of_ratio.sqrt());
             if amounts.contains(&handle) && half_of_data.is_finite() {
                 let promised = 0.5 * (norms[index] * half_of_data).powi(2);
                 let enough = BORNE_OUT * promised.min(fitted.cost * NORMAL.powi(2) / count);
@@ -117,7 +127,7 @@ impl Baseline<'_> {
                     bounds.0 <= moved && moved <= bounds.1 && fit.cost(&point) - fitted.cost >= enough
                 });
                 if !borne_out {
-                    (half, half_of_data) = (f64::INFINITY, f64::INFINITY);
+                    (half, half_of_data, half_of_ratio) = (f64::INFINITY, f64::INFINITY, None);
                 }
             }
             let yardstick = None;
@@ -125,6 +135,7 @@ impl Baseline<'_> {
                 handle,
                 value,
                 half,
+                half_of_ratio,
                 half_of_data,
                 half_of_noise: noise.sqrt(),
                 from_parameter_set,

@@ -122,6 +122,7 @@ impl Diagnosis<'_> {
                 after: -1.0,
                 low: -1.0,
                 high: -1.0,
+                of_ratio: None,
                 mismatch: true,
                 from_parameter_set: false,
                 is_yardstick: false,
@@ -167,6 +168,7 @@ impl Diagnosis<'_> {
                 after,
                 low: interval.low(),
                 high: interval.high(),
+                of_ratio: interval.of_ratio().filter(|_| !is_yardstick),
                 mismatch,
                 from_parameter_set: given.is_none() && interval.from_parameter_set,
                 is_yardstick,
@@ -275,7 +277,7 @@ impl Diagnosis<'_> {
             };
             let ((name, unit), [value, low, high]) = (naming::handle(handle, plant), ends);
             let reached = !unreached.contains(&it.handle);
-            EffectParameter { name, value, unit, low, high, reached }
+            EffectParameter { name, value, unit, low, high, of_ratio: it.of_ratio(), reached }
         });
         let rivals: Vec<naming::Name> = accepted.rivals.iter().map(|term| name(*term, plant)).collect();
         Effect {

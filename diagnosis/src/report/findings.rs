@@ -145,6 +145,9 @@ pub struct EffectParameter {
     pub low: f64,
     /// Upper end of the 95 % interval.
     pub high: f64,
+    /// Both ends of it if the parameter that keeps its value were exact, so that the ratio to it is this sure; none where the records tell
+    /// the scale.
+    pub of_ratio: Option<[f64; 2]>,
     /// Whether the records reach it, if it is a threshold; otherwise they tell no value, and this one is the farthest that is tried.
     pub reached: bool,
 }
@@ -164,6 +167,8 @@ pub struct NominalParameter {
     pub low: f64,
     /// Upper end of the 95 % interval.
     pub high: f64,
+    /// Both ends of it if the parameter that keeps its value were exact; none where the records tell the scale.
+    pub of_ratio: Option<[f64; 2]>,
     /// Whether the difference is both significant and large enough to matter.
     pub mismatch: bool,
     /// Whether most of the interval is the tolerance of the parameter set: the data tell it only together with others.

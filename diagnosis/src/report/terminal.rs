@@ -5,7 +5,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::words::{
     LIMIT_DIGITS, UNREACHED, badge, capitalised, chance, count, digits, effect_name, effect_rank, headline,
-    interval, limit, located, number, percent, quantity, unit,
+    interval, limit, located, number, of_ratio, percent, quantity, unit,
 };
 use crate::report::findings::{AccountItem, Effect, Findings, RecordRead, SignalAccount};
 use crate::report::words;
@@ -126,7 +126,8 @@ impl Lines {
                 }
                 None => {
                     let text = format!("{} = {value} {unit}", parameter.name);
-                    format!("{} (95 %: {low} … {high})", text.trim_end())
+                    let ratio = of_ratio(findings, parameter).map(|it| format!("; {it}"));
+                    format!("{} (95 %: {low} … {high}{})", text.trim_end(), ratio.unwrap_or_default())
                 }
             };
             self.wrapped("  ", text.trim_end());

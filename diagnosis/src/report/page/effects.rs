@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use crate::report::evidence::{gates, sentences};
 use crate::report::findings::{Effect, Evidence, Findings};
 use crate::report::words::{
-    LIMIT_DIGITS, UNREACHED, capitalised, digits, effect_name, interval, limit, located, unit,
+    LIMIT_DIGITS, UNREACHED, capitalised, digits, effect_name, interval, limit, located, of_ratio, unit,
 };
 
 /// All identified effects.
@@ -108,7 +108,10 @@ fn added(findings: &Findings, effect: &Effect) -> Markup {
                                     } @else if parameter.reached {
                                         @let [value, low, high] = interval(parameter.value, parameter.low, parameter.high);
                                         td.number { strong { (value) } }
-                                        td.number { (low) " … " (high) }
+                                        td.number {
+                                            (low) " … " (high)
+                                            @if let Some(it) = of_ratio(findings, parameter) { br; (it) }
+                                        }
                                         td.unit { (unit(&parameter.unit)) }
                                     } @else {
                                         td colspan="3" { (UNREACHED) }

@@ -1,6 +1,6 @@
 //! Effects and the places where they act.
 
-use super::value;
+use super::{interval, value};
 use crate::catalogue::Element;
 use crate::report::findings::{AccountItem, Candidate, Effect, EffectParameter, Findings};
 
@@ -76,6 +76,14 @@ pub fn sized(effect: &Effect) -> String {
         Some(it) => format!("{named} ({} = {})", it.name, value(it.value, &it.unit)),
         None => named,
     }
+}
+
+/// How sure an effect's parameter is beside the one that keeps its value: `39.8 … 40.2 if sprung_mass is 90.00 kg`.
+pub fn of_ratio(findings: &Findings, parameter: &EffectParameter) -> Option<String> {
+    let [low, high] = parameter.of_ratio?;
+    let held = findings.nominal_parameters.iter().find(|it| it.is_yardstick)?;
+    let [_, low, high] = interval(parameter.value, low, high);
+    Some(format!("{low} … {high} if {} is {}", held.name, value(held.after, &held.unit)))
 }
 
 /// Digits of a limit.
@@ -163,7 +171,15 @@ mod tests {
     fn what_is_at_its_bound_has_a_limit_and_no_value() {
         let of = |[value, low, high]: [f64; 3]| {
             let name = "strut.coulomb.velocity".into();
-            limit(&EffectParameter { name, value, unit: "m/s".into(), low, high, reached: true })
+            limit(&EffectParameter {
+                name,
+                value,
+                unit: "m/s".into(),
+                low,
+                high,
+                of_ratio: None,
+                reached: true,
+            })
         };
         assert_eq!(of([2e-4, 2e-4, 3.5e-4]), Some(("≤", 3.5e-4)));
         assert_eq!(of([4.0, 2.5, 4.0]), Some(("≥", 2.5)));

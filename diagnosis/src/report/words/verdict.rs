@@ -183,6 +183,7 @@ mod tests {
             after: 24.0,
             low: 23.0,
             high: 25.0,
+            of_ratio: None,
             mismatch: true,
             from_parameter_set: false,
             is_yardstick: false,
