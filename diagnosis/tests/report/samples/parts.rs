@@ -70,6 +70,7 @@ pub fn base(name: &str, unit: &str, before: f64, after: f64, half: f64, mismatch
         after,
         low,
         high,
+        of_ratio: None,
         mismatch,
         from_parameter_set: false,
         is_yardstick: false,
