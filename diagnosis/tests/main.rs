@@ -17,5 +17,6 @@ mod presliding;
 mod program;
 mod report;
 mod search;
+mod sharper;
 #[path = "common/drive.rs"]
 mod simulated;
