@@ -32,10 +32,10 @@ pub const LIFT_OFF: &str = "tire.lift_off";
 /// Delays and time constants of signals in seconds from which they are looked for: a signal with edges shows a late one only nearby.
 pub const TIMES: &[f64] = &[1e-3, 2.5e-3, 6e-3, 15e-3];
 
-/// Bounds of the velocity at which friction is regularised, in an element's usual velocities: below, a rig that really sticks
-/// is met no better, and equations become too stiff. Above, it would not have its full force at the usual velocities, as friction
-/// has: that is what a damper's valves do.
-const FRICTION_VELOCITY: (f64, f64) = (5e-3, 1.0 / 3.0);
+/// Bounds of the velocity at which friction is regularised, over the element's typical velocity. Below, a rig that really sticks is
+/// met no better, and equations become too stiff. Above, friction has less than its full force at typical velocities: that is
+/// digressive damping.
+const FRICTION_VELOCITY: (f64, f64) = (5e-3, 0.3);
 
 /// An effect with a name that acts through a plant's parameters.
 #[derive(Clone, Copy, Debug)]
@@ -154,8 +154,9 @@ pub struct Part {
     pub addend: bool,
     /// What the element does where this threshold is passed.
     pub beyond: Option<Beyond>,
-    /// Whether the law is another one from the largest value on: friction that turns over beyond all velocities is damping.
-    pub bends: bool,
+    /// Whether the law is another one at the least and at the largest value: friction that turns over beyond all velocities is
+    /// damping.
+    pub another_at: [bool; 2],
 }
 
 /// How a threshold is passed, and what that is called.
@@ -252,7 +253,16 @@ pub const TURNED: f64 = 10.0;
 
 /// A parameter of an effect.
 const fn part(parameter: &'static str, scale: Scale, bounds: (f64, f64), probes: &'static [f64]) -> Part {
-    Part { parameter, scale, bounds, probes, within: None, addend: false, beyond: None, bends: false }
+    Part {
+        parameter,
+        scale,
+        bounds,
+        probes,
+        within: None,
+        addend: false,
+        beyond: None,
+        another_at: [false; 2],
+    }
 }
 
 /// A parameter that adds something of its own to what the first one does.
@@ -267,7 +277,12 @@ const fn within(part: Part, scale: Scale, most: f64) -> Part {
 
 /// A parameter within whose largest value the law has to bend, since it is another one from there on.
 const fn bends(part: Part) -> Part {
-    Part { bends: true, ..part }
+    Part { another_at: [false, true], ..part }
+}
+
+/// The same within both ends.
+const fn bends_between(part: Part) -> Part {
+    Part { another_at: [true; 2], ..part }
 }
 
 /// A parameter that is a threshold.

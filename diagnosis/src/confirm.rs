@@ -96,7 +96,7 @@ impl Baseline<'_> {
     fn weighed(&self, base: &Fitted, null: &Fitted, term: Term, fitted: Result<Fitted, String>) -> Tried {
         let fitted = fitted.and_then(|it| match self.driven_off(null, &it).filter(|_| !has_no_name(term)) {
             Some(parameter) => Err(format!("drives {parameter} to its bound")),
-            None if self.is_straight(term, &it) => Err("ends where its law is another one".into()),
+            None if self.is_another_law(term, &it) => Err("ends where its law is another one".into()),
             None if self.is_in_time(term, &it) => Err("no later than the timing of any measurement".into()),
             None => Ok(it),
         });
@@ -212,8 +212,8 @@ impl Baseline<'_> {
             let Some(chosen) = self.chosen(base, &passing).cloned() else { return Ok(None) };
             let Ok(fitted) = &chosen.fitted else { return Ok(None) };
             let close = self.fitted(&fitted.terms, std::slice::from_ref(&fitted.point), Stop::NOISY)?;
-            // Only a close fit may come to where its law is another one.
-            if sure && self.is_straight(chosen.term, &close) {
+            // The close fit may move to a bound that the rough one did not reach.
+            if sure && self.is_another_law(chosen.term, &close) {
                 passing.retain(|it| it.term != chosen.term);
                 continue;
             }

@@ -83,6 +83,7 @@ pub fn diagnose<'a>(
     };
     // Rivals are compared with the weights of the search, which all fits have.
     baseline.tell_apart(&mut found);
+    // The report compares on the records of the search, which all stages have.
     let baseline = Baseline { train: &records.train, test: &records.test, ..weighed };
     found.settle_on(extended);
     Ok(Diagnosis { baseline, measured: &records.measured, before, found, intervals, reversed })

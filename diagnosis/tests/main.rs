@@ -7,6 +7,7 @@ mod common;
 mod data_files;
 mod drive;
 mod experiment;
+mod finer_motion;
 mod foreign;
 mod invariance;
 mod nist;
@@ -17,6 +18,5 @@ mod presliding;
 mod program;
 mod report;
 mod search;
-mod sharper;
 #[path = "common/drive.rs"]
 mod simulated;

@@ -61,6 +61,9 @@ fn walk(
             path.push(name);
             walk(&inner, path, contents)?;
             path.pop();
+        } else if !name.starts_with('#') {
+            let all: Vec<String> = path.iter().cloned().chain([name]).collect();
+            contents.leave_out(&all, "a group in too many others");
         }
     }
     Ok(())
@@ -95,13 +98,16 @@ enum Numbers {
 fn numbers(dataset: &Dataset) -> Result<Numbers, hdf5_reader::error::Error> {
     let shape = dataset.shape();
     let other = |why: &str| Ok(Numbers::Other(why.to_owned()));
+    if dataset.attribute("MATLAB_empty").is_ok() {
+        return Ok(Numbers::Single);
+    }
     match text(dataset, "MATLAB_class") {
         Some(class) if class == "char" => return other("text"),
         Some(class) if class == "cell" => return other("a cell array: save its vectors by themselves"),
         Some(class) if !NUMERIC.contains(&&*class) => return other(vectors::OBJECT),
         _ => (),
     }
-    if dataset.attribute("MATLAB_empty").is_ok() || shape.iter().product::<u64>() <= 1 {
+    if shape.iter().product::<u64>() <= 1 {
         return Ok(Numbers::Single);
     }
     let why = match *shape {

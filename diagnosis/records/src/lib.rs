@@ -48,7 +48,7 @@ pub struct Record {
     pub time: Vec<f64>,
     /// The channels, in the file's order.
     pub channels: Vec<Channel>,
-    /// Columns of the file that hold no numbers.
+    /// What of the file is not used, and why.
     pub unread: Vec<Unread>,
     /// What else there is to say about how the file was read.
     pub notes: Vec<String>,
@@ -56,7 +56,7 @@ pub struct Record {
     pub seconds_assumed: bool,
 }
 
-/// A column that could not be read.
+/// Something in a file that is not used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unread {
     /// Its name.
@@ -67,11 +67,20 @@ pub struct Unread {
     pub why: String,
 }
 
+/// Entries that a message lists before it counts the rest.
+const LISTED: usize = 12;
+
 impl Unread {
-    /// What a message says where nothing else is left; nothing without any.
+    /// The first of them for an error message; empty without any.
     pub(crate) fn list(all: &[Self]) -> String {
-        let list: Vec<String> = all.iter().map(|it| format!("{}: {}", it.name, it.why)).collect();
-        if list.is_empty() { String::new() } else { format!(" (left out: {})", list.join("; ")) }
+        let list = |it: &[Self]| {
+            it.iter().map(|it| format!("{}: {}", it.name, it.why)).collect::<Vec<_>>().join("; ")
+        };
+        match all.len() {
+            0 => String::new(),
+            1..=LISTED => format!(" (left out: {})", list(all)),
+            more => format!(" (left out: {}; and {} more)", list(&all[..LISTED]), more - LISTED),
+        }
     }
 
     /// Whether somebody means it by a name, as [`Channel::is_called`].

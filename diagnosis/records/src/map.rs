@@ -265,13 +265,16 @@ impl Map {
         for (name, sign) in wanted.names() {
             let Some(source) = self.signals.get(name) else { continue };
             let unit = source.unit.as_deref();
-            if let Some(unread) = record.unread.iter().find(|it| it.is_called(&source.column)) {
-                let text = format!("the map takes `{name}` from it, but {}", unread.why);
-                return Err(DataError::signal(&record.name, &unread.name, text));
-            }
+            let unread = || record.unread.iter().find(|it| it.is_called(&source.column));
             let found = match only(record, wanted, unit, |column| column.is_called(&source.column))? {
                 Some(index) => Found::Column(index),
-                None => Found::Formula(computed::read(record, name, &source.column)?),
+                None => match unread() {
+                    Some(unread) => {
+                        let text = format!("the map takes `{name}` from it, but {}", unread.why);
+                        return Err(DataError::signal(&record.name, &unread.name, text));
+                    }
+                    None => Found::Formula(computed::read(record, name, &source.column)?),
+                },
             };
             return Ok(Some((found, source.signed(sign))));
         }
@@ -280,16 +283,16 @@ impl Map {
                 let without_unit = units::split_suffix(column, &wanted.unit).map(|(name, _)| plain(name));
                 plain(column) == plain(name) || without_unit.is_some_and(|it| it == plain(name))
             };
+            if let Some(index) = only(record, wanted, None, |column| called(&column.name))? {
+                let source = Source::of(record.channels[index].name.clone());
+                return Ok(Some((Found::Column(index), source.signed(sign))));
+            }
             if let Some(unread) = record.unread.iter().find(|it| called(&it.name)) {
                 let text = match unread.name == wanted.name {
                     true => unread.why.clone(),
                     false => format!("this is `{}`, but {}", wanted.name, unread.why),
                 };
                 return Err(DataError::signal(&record.name, &unread.name, text));
-            }
-            if let Some(index) = only(record, wanted, None, |column| called(&column.name))? {
-                let source = Source::of(record.channels[index].name.clone());
-                return Ok(Some((Found::Column(index), source.signed(sign))));
             }
         }
         Ok(None)

@@ -1,7 +1,7 @@
 //! The columns of a file before it is known which of them is the time.
 
 use super::reading::Reading;
-use super::{Channel, DataError, Record, Unread, timestamp, units};
+use super::{Channel, DataError, LISTED, Record, Unread, timestamp, units};
 
 /// Names that a column of time goes by, in lower case.
 const TIME_NAMES: [&str; 11] = [
@@ -33,7 +33,7 @@ pub(crate) struct Table {
     pub columns: Vec<Channel>,
     /// The column that the format itself declares as time.
     pub master: Option<usize>,
-    /// Columns that hold no numbers.
+    /// What of the file is not used, and why.
     pub unread: Vec<Unread>,
     /// What else there is to say about how the file was read.
     pub notes: Vec<String>,
@@ -96,16 +96,17 @@ impl Table {
 
     fn time_index(&self, wanted: Option<&str>) -> Result<usize, DataError> {
         if let Some(wanted) = wanted {
+            if let Some(index) = self.columns.iter().position(|column| column.is_called(wanted)) {
+                return Ok(index);
+            }
             if let Some(unread) = self.unread.iter().find(|it| it.is_called(wanted)) {
                 return Err(self.no_time(unread));
             }
-            return self.columns.iter().position(|column| column.is_called(wanted)).ok_or_else(|| {
-                let text = format!(
-                    "the map takes the time from it, but there is no such column{}",
-                    did_you_mean(wanted, self.columns.iter().map(|column| column.name.as_str()))
-                );
-                DataError::signal(&self.name, wanted, text)
-            });
+            let text = format!(
+                "the map takes the time from it, but there is no such column{}",
+                did_you_mean(wanted, self.columns.iter().map(|column| column.name.as_str()))
+            );
+            return Err(DataError::signal(&self.name, wanted, text));
         }
         let named = |column: &Channel| is_time(&column.name);
         // A first column without a known name is believed if its unit is one of time.
@@ -134,9 +135,6 @@ impl Table {
         DataError::signal(&self.name, &unread.name, text)
     }
 }
-
-/// Names that a message lists before it counts the rest.
-const LISTED: usize = 12;
 
 /// `: did you mean x?` if one of the names is near, and otherwise the names.
 pub fn did_you_mean<'a>(wrong: &str, names: impl Iterator<Item = &'a str> + Clone) -> String {

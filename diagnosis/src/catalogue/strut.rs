@@ -2,7 +2,7 @@
 
 use super::{
     Beyond, Effect, Element, FRICTION_VELOCITY, Onset, PLAIN, Part, Prevalence, Replaced, Scale, addend,
-    bends, beyond, part,
+    bends, bends_between, beyond, part,
 };
 use crate::signal::distortion::Fault;
 
@@ -116,7 +116,12 @@ pub(super) const EFFECTS: &[Effect] = &[
         parts: &[
             part("strut.yield.force", Scale::FORCE, (0.0, 10.0), &[0.3]),
             // What has its full force at lower velocities is friction.
-            bends(part("strut.yield.velocity", Scale::VELOCITY, (FRICTION_VELOCITY.1, 3.0), &[0.5, 1.0])),
+            bends_between(part(
+                "strut.yield.velocity",
+                Scale::VELOCITY,
+                (FRICTION_VELOCITY.1, 3.0),
+                &[0.5, 1.0],
+            )),
         ],
         literature: &["Dixon2007", "Heissing2011"],
         experiment: "sweep the velocity",

@@ -89,11 +89,10 @@ impl Baseline<'_> {
             if other.term == chosen.term || has_no_name(other.term) || more || fewer {
                 return false;
             }
-            let is_rival = |closer: Fitted| {
-                let as_good = self.as_good(base, best, fitted) || self.as_good(base, close, &closer);
-                as_good && !self.is_straight(other.term, &closer)
-            };
-            self.closely(base, Ok(fitted.clone()), best).is_ok_and(is_rival)
+            let closer = self.closely(base, Ok(fitted.clone()), best);
+            let closer_is = || closer.as_ref().is_ok_and(|it| self.as_good(base, close, it));
+            let as_good = self.as_good(base, best, fitted) || closer_is();
+            as_good && !self.is_another_law(other.term, closer.as_ref().unwrap_or(fitted))
         };
         passing.par_iter().filter(rival).map(|it| it.term).collect()
     }

@@ -30,9 +30,10 @@ impl Baseline<'_> {
 
     /// Noise of a measured output on the validation records: of its sensor, and of the measured inputs.
     pub(crate) fn noise(&self, row: usize) -> f64 {
-        // Without any, nothing would be compared to nothing.
-        let least = LEAST_NOISE * self.signal(row).sqrt();
-        noise_floor(self.test, row).max(least).hypot(self.transmitted[row])
+        // A record without noise still has rounding.
+        let least = (LEAST_NOISE * self.signal(row).sqrt()).max(f64::MIN_POSITIVE);
+        // No error is believed to be smaller than the floor of the fits.
+        noise_floor(self.test, row).max(self.floor[row]).max(least).hypot(self.transmitted[row])
     }
 
     /// Student's t of the gain over blocks, in units of what the better fit leaves. Of what acts beyond a threshold only, or where
@@ -100,13 +101,15 @@ impl Baseline<'_> {
     }
 
     /// Whether a fit has driven an effect to where its law is another one, which has a name of its own.
-    pub(super) fn is_straight(&self, term: Term, fitted: &Fitted) -> bool {
+    pub(super) fn is_another_law(&self, term: Term, fitted: &Fitted) -> bool {
         let Term::Effect(effect) = term else { return false };
-        let bent = effect.parts.iter().filter(|part| part.bends);
-        let own = bent.filter_map(|part| self.rig.plant.parameter(part.parameter)).map(Unknown::Parameter);
-        own.into_iter().any(|handle| {
-            let coordinate = fitted.coordinates.iter().find(|it| it.handle == handle);
-            coordinate.is_some_and(|it| fitted.point.get(handle) >= it.bounds.1)
+        effect.parts.iter().any(|part| {
+            let handle = self.rig.plant.parameter(part.parameter).map(Unknown::Parameter);
+            let coordinate = fitted.coordinates.iter().find(|it| Some(it.handle) == handle);
+            coordinate.is_some_and(|it| {
+                let (value, [least, largest]) = (fitted.point.get(it.handle), part.another_at);
+                least && value <= it.bounds.0 || largest && value >= it.bounds.1
+            })
         })
     }
 

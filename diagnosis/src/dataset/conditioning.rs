@@ -3,7 +3,7 @@
 //! A road that is measured with noise would shake the simulated tyre with it: noise of 50 µm is 8 N at 150 N/mm. Each
 //! measured input is therefore passed through Wiener's filter without phase, made from the signal's own spectrum and
 //! the level of its noise. Above some 400 samples a second the records of suspensions hold noise only; they are thinned
-//! to that, behind a filter without phase, the same for every signal. The inputs then have nothing above four fifths of half
+//! to 400 to 800, behind a filter without phase, the same for every signal. The inputs then have nothing above four fifths of half
 //! the sampling rate, and what they were between the samples follows from these.
 
 use std::ops::Range;
@@ -20,9 +20,9 @@ use crate::signal::spectral::{
 
 /// Samples a second that are enough.
 const ENOUGH: f64 = 400.0;
-/// How many times as many the extended model is fitted to at last, if there are: in a damper, backlash ends within a thousandth of a
-/// second, and a law that sees less than that of its motion comes out a tenth too small.
-const SHARPER: usize = 2;
+/// Values of the motion in a sample of the record when the reported model is fitted, if there are as many: backlash in a damper closes
+/// within a millisecond.
+const FINER_MOTION: usize = 2;
 /// Samples of a signal whose spectrum tells noise from it, at least.
 const SHORTEST: usize = 16;
 /// New periods over which the filter spreads a sample.
@@ -45,19 +45,21 @@ impl Dataset {
         }
     }
 
-    /// The same with motion that is computed with more samples before it passes the filter; none where there are no more, or all of
-    /// them are seen already.
-    pub fn sharper(&self) -> Option<Self> {
-        let thinned = self.conditioned();
-        let factor = (thinned.step / self.step).round() as usize;
-        let is_sharper = factor >= SHARPER && thinned.wide.is_none();
-        is_sharper.then(|| self.thinned(factor / SHARPER, 0.0).behind(thinned, 1).with_rates())
+    /// The conditioned record with motion that is computed at twice its rate, the outputs behind the filter of the measured ones; as it
+    /// is where there are no more samples, or all of them are seen already.
+    #[must_use]
+    pub fn with_finer_motion(&self, conditioned: &Self) -> Self {
+        let factor = (conditioned.step / self.step).round() as usize;
+        if factor < FINER_MOTION || conditioned.wide.is_some() {
+            return conditioned.clone();
+        }
+        self.thinned(factor / FINER_MOTION, 0.0).behind(conditioned.clone(), 1).with_rates()
     }
 
     /// The record below a frequency in Hz, thinned. All signals pass the same filter: whatever it takes away of a motion, it
     /// takes away of the force that made it.
     pub fn below(&self, top: f64) -> Self {
-        self.thinned(self.spared(2.0 * top / KEPT), f64::INFINITY)
+        self.thinned(self.decimation(2.0 * top / KEPT), f64::INFINITY)
     }
 
     /// The record below a frequency in Hz, driven by its inputs as far as they are known above it, too.
@@ -94,12 +96,14 @@ impl Dataset {
         if self.between == Between::Curves {
             return self.clone();
         }
-        let factor = self.spared(ENOUGH);
-        self.thinned(if factor < SHARPER { factor } else { factor - factor % SHARPER }, frequency)
+        let factor = self.decimation(ENOUGH);
+        // A whole number of the finer samples makes one.
+        let factor = if factor < FINER_MOTION { factor } else { factor - factor % FINER_MOTION };
+        self.thinned(factor, frequency)
     }
 
-    /// Of how many samples one is enough where `rate` a second are.
-    fn spared(&self, rate: f64) -> usize {
+    /// Number of samples of which one is enough at `rate` samples a second.
+    fn decimation(&self, rate: f64) -> usize {
         ((1.0 / (self.step * rate)).floor() as usize).max(1)
     }
 

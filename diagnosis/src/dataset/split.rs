@@ -21,8 +21,8 @@ pub struct Split {
     pub train: Vec<Dataset>,
     /// Validation records, ready for the search.
     pub test: Vec<Dataset>,
-    /// Both as the extended model is fitted to them at last, if that is another way: with motion of more samples.
-    pub sharper: Option<[Vec<Dataset>; 2]>,
+    /// Both as the reported model is fitted to them: with motion at twice their rate, where they were measured that finely.
+    pub finer: [Vec<Dataset>; 2],
     /// Validation records as they were measured.
     pub measured: Vec<Dataset>,
     /// Both, estimation records first, without divisions.
@@ -33,7 +33,13 @@ impl Split {
     /// Without a record, for what needs none.
     #[cfg(test)]
     pub fn of_nothing() -> Self {
-        Self { train: Vec::new(), test: Vec::new(), sharper: None, measured: Vec::new(), whole: Vec::new() }
+        Self {
+            train: Vec::new(),
+            test: Vec::new(),
+            finer: [Vec::new(), Vec::new()],
+            measured: Vec::new(),
+            whole: Vec::new(),
+        }
     }
 
     /// Records as they were measured.
@@ -47,10 +53,11 @@ impl Split {
         let all = train.par_iter().chain(&measured).map(both);
         let (mut own, whole): (Vec<Dataset>, Vec<Dataset>) = all.unzip();
         let test = own.split_off(train.len());
-        let sharper =
-            |records: &[Dataset]| records.par_iter().map(Dataset::sharper).collect::<Option<Vec<_>>>();
-        let sharper = sharper(train).zip(sharper(&measured)).map(<[Vec<Dataset>; 2]>::from);
-        Self { train: own, test, sharper, measured, whole }
+        let finer = |records: &[Dataset], conditioned: &[Dataset]| -> Vec<Dataset> {
+            records.par_iter().zip(conditioned).map(|(record, own)| record.with_finer_motion(own)).collect()
+        };
+        let finer = [finer(train, &own), finer(&measured, &test)];
+        Self { train: own, test, finer, measured, whole }
     }
 
     /// The same in shorter stretches, each with states of its own at the start; none if the rig's models keep to long ones.
@@ -60,7 +67,7 @@ impl Split {
         drifts.then(|| Self {
             train: cut(&self.train),
             test: cut(&self.test),
-            sharper: self.sharper.as_ref().map(|both| both.each_ref().map(|it| cut(it))),
+            finer: self.finer.each_ref().map(|it| cut(it)),
             measured: cut(&self.measured),
             whole: self.whole.clone(),
         })

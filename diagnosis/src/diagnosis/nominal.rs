@@ -104,29 +104,26 @@ pub(super) fn weighted(baseline: &mut Baseline<'_>, mut base: Fitted) -> Result<
 }
 
 impl<'a> Baseline<'a> {
-    /// The extended model as it is told, and what knows the weights and the records that it was fitted with. In a search, all fits have
+    /// The extended model that is reported, and what knows the weights and the records that it was fitted with. In a search, all fits have
     /// the weights of the nominal fit, by which the effects, once found, would count for little beside what was known of parameters
-    /// before, and records with as few samples as tell effects from each other. A curve without a name is no law: what it leaves is
+    /// before, and motion with as few samples as tell effects from each other. A curve without a name is no law: what it leaves is
     /// not noise, and weighs as before.
     pub(super) fn weighed_by_what_is_left(
         &self,
         found: &Found,
         records: &'a Split,
     ) -> Result<(Baseline<'a>, Fitted), String> {
-        let mut weighed = self.clone();
         let terms = &found.extended.terms;
-        let are_laws = !terms.is_empty() && !terms.iter().any(|it| has_no_name(*it));
-        if !are_laws {
-            return Ok((weighed, found.extended.clone()));
+        if terms.is_empty() || terms.iter().any(|it| has_no_name(*it)) {
+            return Ok((self.clone(), found.extended.clone()));
         }
-        if let Some([train, test]) = &records.sharper {
-            let mut sharper = Baseline { train, test, ..self.clone() };
-            if let Ok(extended) = weighted(&mut sharper, found.extended.clone()) {
-                return Ok((sharper, extended));
-            }
-        }
-        let extended = weighted(&mut weighed, found.extended.clone())?;
-        Ok((weighed, extended))
+        let on = |mut baseline: Baseline<'a>| {
+            let extended = weighted(&mut baseline, found.extended.clone())?;
+            Ok((baseline, extended))
+        };
+        let [train, test] = &records.finer;
+        // What diverges in finer motion need not in the search's.
+        on(Baseline { train, test, ..self.clone() }).or_else(|_: String| on(self.clone()))
     }
 }
 

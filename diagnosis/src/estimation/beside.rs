@@ -60,12 +60,12 @@ impl Baseline<'_> {
             }
             let term = terms[probe.term];
             let is_single = range.len() == 1;
-            let does_all = is_single && beside.does_all_of(range.start, &known);
+            let done = if is_single { beside.done_by(range.start, &known) } else { Vec::new() };
             for (coordinate, twins) in twins.iter_mut().enumerate() {
-                // A gain scales all of a drive's parameters alike, which says nothing of any of them.
                 let is_twin = match absent[coordinate] {
+                    // A gain scales all of a drive's parameters alike, which says nothing of one that is not there.
                     true => is_single && !is_gain(term) && beside.is_twin(range.start, coordinate),
-                    false => does_all && known[coordinate].is_some(),
+                    false => done.contains(&coordinate),
                 };
                 if is_twin && !twins.contains(&term) {
                     twins.push(term);
@@ -178,10 +178,10 @@ impl Beside<'_> {
         together + alone > POINTS_OWN && together > CRITERIA.decides * (together + alone)
     }
 
-    /// Whether a further column does what the coordinates do together, by as much as they differ from what was known before: with an
-    /// amount of it in their place, most of these differences are gone. `known` has the distance of each coordinate from what was known
-    /// in standard deviations, and its derivative.
-    fn does_all_of(&self, column: usize, known: &[Option<(f64, f64)>]) -> bool {
+    /// The coordinates whose difference from what was known before a further column may make instead: it does what coordinates do
+    /// together, and with an amount of it in their place, most of all differences is gone, and most of each of these. `known` has the
+    /// distance of each coordinate from what was known in standard deviations, and its derivative.
+    fn done_by(&self, column: usize, known: &[Option<(f64, f64)>]) -> Vec<usize> {
         let own = known.len();
         let order: Vec<usize> = (0..own).chain([own + column]).collect();
         // What was known before tells the coordinates apart, but is nothing that records say.
@@ -194,23 +194,28 @@ impl Beside<'_> {
             true => 1.0 + 1e-9,
             false => self.h[(order[i], order[j])] / norm[i] / norm[j],
         });
-        let Some(factor) = all.view((0, 0), (own, own)).into_owned().cholesky() else { return false };
+        let Some(factor) = all.view((0, 0), (own, own)).into_owned().cholesky() else {
+            return Vec::new();
+        };
         let cross = all.view((0, own), (own, 1)).into_owned();
         let together = factor.solve(&cross);
         if 1.0 - together.dot(&cross) > ITS_OWN {
-            return false;
+            return Vec::new();
         }
         let moved = (0..own).filter_map(|it| {
             let (distance, slope) = known[it]?;
-            Some((distance, slope * together[it] * norm[own] / norm[it]))
+            Some((it, distance, slope * together[it] * norm[own] / norm[it]))
         });
-        let (mut differences, mut both, mut moves) = (0.0, 0.0, 0.0);
-        for (distance, moved) in moved {
-            differences += distance * distance;
-            both += distance * moved;
-            moves += moved * moved;
+        let moved: Vec<(usize, f64, f64)> = moved.collect();
+        let sum = |of: &dyn Fn(f64, f64) -> f64| moved.iter().map(|it| of(it.1, it.2)).sum::<f64>();
+        let moves = sum(&|_, moved| moved * moved);
+        let amount = if moves > 0.0 { sum(&|distance, moved| distance * moved) / moves } else { 0.0 };
+        let left = |distance: f64, moved: f64| (distance - amount * moved).powi(2);
+        let is_done = |left: f64, whole: f64| left < (1.0 - CRITERIA.majority) * whole;
+        if !is_done(sum(&left), sum(&|distance, _| distance * distance)) {
+            return Vec::new();
         }
-        moves > 0.0 && both * both / moves > CRITERIA.majority * differences
+        moved.iter().filter(|it| is_done(left(it.1, it.2), it.1 * it.1)).map(|it| it.0).collect()
     }
 
     /// By how much the sum of squares falls with some further columns, and how far the fit's coordinates move with them.
@@ -308,19 +313,21 @@ mod tests {
             }
         });
         let known = |off: [f64; 2]| off.map(|it| Some((it / 0.3, 1.0 / 0.3)));
-        let does_all = |all: &DMatrix<f64>, off: [f64; 2]| {
+        let done = |all: &DMatrix<f64>, off: [f64; 2]| {
             let mut h = all.tr_mul(all);
             // What was known before.
             (0..2).for_each(|it| h[(it, it)] += 1.0 / 0.09);
             let g = DVector::zeros(3);
-            Beside { h: &h, g: &g, effects: &[false; 2], left: 1.0 }.does_all_of(0, &known(off))
+            Beside { h: &h, g: &g, effects: &[false; 2], left: 1.0 }.done_by(0, &known(off))
         };
-        assert!(does_all(&all, [0.25, 0.1]) && does_all(&all, [-0.25, -0.1]));
-        assert!(!does_all(&all, [0.05, -0.3]));
+        assert_eq!([done(&all, [0.25, 0.1]), done(&all, [-0.25, -0.1])], [[0, 1], [0, 1]]);
+        assert!(done(&all, [0.05, -0.3]).is_empty());
+        // The second one is off the other way.
+        assert_eq!(done(&all, [0.25, -0.05]), [0]);
         // Something that the coordinates cannot do.
         let mut other = all;
         other[(10, 2)] += 0.5;
-        assert!(!does_all(&other, [0.25, 0.1]));
+        assert!(done(&other, [0.25, 0.1]).is_empty());
     }
 
     /// An offset and a friction are one for a body that never turns back, and two for one that does.

@@ -101,18 +101,20 @@ impl Baseline<'_> {
     }
 
     /// The bounds of a velocity that nobody states and that is part of an effect's law: where it would be looked for if the rig did
-    /// not have the effect already. Of friction that turns over in no time at all, no derivative tells anything.
+    /// not have the effect already, the widest of all effects that it is part of. Of friction that turns over in no time at all, no derivative tells anything.
     pub(crate) fn sought(&self, index: usize) -> Option<(f64, f64)> {
         if self.rig.stated[index] {
             return None;
         }
         let plant = &self.rig.plant;
-        let mut parts = catalogue::effects(plant).flat_map(|it| it.parts.iter().map(move |part| (it, part)));
+        let parts = catalogue::effects(plant).flat_map(|it| it.parts.iter().map(move |part| (it, part)));
         let own =
             |part: &Part| part.scale == Scale::VELOCITY && plant.parameter(part.parameter) == Some(index);
-        let (effect, part) = parts.find(|(_, part)| own(part))?;
-        let unit = part.scale.of(&self.typical(effect.element));
-        Some((part.bounds.0 * unit, part.bounds.1 * unit))
+        let ranges = parts.filter(|(_, part)| own(part)).map(|(effect, part)| {
+            let unit = part.scale.of(&self.typical(effect.element));
+            (part.bounds.0 * unit, part.bounds.1 * unit)
+        });
+        ranges.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
 
     /// The coordinates that a term brings.

@@ -45,12 +45,12 @@ pub struct Interval {
     pub value: f64,
     /// Half the interval that holds the true value with 95 %; infinite if nothing is known.
     pub half: f64,
-    /// The same at the scale of the parameter that keeps its value: how sure the ratio to that is; none where the scale is known.
-    pub half_of_ratio: Option<f64>,
     /// The same if what was known before were exact: what the data alone tell, beside the scale of the parameter set.
     pub half_of_data: f64,
     /// The same if no effect that is not in the model pulled at it, either: whether it moved at all, whatever moved it.
     pub half_of_noise: f64,
+    /// Half the interval at the scale of the parameter that keeps its value; none where the scale is known or does not matter.
+    pub half_of_ratio: Option<f64>,
     /// Whether what was known before makes most of its uncertainty: the data tell it only together with others.
     pub from_parameter_set: bool,
     /// What each record on its own would choose, estimation records first.

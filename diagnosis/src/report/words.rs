@@ -17,7 +17,7 @@ pub use places::{
     LIMIT_DIGITS, Part, effect_name, effect_rank, element, limit, located, of_ratio, part, place, sized,
 };
 pub use small::none_beyond;
-pub use verdict::{badge, headline};
+pub use verdict::{LISTED, badge, headline};
 
 /// The words for a threshold that the records do not reach.
 pub const UNREACHED: &str = "not reached in the estimation records";

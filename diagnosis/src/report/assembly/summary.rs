@@ -6,14 +6,12 @@ mod tests;
 use crate::decision::rules::FALL;
 use crate::report::findings::{Candidate, Effect, Findings, RecordValue, Signal, Unmodelled, Verdict};
 use crate::report::words::{
-    count, digits, effect_name, fit, interval, list, located, none_beyond, open_signals, percent,
+    LISTED, count, digits, effect_name, fit, interval, list, located, none_beyond, open_signals, percent,
     reservation, sized, small_rest, unit, value,
 };
 
 /// Fit that the noise of the inputs costs, to be worth a sentence.
 const NOISY: f64 = 0.1;
-/// Names that a sentence lists one by one.
-const LISTED: usize = 3;
 /// Improvement of the fit that is worth a sentence.
 const IMPROVED: f64 = 0.005;
 
@@ -176,7 +174,10 @@ fn contradictions(findings: &Findings) -> Option<String> {
 fn twins(findings: &Findings) -> Option<String> {
     let mut all: Vec<(&[String], Vec<String>)> = Vec::new();
     for it in findings.nominal_parameters.iter().filter(|it| !it.equivalent_effects.is_empty()) {
-        match all.iter_mut().find(|(effects, _)| *effects == it.equivalent_effects) {
+        // What is absent has an effect for itself in its place.
+        let beside =
+            all.iter_mut().find(|(effects, _)| it.before != 0.0 && *effects == it.equivalent_effects);
+        match beside {
             Some((_, names)) => names.push(it.name.clone()),
             None => all.push((&it.equivalent_effects, vec![it.name.clone()])),
         }
@@ -186,8 +187,7 @@ fn twins(findings: &Findings) -> Option<String> {
             1..=LISTED => (list(&names, "and"), if names.len() > 1 { " together" } else { "" }),
             more => (format!("these {more} parameters"), " together"),
         };
-        let remedy =
-            if names.len() > 1 { " Measure one of them otherwise and give it (--known)." } else { "" };
+        let remedy = if names.len() > 1 { " Measure one of them independently (--known)." } else { "" };
         format!("These records cannot tell {these}{together} from {}.{remedy}", list(effects, "or"))
     };
     (!all.is_empty()).then(|| all.into_iter().map(of).collect::<Vec<_>>().join(" "))
@@ -231,7 +231,13 @@ fn improvement(findings: &Findings) -> Option<String> {
             fit(*fit_before, 1)
         ),
         false => {
-            format!("The fit of {name} on the validation data rises from {} to {after}.", fit(*fit_before, 2))
+            // Nothing else than the parameters has changed.
+            let start =
+                if findings.verdict == Verdict::NoEffect { "With fitted parameters, the" } else { "The" };
+            format!(
+                "{start} fit of {name} on the validation data rises from {} to {after}.",
+                fit(*fit_before, 2)
+            )
         }
     })
 }

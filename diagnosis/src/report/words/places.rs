@@ -92,11 +92,12 @@ pub const LIMIT_DIGITS: usize = 2;
 /// Of a parameter at an end of where it is looked for there is no value, only a limit: its sign and the other end of the interval.
 pub fn limit(parameter: &EffectParameter) -> Option<(&'static str, f64)> {
     let EffectParameter { value, low, high, .. } = *parameter;
-    match (value <= low, value >= high) {
+    let limit = match (value <= low, value >= high) {
         (true, false) => Some(("≤", high)),
         (false, true) => Some(("≥", low)),
         _ => None,
-    }
+    };
+    limit.filter(|(_, end)| end.is_finite())
 }
 
 /// Number and element of an effect that is given as `01 strut`.
@@ -186,6 +187,7 @@ mod tests {
         assert_eq!(of([3e-4, 2e-4, 3.5e-4]), None);
         // Of what nothing is known, there is no limit either.
         assert_eq!(of([1.0, 1.0, 1.0]), None);
+        assert_eq!(of([1.0, 1.0, f64::INFINITY]), None);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::{effect_name, list, located, percent, small_rest};
 use crate::report::findings::{Effect, Findings, NominalParameter, Verdict};
 
 /// Names that a headline lists one by one; of more it gives the number.
-const LISTED: usize = 3;
+pub const LISTED: usize = 3;
 
 /// The verdict as one sentence.
 pub fn headline(findings: &Findings) -> String {

@@ -88,6 +88,9 @@ fn a_fit_below_zero_is_no_number_to_compare_with() {
     assert!(of(-15.9, 0.8).contains("(fit −15.9). The final model reaches a fit of 0.80"));
     assert!(of(0.3, 0.8).contains("rises from 0.30 to 0.80"));
     assert!(of(0.8, 0.8).is_empty());
+    // Where nothing is missing, it is the parameters that the fit rises with.
+    let nothing = Findings { signals: vec![signal(0.3, 0.8)], ..findings(Verdict::NoEffect) };
+    assert!(super::of(&nothing).contains("With fitted parameters, the fit of body.acceleration"));
 }
 
 #[test]
