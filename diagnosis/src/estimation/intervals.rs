@@ -75,6 +75,18 @@ impl Interval {
         Some([(self.value - half).max(self.bounds.0), (self.value + half).min(self.bounds.1)])
     }
 
+    /// The other end where the value is at one end of what is possible, if that leaves anything out.
+    pub fn limit(&self) -> Option<f64> {
+        let (least, largest) = self.bounds;
+        let (low, high) = (self.low(), self.high());
+        let limit = match (self.value <= least, self.value >= largest) {
+            (true, false) => (high < largest).then_some(high),
+            (false, true) => (low > least).then_some(low),
+            _ => None,
+        };
+        limit.filter(|it| it.is_finite())
+    }
+
     /// Its upper end, within what is possible.
     pub fn high(&self) -> f64 {
         (self.value + self.half).min(self.bounds.1)
@@ -158,4 +170,33 @@ fn is_of_parameter_set(coordinate: &FreeParameter, at: &Estimate, [before, data]
     // Of what was known before, the data have to leave some uncertainty, too.
     let is_open = coordinate.distance(at).is_none_or(|(_, slope)| before.sqrt() * slope > OPEN);
     before > FROM_SET * data && is_open
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_at_the_end_of_its_range_has_a_limit_if_the_records_tell_one() {
+        let of = |value: f64, half: f64| {
+            let it = Interval {
+                handle: Unknown::Parameter(0),
+                value,
+                half,
+                half_of_data: half,
+                half_of_noise: half,
+                half_of_ratio: None,
+                from_parameter_set: false,
+                wishes: Vec::new(),
+                yardstick: None,
+                twins: Vec::new(),
+                bounds: (0.2, 4.0),
+            };
+            it.limit()
+        };
+        assert_eq!((of(0.2, 0.1), of(4.0, 1.5)), (Some(0.2 + 0.1), Some(2.5)));
+        assert_eq!(of(1.0, 0.1), None);
+        // All of the range is no limit.
+        assert_eq!((of(0.2, f64::INFINITY), of(4.0, 5.0)), (None, None));
+    }
 }

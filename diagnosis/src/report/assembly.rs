@@ -268,16 +268,12 @@ impl Diagnosis<'_> {
                 Unknown::Input(input, fault) => point.holds(plant, input, fault),
                 _ => None,
             };
-            let (handle, ends) = match held {
-                Some(held) => {
-                    let before = point.parameters[held.parameter];
-                    (Unknown::Parameter(held.parameter), ends.map(|end| held.with(before, end)))
-                }
-                None => (it.handle, ends),
-            };
-            let ((name, unit), [value, low, high]) = (naming::handle(handle, plant), ends);
+            let shown = |end: f64| held.map_or(end, |held| held.with(point.parameters[held.parameter], end));
+            let handle = held.map_or(it.handle, |held| Unknown::Parameter(held.parameter));
+            let ((name, unit), [value, low, high]) = (naming::handle(handle, plant), ends.map(shown));
             let reached = !unreached.contains(&it.handle);
-            EffectParameter { name, value, unit, low, high, of_ratio: it.of_ratio(), reached }
+            let (of_ratio, limit) = (it.of_ratio(), it.limit().map(shown));
+            EffectParameter { name, value, unit, low, high, of_ratio, limit, reached }
         });
         let rivals: Vec<naming::Name> = accepted.rivals.iter().map(|term| name(*term, plant)).collect();
         Effect {

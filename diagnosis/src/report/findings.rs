@@ -148,6 +148,8 @@ pub struct EffectParameter {
     /// Both ends of it if the parameter that keeps its value were exact, so that the ratio to it is this sure; none where the records tell
     /// the scale.
     pub of_ratio: Option<[f64; 2]>,
+    /// What it is not beyond, where the value is at an end of its range: then the records tell no value, only this.
+    pub limit: Option<f64>,
     /// Whether the records reach it, if it is a threshold; otherwise they tell no value, and this one is the farthest that is tried.
     pub reached: bool,
 }

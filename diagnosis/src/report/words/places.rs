@@ -89,15 +89,10 @@ pub fn of_ratio(findings: &Findings, parameter: &EffectParameter) -> Option<Stri
 /// Digits of a limit.
 pub const LIMIT_DIGITS: usize = 2;
 
-/// Of a parameter at an end of where it is looked for there is no value, only a limit: its sign and the other end of the interval.
+/// The limit of a parameter with its sign, where the records tell no value.
 pub fn limit(parameter: &EffectParameter) -> Option<(&'static str, f64)> {
-    let EffectParameter { value, low, high, .. } = *parameter;
-    let limit = match (value <= low, value >= high) {
-        (true, false) => Some(("≤", high)),
-        (false, true) => Some(("≥", low)),
-        _ => None,
-    };
-    limit.filter(|(_, end)| end.is_finite())
+    let limit = parameter.limit?;
+    Some((if limit > parameter.value { "≤" } else { "≥" }, limit))
 }
 
 /// Number and element of an effect that is given as `01 strut`.
@@ -166,28 +161,6 @@ mod tests {
         let findings = Findings { candidates, ..Findings::of_bad_data("rig", vec![], vec![], vec![]) };
         assert_eq!(effect_name(&findings, "42 tau"), "lag of the sensor at tau");
         assert_eq!(effect_name(&findings, "43 tau"), "43 tau");
-    }
-
-    #[test]
-    fn what_is_at_its_bound_has_a_limit_and_no_value() {
-        let of = |[value, low, high]: [f64; 3]| {
-            let name = "strut.coulomb.velocity".into();
-            limit(&EffectParameter {
-                name,
-                value,
-                unit: "m/s".into(),
-                low,
-                high,
-                of_ratio: None,
-                reached: true,
-            })
-        };
-        assert_eq!(of([2e-4, 2e-4, 3.5e-4]), Some(("≤", 3.5e-4)));
-        assert_eq!(of([4.0, 2.5, 4.0]), Some(("≥", 2.5)));
-        assert_eq!(of([3e-4, 2e-4, 3.5e-4]), None);
-        // Of what nothing is known, there is no limit either.
-        assert_eq!(of([1.0, 1.0, 1.0]), None);
-        assert_eq!(of([1.0, 1.0, f64::INFINITY]), None);
     }
 
     #[test]

@@ -57,7 +57,16 @@ pub fn friction() -> Effect {
 }
 
 pub fn parameter(name: &str, unit: &str, value: f64, low: f64, high: f64) -> EffectParameter {
-    EffectParameter { name: name.into(), value, unit: unit.into(), low, high, of_ratio: None, reached: true }
+    EffectParameter {
+        name: name.into(),
+        value,
+        unit: unit.into(),
+        low,
+        high,
+        of_ratio: None,
+        limit: None,
+        reached: true,
+    }
 }
 
 pub fn base(name: &str, unit: &str, before: f64, after: f64, half: f64, mismatch: bool) -> NominalParameter {
