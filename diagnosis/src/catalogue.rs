@@ -32,10 +32,9 @@ pub const LIFT_OFF: &str = "tire.lift_off";
 /// Delays and time constants of signals in seconds from which they are looked for: a signal with edges shows a late one only nearby.
 pub const TIMES: &[f64] = &[1e-3, 2.5e-3, 6e-3, 15e-3];
 
-/// Bounds of the velocity at which friction is regularised, over the element's typical velocity. Below, a rig that really sticks is
-/// met no better, and equations become too stiff. Above, friction has less than its full force at typical velocities: that is
-/// digressive damping.
-const FRICTION_VELOCITY: (f64, f64) = (5e-3, 0.3);
+/// Bounds of the velocity at which friction is regularised, in an element's usual velocities: below, a rig that really sticks
+/// is met no better, and equations become too stiff.
+const FRICTION_VELOCITY: (f64, f64) = (5e-3, 1.0);
 
 /// An effect with a name that acts through a plant's parameters.
 #[derive(Clone, Copy, Debug)]

@@ -9,6 +9,9 @@ use crate::signal::distortion::Fault;
 /// Clearances of a stop: the strut reaches its ends now and then, at most.
 const CLEARANCES: &[f64] = &[1.2, 1.8, 2.4, 3.2];
 
+/// Bounds of the velocity at which friction in a strut is regularised. Above, it has less than its full force at typical velocities: that is digressive damping.
+const SLIDING_VELOCITY: (f64, f64) = (FRICTION_VELOCITY.0, 0.3);
+
 /// Yield force: how it turns over.
 pub(super) const YIELD_VELOCITY: Part =
     bends(part("strut.yield.velocity", Scale::VELOCITY, (1e-2, 3.0), &[0.1, 0.4]));
@@ -25,7 +28,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         parts: &[
             part("strut.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
             // At its upper end it is digressive damping.
-            bends(part("strut.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02, 0.2])),
+            bends(part("strut.coulomb.velocity", Scale::VELOCITY, SLIDING_VELOCITY, &[0.02, 0.2])),
         ],
         literature: &["ArmstrongHelouvry1994", "TUM"],
         experiment: "sweep the amplitude at one frequency, or drive a slow triangle",
@@ -43,7 +46,7 @@ pub(super) const EFFECTS: &[Effect] = &[
             part("strut.stribeck.force", Scale::FORCE, (0.0, 2.0), &[0.1]),
             part("strut.stribeck.velocity", Scale::VELOCITY, (2e-2, 1.0), &[0.1]),
             part("strut.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
-            part("strut.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02]),
+            part("strut.coulomb.velocity", Scale::VELOCITY, SLIDING_VELOCITY, &[0.02]),
         ],
         literature: &["ArmstrongHelouvry1994", "CanudasDeWit1995"],
         experiment: "creep through zero velocity below 5 mm/s",
@@ -119,7 +122,7 @@ pub(super) const EFFECTS: &[Effect] = &[
             bends_between(part(
                 "strut.yield.velocity",
                 Scale::VELOCITY,
-                (FRICTION_VELOCITY.1, 3.0),
+                (SLIDING_VELOCITY.1, 3.0),
                 &[0.5, 1.0],
             )),
         ],
@@ -211,7 +214,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         parts: &[
             part("strut.load_dependence.slope", Scale::PER_DEFLECTION, (-0.8, 0.8), &[0.3]),
             part("strut.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
-            part("strut.coulomb.velocity", Scale::VELOCITY, FRICTION_VELOCITY, &[0.02]),
+            part("strut.coulomb.velocity", Scale::VELOCITY, SLIDING_VELOCITY, &[0.02]),
         ],
         literature: &["ArmstrongHelouvry1994"],
         experiment: "repeat with two preloads",
