@@ -9,7 +9,8 @@ use crate::signal::distortion::Fault;
 /// Clearances of a stop: the strut reaches its ends now and then, at most.
 const CLEARANCES: &[f64] = &[1.2, 1.8, 2.4, 3.2];
 
-/// Bounds of the velocity at which friction in a strut is regularised. Above, it has less than its full force at typical velocities: that is digressive damping.
+/// Bounds of the velocity at which friction in a strut is regularised. Above, it has less than its full force at typical velocities:
+/// that is digressive damping.
 const SLIDING_VELOCITY: (f64, f64) = (FRICTION_VELOCITY.0, 0.3);
 
 /// Yield force: how it turns over.
