@@ -122,12 +122,8 @@ impl Diagnosis<'_> {
                 after: -1.0,
                 low: -1.0,
                 high: -1.0,
-                of_ratio: None,
                 mismatch: true,
-                from_parameter_set: false,
-                is_yardstick: false,
-                contradicted: false,
-                equivalent_effects: Vec::new(),
+                ..NominalParameter::default()
             })
             .collect();
         let base = rig.base();

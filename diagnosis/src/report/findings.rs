@@ -155,7 +155,7 @@ pub struct EffectParameter {
 }
 
 /// A parameter of the starting model.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct NominalParameter {
     /// As in the FMU.
     pub name: String,

@@ -4,8 +4,8 @@ use textwrap::Options;
 use unicode_width::UnicodeWidthStr;
 
 use super::words::{
-    LIMIT_DIGITS, UNREACHED, badge, capitalised, chance, count, digits, effect_name, effect_rank, headline,
-    interval, limit, located, number, of_ratio, percent, quantity, unit,
+    UNREACHED, badge, capitalised, chance, count, digits, effect_name, effect_rank, headline, interval,
+    limit, located, number, of_ratio, percent, quantity, unit,
 };
 use crate::report::findings::{AccountItem, Effect, Findings, RecordRead, SignalAccount};
 use crate::report::words;
@@ -121,9 +121,7 @@ impl Lines {
             let [value, low, high] = interval(parameter.value, parameter.low, parameter.high);
             let unit = unit(&parameter.unit);
             let text = match limit(parameter) {
-                Some((sign, end)) => {
-                    format!("{} {sign} {} {unit}", parameter.name, digits(end, LIMIT_DIGITS))
-                }
+                Some(limit) => format!("{} {limit} {unit}", parameter.name),
                 None => {
                     let text = format!("{} = {value} {unit}", parameter.name);
                     let ratio = of_ratio(findings, parameter).map(|it| format!("; {it}"));

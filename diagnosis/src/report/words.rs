@@ -13,9 +13,7 @@ use unicode_width::UnicodeWidthStr;
 pub use experiment::{chance, experiment, pair, source};
 pub use numbers::{digits, fit, interval, labelled, number, percent, quantity, trimmed, unit, value};
 pub use open::{open_signal, open_signals, reservation, small_rest};
-pub use places::{
-    LIMIT_DIGITS, Part, effect_name, effect_rank, element, limit, located, of_ratio, part, place, sized,
-};
+pub use places::{Part, effect_name, effect_rank, element, limit, located, of_ratio, part, place, sized};
 pub use small::none_beyond;
 pub use verdict::{LISTED, badge, headline};
 

@@ -174,7 +174,7 @@ fn contradictions(findings: &Findings) -> Option<String> {
 fn twins(findings: &Findings) -> Option<String> {
     let mut all: Vec<(&[String], Vec<String>)> = Vec::new();
     for it in findings.nominal_parameters.iter().filter(|it| !it.equivalent_effects.is_empty()) {
-        // What is absent has an effect for itself in its place.
+        // An absent parameter has an effect of its own in its place.
         let beside =
             all.iter_mut().find(|(effects, _)| it.before != 0.0 && *effects == it.equivalent_effects);
         match beside {

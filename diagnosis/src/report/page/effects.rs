@@ -4,9 +4,7 @@ use maud::{Markup, html};
 
 use crate::report::evidence::{gates, sentences};
 use crate::report::findings::{Effect, Evidence, Findings};
-use crate::report::words::{
-    LIMIT_DIGITS, UNREACHED, capitalised, digits, effect_name, interval, limit, located, of_ratio, unit,
-};
+use crate::report::words::{UNREACHED, capitalised, effect_name, interval, limit, located, of_ratio, unit};
 
 /// All identified effects.
 pub fn section(findings: &Findings) -> Markup {
@@ -101,8 +99,8 @@ fn added(findings: &Findings, effect: &Effect) -> Markup {
                             @for parameter in &effect.parameters {
                                 tr {
                                     td { code { (parameter.name) } }
-                                    @if let Some((sign, end)) = limit(parameter).filter(|_| parameter.reached) {
-                                        td.number { strong { (sign) " " (digits(end, LIMIT_DIGITS)) } }
+                                    @if let Some(limit) = limit(parameter).filter(|_| parameter.reached) {
+                                        td.number { strong { (limit) } }
                                         td.number { "–" }
                                         td.unit { (unit(&parameter.unit)) }
                                     } @else if parameter.reached {

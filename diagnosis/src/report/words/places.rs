@@ -1,6 +1,6 @@
 //! Effects and the places where they act.
 
-use super::{interval, value};
+use super::{digits, interval, value};
 use crate::catalogue::Element;
 use crate::report::findings::{AccountItem, Candidate, Effect, EffectParameter, Findings};
 
@@ -87,12 +87,13 @@ pub fn of_ratio(findings: &Findings, parameter: &EffectParameter) -> Option<Stri
 }
 
 /// Digits of a limit.
-pub const LIMIT_DIGITS: usize = 2;
+const LIMIT_DIGITS: usize = 2;
 
-/// The limit of a parameter with its sign, where the records tell no value.
-pub fn limit(parameter: &EffectParameter) -> Option<(&'static str, f64)> {
+/// The limit of a parameter where the records tell no value: `≤ 0.00087`.
+pub fn limit(parameter: &EffectParameter) -> Option<String> {
     let limit = parameter.limit?;
-    Some((if limit > parameter.value { "≤" } else { "≥" }, limit))
+    let sign = if limit > parameter.value { "≤" } else { "≥" };
+    Some(format!("{sign} {}", digits(limit, LIMIT_DIGITS)))
 }
 
 /// Number and element of an effect that is given as `01 strut`.

@@ -178,17 +178,9 @@ mod tests {
     fn one_effect_in_the_place_of_several_parameters_is_named() {
         let named = |name: &str, effects: &[&str]| NominalParameter {
             name: name.into(),
-            unit: "kg".into(),
-            before: 20.0,
-            after: 24.0,
-            low: 23.0,
-            high: 25.0,
-            of_ratio: None,
             mismatch: true,
-            from_parameter_set: false,
-            is_yardstick: false,
-            contradicted: false,
             equivalent_effects: effects.iter().map(|it| (*it).to_owned()).collect(),
+            ..NominalParameter::default()
         };
         let told = |all: Vec<NominalParameter>| {
             let bad = Findings::of_bad_data("rig", vec![], vec![], vec![]);

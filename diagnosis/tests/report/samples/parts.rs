@@ -72,20 +72,7 @@ pub fn parameter(name: &str, unit: &str, value: f64, low: f64, high: f64) -> Eff
 pub fn base(name: &str, unit: &str, before: f64, after: f64, half: f64, mismatch: bool) -> NominalParameter {
     let (name, unit) = (name.into(), unit.into());
     let (low, high) = (after - half, after + half);
-    NominalParameter {
-        name,
-        unit,
-        before,
-        after,
-        low,
-        high,
-        of_ratio: None,
-        mismatch,
-        from_parameter_set: false,
-        is_yardstick: false,
-        contradicted: false,
-        equivalent_effects: vec![],
-    }
+    NominalParameter { name, unit, before, after, low, high, mismatch, ..NominalParameter::default() }
 }
 
 pub fn candidates() -> Vec<Candidate> {

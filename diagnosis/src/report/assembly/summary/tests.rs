@@ -111,12 +111,10 @@ fn what_the_records_say_of_a_parameter_beyond_its_value_is_told() {
         after: 15.0,
         low: 12.0,
         high: 18.0,
-        of_ratio: None,
         mismatch: true,
-        from_parameter_set: false,
-        is_yardstick: false,
         contradicted: true,
         equivalent_effects: vec!["guide friction in the guide".into()],
+        ..NominalParameter::default()
     };
     let text = of(&Findings { nominal_parameters: vec![it], ..findings(Verdict::ParameterMismatch) });
     assert!(text.contains("The records contradict the given value of constant_load."), "{text}");
@@ -128,17 +126,10 @@ fn what_the_records_say_of_a_parameter_beyond_its_value_is_told() {
 fn what_does_the_same_as_several_parameters_is_told_once() {
     let named = |name: &str| NominalParameter {
         name: name.into(),
-        unit: "kg".into(),
         before: 20.0,
-        after: 24.0,
-        low: 23.0,
-        high: 25.0,
-        of_ratio: None,
         mismatch: true,
-        from_parameter_set: false,
-        is_yardstick: false,
-        contradicted: false,
         equivalent_effects: vec!["gain of the actuator".into()],
+        ..NominalParameter::default()
     };
     let nominal_parameters: Vec<NominalParameter> = ["a", "b", "c", "d"].into_iter().map(named).collect();
     let text = of(&Findings { nominal_parameters, ..findings(Verdict::ParameterMismatch) });
@@ -158,12 +149,8 @@ fn a_parameter_at_its_lower_bound_has_a_limit_and_no_value() {
         after,
         low: 1e-6,
         high: 0.36,
-        of_ratio: None,
         mismatch: true,
-        from_parameter_set: false,
-        is_yardstick: false,
-        contradicted: false,
-        equivalent_effects: vec![],
+        ..NominalParameter::default()
     };
     let text =
         |after| of(&Findings { nominal_parameters: vec![at(after)], ..findings(Verdict::ParameterMismatch) });
