@@ -2,7 +2,7 @@
 
 use crate::catalogue::naming::{name, prevalence};
 use crate::catalogue::{Element, Prevalence};
-use crate::dataset::recorded::{Dataset, LEAST_NOISE, noise_floor};
+use crate::dataset::recorded::{Dataset, noise_floor};
 use crate::decision::account::{Account, account};
 use crate::decision::evidence::{Evidence, Left};
 use crate::diagnosis::component::Component;
@@ -30,10 +30,8 @@ impl Baseline<'_> {
 
     /// Noise of a measured output on the validation records: of its sensor, and of the measured inputs.
     pub(crate) fn noise(&self, row: usize) -> f64 {
-        // A record without noise still has rounding.
-        let least = (LEAST_NOISE * self.signal(row).sqrt()).max(f64::MIN_POSITIVE);
         // No error is believed to be smaller than the floor of the fits.
-        noise_floor(self.test, row).max(self.floor[row]).max(least).hypot(self.transmitted[row])
+        noise_floor(self.test, row).max(self.floor[row]).hypot(self.transmitted[row])
     }
 
     /// Student's t of the gain over blocks, in units of what the better fit leaves. Of what acts beyond a threshold only, or where

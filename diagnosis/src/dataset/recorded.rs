@@ -114,9 +114,6 @@ const ENDS: usize = 10;
 /// … but the eighth of the part at most.
 const PARTS: usize = 8;
 
-/// Least noise of a signal, in its root mean square.
-pub const LEAST_NOISE: f64 = 1e-6;
-
 /// Root mean square of the noise of a measured output's sensor, by its row, over some records.
 pub fn noise_floor(records: &[Dataset], row: usize) -> f64 {
     let squares = records.iter().map(|it| it.measured[row].noise_floor.powi(2));

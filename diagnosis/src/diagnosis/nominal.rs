@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::confirm::has_no_name;
 use crate::dataset::rate::along;
-use crate::dataset::recorded::{Dataset, LEAST_NOISE, SHORT, Source};
+use crate::dataset::recorded::{Dataset, SHORT, Source};
 use crate::dataset::split::Split;
 use crate::decision::criteria::CRITERIA;
 use crate::estimation::deadline::Stage;
@@ -23,6 +23,9 @@ const CLEARLY: f64 = 0.8;
 
 /// Share of an estimated noise that is there for sure: estimates are some per cent off.
 const SURE: f64 = 0.9;
+
+/// Least noise of a signal, in its root mean square.
+const ROUNDING: f64 = 1e-6;
 
 /// The starting model as it was given, the fit of its nominal parameters, and the signals that had to be turned over.
 pub(super) fn fit(baseline: &mut Baseline<'_>) -> Result<(Estimate, Fitted, Vec<Unknown>), String> {
@@ -237,7 +240,7 @@ fn floors(train: &[Dataset]) -> Vec<f64> {
         .measured
         .iter()
         .map(|measured| {
-            (SURE * measured.noise_floor).max(LEAST_NOISE * rms(&measured.values)).max(f64::MIN_POSITIVE)
+            (SURE * measured.noise_floor).max(ROUNDING * rms(&measured.values)).max(f64::MIN_POSITIVE)
         })
         .collect()
 }
