@@ -48,7 +48,7 @@ pub struct Record {
     pub time: Vec<f64>,
     /// The channels, in the file's order.
     pub channels: Vec<Channel>,
-    /// What of the file is not used, and why.
+    /// Contents of the file that are not used, with the reason.
     pub unread: Vec<Unread>,
     /// What else there is to say about how the file was read.
     pub notes: Vec<String>,

@@ -33,7 +33,7 @@ pub(crate) struct Table {
     pub columns: Vec<Channel>,
     /// The column that the format itself declares as time.
     pub master: Option<usize>,
-    /// What of the file is not used, and why.
+    /// Contents of the file that are not used, with the reason.
     pub unread: Vec<Unread>,
     /// What else there is to say about how the file was read.
     pub notes: Vec<String>,

@@ -17,7 +17,7 @@ pub(super) struct Vector {
     pub values: Vec<f64>,
 }
 
-/// What a file of many has: what may be signals, and what is none. Single numbers are left out without a word.
+/// The contents of a file of many vectors: possible signals, and all else with the reason. Single numbers are left out without a word.
 #[derive(Default)]
 pub(super) struct Contents {
     vectors: Vec<Vector>,

@@ -28,7 +28,6 @@ pub(super) const EFFECTS: &[Effect] = &[
         prevalence: Prevalence::Expected,
         parts: &[
             part("strut.coulomb.force", Scale::FORCE, (0.0, 10.0), &[0.1]),
-            // At its upper end it is digressive damping.
             bends(part("strut.coulomb.velocity", Scale::VELOCITY, SLIDING_VELOCITY, &[0.02, 0.2])),
         ],
         literature: &["ArmstrongHelouvry1994", "TUM"],

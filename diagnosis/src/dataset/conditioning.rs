@@ -107,7 +107,7 @@ impl Dataset {
         ((1.0 / (self.step * rate)).floor() as usize).max(1)
     }
 
-    /// The record with one of `factor` samples, without frequencies above four fifths of half of what is left; without the
+    /// The record with one of `factor` samples, without frequencies above four fifths of half the new rate; without the
     /// inputs' noise above the frequency `quiet` in Hz.
     fn thinned(&self, factor: usize, quiet: f64) -> Self {
         let mut sections: Vec<Range<usize>> = Vec::new();

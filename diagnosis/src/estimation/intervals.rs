@@ -75,7 +75,7 @@ impl Interval {
         Some([(self.value - half).max(self.bounds.0), (self.value + half).min(self.bounds.1)])
     }
 
-    /// The other end where the value is at one end of what is possible, if that leaves anything out.
+    /// The other end where the value is at one end of its bounds, if that leaves a part of them out.
     pub fn limit(&self) -> Option<f64> {
         let (least, largest) = self.bounds;
         let (low, high) = (self.low(), self.high());
