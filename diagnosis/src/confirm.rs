@@ -148,13 +148,34 @@ impl Baseline<'_> {
         }
     }
 
-    /// Fits what is proposed, the best first.
+    /// Fits what is proposed, the best first. A richer law waits for those that it has as limits, and is not fitted where it could add
+    /// nothing that matters to the best one.
     pub fn try_all(&self, base: &Fitted, null: &Fitted, proposals: &[Proposal]) -> Vec<Tried> {
-        let mut tried: Vec<Tried> = proposals.par_iter().map(|it| self.tried(base, null, it)).collect();
-        self.beside_their_limits(base, null, proposals, &mut tried);
+        let fit = |some: &[&Proposal]| -> Vec<Tried> {
+            some.par_iter().map(|it| self.tried(base, null, it)).collect()
+        };
+        let has_a_limit =
+            |it: &&Proposal| proposals.iter().any(|limit| contains_by_name(it.term, limit.term));
+        let (mut richer, mut fitted): (Vec<&Proposal>, Vec<&Proposal>) =
+            proposals.iter().partition(has_a_limit);
+        let mut tried = fit(&fitted);
+        if let Some(sufficient) = self.sufficient(base, &tried) {
+            richer.retain(|it| !contains_by_name(it.term, sufficient));
+        }
+        tried.extend(fit(&richer));
+        fitted.extend(richer);
+        self.beside_their_limits(base, null, &fitted, &mut tried);
         self.limits_of_the_best(base, null, &mut tried);
         tried.sort_by(|a, b| b.score.total_cmp(&a.score));
         tried
+    }
+
+    /// The best of those that were tried, if the data confirm it and no effect could matter beside it.
+    fn sufficient(&self, base: &Fitted, tried: &[Tried]) -> Option<Term> {
+        let best = tried.iter().max_by(|a, b| a.score.total_cmp(&b.score))?;
+        let fitted = best.fitted.as_ref().ok()?;
+        let passes = best.evidence.refusal().is_none() && self.is_sized(best, base);
+        (passes && !self.may_matter(base, fitted, 1.0)).then_some(best.term)
     }
 
     /// Fits the best of those that were tried, and what it has as limits, at several elements at once, if the rig has several.

@@ -21,7 +21,7 @@ impl Baseline<'_> {
         &self,
         base: &Fitted,
         null: &Fitted,
-        screened: &[Proposal],
+        screened: &[&Proposal],
         tried: &mut [Tried],
     ) {
         let again = tried.par_iter().zip(screened).map(|(it, screened)| {
