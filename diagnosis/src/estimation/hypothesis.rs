@@ -236,7 +236,7 @@ impl Baseline<'_> {
         Fit::new(&self.rig.plant, dynamics, records, coordinates, self.sigma.clone())
     }
 
-    /// Fits a hypothesis from several points and keeps the best.
+    /// Fits a hypothesis from the best of several points.
     ///
     /// # Errors
     /// If the model refuses its settings, or diverges from every point.
@@ -245,13 +245,13 @@ impl Baseline<'_> {
         let dynamics = self.dynamics(terms)?;
         let coordinates = self.coordinates(terms);
         let fit = self.fit(&*dynamics, self.train, coordinates.clone());
-        let minima = starts
+        let starts = starts
             .iter()
             .map(|start| within(start, &coordinates))
-            .filter(|start| fit.cost(start).is_finite());
-        let minima = minima.map(|start| lsq::minimise(&fit, fit.settled(start), stop));
-        let best = minima.min_by(|a, b| a.cost.total_cmp(&b.cost));
-        let mut best = best.ok_or("the simulation diverges from every start")?;
+            .filter(|start| fit.cost(start).is_finite())
+            .map(|start| fit.settled(start));
+        let mut best =
+            lsq::minimise_from(&fit, starts, stop).ok_or("the simulation diverges from every start")?;
         if let Some(point) = self.out_of_reach(&fit, terms, (&best.point, best.cost)) {
             best.cost = fit.cost(&point);
             (best.linear, best.trace) = fit.linearise(&point);

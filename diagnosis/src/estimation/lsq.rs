@@ -41,6 +41,8 @@ pub trait Problem {
 
 /// Linearisations from which on a minimum that is not in sight is given up.
 const SOON: usize = 4;
+/// Linearisations after which only the lowest of several ways goes on: by then they have left what is wrong about their starts.
+const RACE: usize = 2;
 /// Damping with which it is looked for: next to none, but for coordinates that the residuals do not depend on.
 const FREELY: f64 = 1e-9;
 
@@ -62,63 +64,94 @@ pub struct Minimum<P, T> {
     pub iterations: usize,
 }
 
+/// A way downhill, as far as it has gone.
+pub struct Descent<'p, P: Problem> {
+    problem: &'p P,
+    at: Minimum<P::Estimate, P::Trace>,
+    scale: DVector<f64>,
+    lambda: f64,
+    has_ended: bool,
+}
+
 /// Goes downhill from a point to a minimum within the bounds.
 pub fn minimise<P: Problem>(problem: &P, start: P::Estimate, stop: Stop) -> Minimum<P::Estimate, P::Trace> {
-    let mut point = start;
-    let mut cost = problem.cost(&point);
-    let (mut linear, mut trace) = problem.linearise(&point);
-    let mut scale = unit_where_zero(&linear.column_norms());
-    let mut lambda = stop.damping;
-    let mut iterations = 1;
-    let mut free = vec![true; problem.bounds().len()];
-    while iterations < stop.iterations {
-        let at = problem.coordinates(&point);
-        let candidate = clamped_step(&linear, lambda, &scale, &at, problem.bounds(), &free);
-        let length = candidate.component_mul(&scale).norm();
-        let reach = at.component_mul(&scale).norm();
-        if length <= stop.step * (reach + stop.step) {
-            break;
-        }
-        let moved = |step: &DVector<f64>| problem.moved(&point, &trace, &(&at + step));
-        let possible = |step: &DVector<f64>| problem.is_possible(&moved(step));
-        let (candidate, stuck) = within_reach(candidate, possible);
-        if !stuck.is_empty() {
-            stuck.into_iter().for_each(|index| free[index] = false);
-            continue;
-        }
-        let trial = moved(&candidate);
-        let expected = linear.fall(&candidate);
-        let trial_cost = problem.cost(&trial);
-        let fall = cost - trial_cost;
-        if trial_cost.is_finite() && fall > 0.0 {
+    let mut descent = Descent::new(problem, start, stop);
+    descent.go_on(stop);
+    descent.at
+}
+
+/// Goes downhill from several points for some steps, and from the lowest by then to a minimum; none from no point.
+pub fn minimise_from<P: Problem>(
+    problem: &P,
+    starts: impl Iterator<Item = P::Estimate>,
+    stop: Stop,
+) -> Option<Minimum<P::Estimate, P::Trace>> {
+    let mut all: Vec<Descent<'_, P>> = starts.map(|start| Descent::new(problem, start, stop)).collect();
+    if all.len() > 1 {
+        let race = Stop { iterations: stop.iterations.min(RACE), ..stop };
+        all.iter_mut().for_each(|it| it.go_on(race));
+    }
+    let mut lowest = all.into_iter().min_by(|a, b| a.at.cost.total_cmp(&b.at.cost))?;
+    lowest.go_on(stop);
+    Some(lowest.at)
+}
+
+impl<'p, P: Problem> Descent<'p, P> {
+    fn new(problem: &'p P, point: P::Estimate, stop: Stop) -> Self {
+        let cost = problem.cost(&point);
+        let (linear, trace) = problem.linearise(&point);
+        let scale = unit_where_zero(&linear.column_norms());
+        let at = Minimum { point, cost, linear, trace, iterations: 1 };
+        Self { problem, at, scale, lambda: stop.damping, has_ended: false }
+    }
+
+    /// Goes on to the minimum, or as far as it may.
+    fn go_on(&mut self, stop: Stop) {
+        let Self { problem, at, scale, lambda, has_ended } = self;
+        let mut free = vec![true; problem.bounds().len()];
+        while !*has_ended && at.iterations < stop.iterations {
+            let here = problem.coordinates(&at.point);
+            let candidate = clamped_step(&at.linear, *lambda, scale, &here, problem.bounds(), &free);
+            let length = candidate.component_mul(scale).norm();
+            let reach = here.component_mul(scale).norm();
+            if length <= stop.step * (reach + stop.step) {
+                *has_ended = true;
+                break;
+            }
+            let moved = |step: &DVector<f64>| problem.moved(&at.point, &at.trace, &(&here + step));
+            let possible = |step: &DVector<f64>| problem.is_possible(&moved(step));
+            let (candidate, stuck) = within_reach(candidate, possible);
+            if !stuck.is_empty() {
+                stuck.into_iter().for_each(|index| free[index] = false);
+                continue;
+            }
+            let trial = moved(&candidate);
+            let expected = at.linear.fall(&candidate);
+            let cost = problem.cost(&trial);
+            let fall = at.cost - cost;
+            if !(cost.is_finite() && fall > 0.0) {
+                *lambda = (*lambda * 4.0).max(1e-12);
+                *has_ended = *lambda > 1e14;
+                continue;
+            }
             let quality = fall / expected.max(f64::MIN_POSITIVE);
             // Nielsen's update: as well predicted as it was, as bold is the next step.
-            lambda *= (1.0 - (2.0 * quality - 1.0).powi(3)).clamp(1.0 / 9.0, 2.0);
-            lambda = lambda.max(1e-16);
-            point = trial;
+            *lambda *= (1.0 - (2.0 * quality - 1.0).powi(3)).clamp(1.0 / 9.0, 2.0);
+            *lambda = lambda.max(1e-16);
             free.fill(true);
-            let small = fall <= stop.cost * cost;
-            cost = trial_cost;
-            (linear, trace) = problem.linearise(&point);
-            iterations += 1;
-            scale = scale.zip_map(&linear.column_norms(), f64::max);
+            let is_small = fall <= stop.cost * at.cost;
+            let (linear, trace) = problem.linearise(&trial);
+            *at = Minimum { point: trial, cost, linear, trace, iterations: at.iterations + 1 };
+            *scale = scale.zip_map(&at.linear.column_norms(), f64::max);
             let in_sight = || {
-                let at = problem.coordinates(&point);
-                let freely = clamped_step(&linear, FREELY, &scale, &at, problem.bounds(), &free);
-                let as_now = (stop.iterations - iterations) as f64 * fall;
-                cost - linear.fall(&freely).max(as_now) <= stop.below
+                let here = problem.coordinates(&at.point);
+                let freely = clamped_step(&at.linear, FREELY, scale, &here, problem.bounds(), &free);
+                let as_now = (stop.iterations - at.iterations) as f64 * fall;
+                at.cost - at.linear.fall(&freely).max(as_now) <= stop.below
             };
-            if small || stop.is_late() || iterations >= SOON && !in_sight() {
-                break;
-            }
-        } else {
-            lambda = (lambda * 4.0).max(1e-12);
-            if lambda > 1e14 {
-                break;
-            }
+            *has_ended = is_small || stop.is_late() || at.iterations >= SOON && !in_sight();
         }
     }
-    Minimum { point, cost, linear, trace, iterations }
 }
 
 /// A step, of which what alone would go where it cannot be goes a part of the way; next to the end, where it is to stay so that
@@ -225,6 +258,20 @@ mod tests {
         let whole = minimise(&problem, start(), careful);
         assert_eq!(late.iterations, 2);
         assert!(whole.iterations > 2 && whole.cost < late.cost && late.cost < problem.cost(&start()));
+    }
+
+    #[test]
+    fn the_lowest_of_several_ways_goes_on_to_the_minimum() {
+        let problem = Ascending([-1.0, 2.0, 3.0]);
+        let starts = [[-900.0, 5.0, 8.0], [0.0, 1.0, 0.0], [-1.0, 90.0, 3.0]];
+        let careful = Stop { damping: 100.0, ..Stop::EXACT };
+        let starts = || starts.iter().map(|it| DVector::from_row_slice(it));
+        let found = minimise_from(&problem, starts(), careful).unwrap();
+        assert!((found.point - DVector::from_row_slice(&problem.0)).norm() < 1e-9);
+        assert!(minimise_from(&problem, starts().take(0), careful).is_none());
+        // Together with the steps of the race, no way is longer than that of the lowest alone.
+        let alone = starts().nth(1).map(|it| minimise(&problem, it, careful).iterations);
+        assert_eq!(Some(found.iterations), alone);
     }
 
     #[test]
