@@ -13,13 +13,16 @@ use super::{DIRECTIONS, Drive};
 
 pub(super) use rates::{FAST, rates};
 
-/// Longest step of the integration in seconds, whatever the record's sampling.
+/// Longest step of the integration in seconds, whatever the record's sampling, of what does not move slowly.
 pub(super) const LONGEST_STEP: f64 = 4e-3;
 /// Largest product of the step and the fastest rate of change that is met on the way; the method is stable up to 2.78.
-const STABLE: f64 = 1.2;
+const STABLE: f64 = 2.0;
 /// The same that is planned for: a step's error is below a thousandth of what the fastest mode loses in it. Where there is
 /// no room between steps that are stable and steps that are accurate, nothing controls the error.
 pub(super) const ACCURATE: f64 = 0.6;
+/// The same of the step and the fastest rate at rest where everything is slow, and a step may be longer than [`LONGEST_STEP`]: its error
+/// is then below a millionth.
+const SLOW: f64 = 0.1;
 /// The same of the step and the largest slope of a delay's states, 12 over the delay: a sixteenth of the delay is a step.
 const WELL_BELOW: f64 = 0.75;
 /// Steps between two samples beyond which a model is too stiff for this method.
@@ -151,9 +154,9 @@ fn range<M: Model>(
     drive: &Drive,
     declared: &[Declaration],
 ) -> (usize, usize) {
-    let [fastest, sharpest] = rates(model, parameters, drive, declared);
+    let [at_rest, fastest, sharpest] = rates(model, parameters, drive, declared);
     let steps = |rate: f64| (drive.step * rate).ceil().clamp(1.0, MOST_STEPS) as usize;
-    let loose = (1.0 / LONGEST_STEP).max(sharpest / WELL_BELOW);
+    let loose = (1.0 / LONGEST_STEP).min(at_rest / SLOW).max(sharpest / WELL_BELOW);
     (steps(loose), steps(loose.max(fastest / ACCURATE)))
 }
 
@@ -303,7 +306,7 @@ mod tests {
         };
         for exponent in [0.2, 0.5, 0.8] {
             let plain = tight(exponent, 0.0);
-            assert!(plain > 5);
+            assert!(plain > 4, "{plain}");
             for gap in [1e-4, 5e-4, 2e-3, 5e-3] {
                 assert_eq!(tight(exponent, gap), plain, "{exponent} {gap}");
             }

@@ -259,7 +259,7 @@ impl Attached {
             let moved = |it: &Declaration| vec![if it.name == "motion.velocity" { velocity } else { 0.0 }];
             let inputs = inputs.iter().map(moved).collect();
             let drive = Drive::sampled(1.0, inputs);
-            rates(&self.model, &parameters, &drive, &Declarations::of::<State>())[0]
+            rates(&self.model, &parameters, &drive, &Declarations::of::<State>())[1]
         });
         Laws { derived: self.model.derive(&parameters), parameters, forgets }
     }

@@ -18,14 +18,14 @@ const HALVED: usize = 40;
 /// A velocity in m/s or rad/s that suspensions seldom exceed: friction before it slides forgets the faster the faster it is moved.
 pub(crate) const FAST: f64 = 1.0;
 
-/// The fastest rate of change at rest, in fast motion, in contact behind a backlash, and where friction slides; and the largest slope of
-/// a delay's states, per second.
+/// The fastest rate of change at rest, and in fast motion, in contact behind a backlash, and where friction slides, too; and the largest
+/// slope of a delay's states, per second.
 pub(crate) fn rates<M: Model>(
     model: &M,
     parameters: &M::Parameters<f64>,
     drive: &Drive,
     declared: &[Declaration],
-) -> [f64; 2] {
+) -> [f64; 3] {
     let states = declared.len();
     let lifted: M::Parameters<Dual64> = lift(parameters);
     let derived = model.derive(&lifted);
@@ -67,7 +67,8 @@ pub(crate) fn rates<M: Model>(
     let (resting, _) = jacobian_at(&rest, &first);
     let [moved, moving] = moved(declared, &Declarations::of::<M::Input<f64>>(), (&rest, &first), drive);
     let (when_moved, moves) = jacobian_at(&moved, &moving);
-    let mut fastest = fastest_of(&resting).max(fastest_of(&when_moved));
+    let at_rest = fastest_of(&resting);
+    let mut fastest = at_rest.max(fastest_of(&when_moved));
     // What has backlash is loose at rest: it is looked at where it is in contact, too. What is off does not move.
     for (index, state) in declared.iter().enumerate().filter(|(index, _)| moves[*index]) {
         let displaced = |at: &[f64], by: f64| {
@@ -114,7 +115,7 @@ pub(crate) fn rates<M: Model>(
     }
     // The rational function of a delay is one only in steps well below it.
     let late = declared.iter().enumerate().filter(|(_, state)| state.name.contains(".delay."));
-    [fastest, late.map(|(row, _)| resting.row(row).amax()).fold(0.0, f64::max)]
+    [at_rest, fastest, late.map(|(row, _)| resting.row(row).amax()).fold(0.0, f64::max)]
 }
 
 /// The force at which friction slides, where it neither grows nor falls: in the direction in which it grows at rest, or, if it does
