@@ -208,9 +208,11 @@ impl Rig {
         Ok(())
     }
 
-    /// Longest segment that is simulated in one go, in seconds.
+    /// Longest segment that is simulated in one go, in seconds. Where motion is imposed nothing drifts, and what friction remembers of
+    /// it would have to be estimated at every new start.
     pub fn segment(&self) -> f64 {
-        self.driven().and_then(|by| by.segment).or(self.kind.segment).unwrap_or(MINUTE)
+        let usual = if self.kind.imposed == Some(true) { f64::INFINITY } else { MINUTE };
+        self.driven().and_then(|by| by.segment).or(self.kind.segment).unwrap_or(usual)
     }
 
     /// Whether an output follows from the inputs alone.

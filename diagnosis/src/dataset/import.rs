@@ -268,7 +268,7 @@ fn sections(segments: &[Range<usize>], step: f64, seconds: f64) -> Vec<Range<usi
     let longest = (seconds / step).max(FEWEST as f64);
     let mut sections = Vec::new();
     for segment in segments.iter().filter(|segment| segment.len() >= FEWEST) {
-        let parts = (segment.len() as f64 / longest).ceil() as usize;
+        let parts = ((segment.len() as f64 / longest).ceil() as usize).max(1);
         for part in 0..parts {
             let at = |part: usize| segment.start + segment.len() * part / parts;
             sections.push(at(part)..at(part + 1));

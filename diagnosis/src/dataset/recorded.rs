@@ -5,7 +5,10 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::data::Channel;
-use crate::plant::{Between, Drive};
+use strut_model::unit::Unit;
+
+use crate::plant::{Between, Drive, Plant};
+use crate::screening::rms;
 use crate::signal::derivative;
 use crate::signal::distortion::{Correction, Samples};
 use crate::signal::spectral::{FINER, in_band, refined};
@@ -140,6 +143,17 @@ impl Dataset {
     /// Whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// The largest of its signals in a unit, as a root mean square about its mean; zero if it has none.
+    pub fn magnitude(&self, plant: &Plant, unit: Unit) -> f64 {
+        let outputs = self.measured.iter().map(|it| (plant.outputs[it.output].unit, &it.values));
+        let inputs = self.inputs.iter().zip(&plant.inputs).filter_map(|(source, declared)| match source {
+            Source::Measured(values) => Some((declared.unit, values)),
+            Source::DerivativeOf(_) | Source::RateOf(_) | Source::Constant(_) => None,
+        });
+        let own = outputs.chain(inputs).filter(|(of, _)| *of == unit);
+        own.map(|(_, values)| rms(values)).fold(0.0, f64::max)
     }
 
     /// What is left of a measured output's values without the straight line through each section: of a plant that drifts, a

@@ -31,8 +31,12 @@ const FORGOTTEN: &[&str] = &[
     "velocity_loop.output",
 ];
 
-/// How far a state at the start may go in a step on a standard deviation's gain, in its nominal values. What is
-/// forgotten within milliseconds hardly shows: without a bound it would be sent as far as a limiter.
+/// What of it is estimated where motion is imposed: that may be slow, and a body that turned just before the record shows its friction
+/// until it turns again.
+const REMEMBERED: &[&str] = &["hysteresis.", "clevis."];
+
+/// How far a state at the start may go in a step on a standard deviation's gain, in its nominal values, or in what the record has in its
+/// unit. What is forgotten within milliseconds hardly shows: without a bound it would be sent as far as a limiter.
 const FAR: f64 = 3.0;
 
 /// Measured less predicted, for each record and each of its measured outputs.
@@ -88,11 +92,18 @@ impl<'a> Fit<'a> {
         sigma: Vec<f64>,
     ) -> Self {
         let bounds = coordinates.iter().map(|coordinate| coordinate.bounds).collect();
-        let forgotten = |name: &str| FORGOTTEN.iter().any(|prefix| name.starts_with(prefix));
-        let states = plant.states.iter().enumerate().filter(|(_, state)| !forgotten(&state.name));
+        let imposed = records.first().filter(|it| it.imposed);
+        let is_of = |name: &str, prefixes: &[&str]| prefixes.iter().any(|it| name.starts_with(it));
+        let is_estimated =
+            |name: &str| !is_of(name, FORGOTTEN) || imposed.is_some() && is_of(name, REMEMBERED);
+        let states = plant.states.iter().enumerate().filter(|(_, state)| is_estimated(&state.name));
         let states: Vec<usize> = states.map(|(index, _)| index).collect();
-        let nominal = |state: &usize| plant.states[*state].nominal.unwrap_or(1.0);
-        let ridge = states.iter().map(|state| (FAR * nominal(state)).powi(-2)).collect();
+        let size = |state: &usize| {
+            let state = &plant.states[*state];
+            let nominal = state.nominal.unwrap_or(1.0);
+            imposed.map_or(nominal, |record| record.magnitude(plant, state.unit).max(nominal))
+        };
+        let ridge = states.iter().map(|state| (FAR * size(state)).powi(-2)).collect();
         Self { plant, dynamics, records, coordinates, sigma, states, ridge, bounds }
     }
 

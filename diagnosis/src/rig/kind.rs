@@ -47,7 +47,7 @@ pub struct Kind {
     pub undriven: Option<Undriven>,
     /// Longest segment that is simulated in one go, in seconds: it bounds the memory, and how far a plant that
     /// integrates its input may drift.
-    /// A minute unless it is given.
+    /// A minute unless it is given; the whole record where motion is imposed.
     pub segment: Option<f64>,
     /// Ways in which it can be driven; empty if there is one only.
     #[serde(default)]
