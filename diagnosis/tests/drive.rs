@@ -71,3 +71,34 @@ fn what_noise_of_the_motion_makes_of_a_force_is_noise() {
     let [left, noise] = ["rms_fitted", "noise_floor"].map(|key| force[key].as_f64().unwrap());
     assert!((0.8..1.25).contains(&(left / noise)) && noise > 0.3, "{left} N beside {noise} N");
 }
+
+/// A mass on a spring that was let go: nothing pushes, so that all forces have the mass as their scale.
+#[test]
+fn what_swings_freely_has_a_spring() {
+    const RATE: f64 = 7.0;
+    const DECAY: f64 = 0.08;
+    let record = |seconds: f64, size: f64, phase: f64, seed: u64| {
+        let mut normal = noise(seed);
+        let mut text = "time [s],motor.force [N],position [m]\n".to_owned();
+        for t in (0..(200.0 * seconds) as usize).map(|k| k as f64 / 200.0) {
+            let position = size * (-DECAY * t).exp() * (RATE * t + phase).cos();
+            writeln!(text, "{t:.3},0,{:.7}", position + 2e-5 * normal()).unwrap();
+        }
+        text
+    };
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("train.csv"), record(12.0, 0.05, 0.3, 1)).unwrap();
+    fs::write(folder.path().join("test.csv"), record(12.0, 0.03, 2.1, 2)).unwrap();
+    let report = diagnosed(folder.path(), "2");
+    let effects = report["effects"].as_array().unwrap();
+    assert_eq!(effects.iter().map(|it| it["id"].as_str().unwrap()).collect::<Vec<_>>(), ["08"]);
+    let stiffness = effects[0]["parameters"][0]["value"].as_f64().unwrap();
+    let after = |name: &str| {
+        let parameters = report["nominal_parameters"].as_array().unwrap();
+        parameters.iter().find(|it| it["name"] == name).unwrap()["after"].as_f64().unwrap()
+    };
+    let (mass, damping) = (after("moving_mass"), after("guide.damping"));
+    // The undamped frequency, and twice the decay.
+    assert!((stiffness / mass / (RATE.powi(2) + DECAY.powi(2)) - 1.0).abs() < 5e-3, "{stiffness} {mass}");
+    assert!((damping / mass / (2.0 * DECAY) - 1.0).abs() < 0.1, "{damping} {mass}");
+}

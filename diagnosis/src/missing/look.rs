@@ -7,6 +7,9 @@ use crate::plant::{Follower, Seen};
 /// Share of what a port does that another one does not, below which the two are one place.
 const TIED: f64 = 1e-6;
 
+/// Samples at most in which a signal is followed on its way.
+const LONGEST: usize = 10_000;
+
 /// Which states matter: the largest derivatives over the first samples.
 pub(super) struct Look {
     width: usize,
@@ -72,8 +75,9 @@ impl Look {
     }
 
     /// The size of a port's signal that moves what the sensors show as far as it moves; where a port shows more by what it
-    /// does to the states within a sample than at once, the size that moves the states as far as the inputs do.
-    pub fn size(&self, port: usize, magnitudes: &[f64], inputs: &Range<usize>) -> f64 {
+    /// does to the states within a sample than at once, the size that moves the states as far as the inputs do, or where those rest, in
+    /// the time in which the sensors' signals move as far. `changes`: of each signal from sample to sample.
+    pub fn size(&self, port: usize, magnitudes: &[f64], changes: &[f64], inputs: &Range<usize>) -> f64 {
         let next = || self.next.chunks_exact(self.width).map(|row| row[port]);
         let at_once = self.least(magnitudes, |row| row[port]);
         let by_states = self.least(magnitudes, |row| row.iter().zip(next()).map(|(h, next)| h * next).sum());
@@ -82,9 +86,32 @@ impl Look {
         }
         let driven = self.next.chunks_exact(self.width).filter(|row| row[port] > 0.0);
         let driven = driven.flat_map(|row| row[inputs.clone()].iter().map(move |it| it / row[port]));
-        let sizes = [driven.fold(0.0, f64::max), at_once.min(by_states)];
+        let in_time = || at_once.min(self.least_in_time(port, magnitudes, changes));
         // What shows nowhere is not missed.
-        sizes.into_iter().find(|it| *it > 0.0 && it.is_finite()).unwrap_or(f64::MIN_POSITIVE)
+        [driven.fold(0.0, f64::max), in_time()]
+            .into_iter()
+            .find(|it| *it > 0.0 && it.is_finite())
+            .unwrap_or(f64::MIN_POSITIVE)
+    }
+
+    /// The least constant signal at a port that moves one of the outputs as far as it moves, in the time in which that does.
+    fn least_in_time(&self, port: usize, magnitudes: &[f64], changes: &[f64]) -> f64 {
+        let mut states = vec![0.0; self.next.len() / self.width];
+        let samples = magnitudes.iter().zip(changes).map(|(size, change)| (size / change) as usize);
+        let samples: Vec<usize> = samples.map(|it| it.clamp(1, LONGEST)).collect();
+        let mut least = f64::INFINITY;
+        for sample in 1..=samples.iter().copied().max().unwrap_or(0) {
+            let by = |row: &[f64], states: &[f64]| -> f64 {
+                row.iter().zip(states).map(|(slope, state)| slope * state).sum()
+            };
+            let next = self.next.chunks_exact(self.width);
+            states = next.map(|row| by(row, &states) + row[port]).collect();
+            let outputs = self.outputs.chunks_exact(self.width).zip(magnitudes).zip(&samples);
+            let reached = outputs.filter(|(_, samples)| **samples == sample);
+            let sizes = reached.map(|((row, size), _)| size / by(row, &states)).filter(|it| *it > 0.0);
+            least = sizes.fold(least, f64::min);
+        }
+        least
     }
 }
 

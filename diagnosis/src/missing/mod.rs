@@ -36,8 +36,9 @@ use trajectory::{Setting, Window};
 
 /// Samples of all records together that are looked at: half a minute at the rate of conditioned records.
 const SAMPLES: usize = 12_000;
-/// Longest stretch that is filtered in one go, in seconds.
-const LONGEST: f64 = 10.0;
+/// Longest stretch that is filtered in one go, in seconds, and as many samples of a record that has fewer in that time: of what is slow,
+/// friction remembers for long where it came from.
+const LONGEST: (f64, usize) = (10.0, 4000);
 /// Share of the velocity within which a parameter set lets friction turn over in which it may really do so.
 const SHARP: f64 = 0.05;
 /// The delay that a timing column stands for, in seconds.
@@ -196,8 +197,13 @@ impl Baseline<'_> {
         precisions.extend(timing.iter().map(|_| (DELAY / TIMING).powi(2)));
         precisions.extend(frame.stated.iter().map(|_| TOLERANCE.powi(-2)));
         precisions.extend(frame.found.iter().map(|_| 0.0));
-        let point = self.nominal_by_balance(&about, &precisions);
-        let (setting, windows) = self.along(&about, &point)?;
+        let [before, point] = self.nominal_by_balance(&about, &precisions);
+        // A last step too far is taken back.
+        let whole = self.along(&about, &point).map(|along| (along, point));
+        let ((setting, windows), point) = match whole {
+            Ok(it) => it,
+            Err(_) => (self.along(&about, &before)?, before),
+        };
         let (records, train) = (&frame.records[..], self.train.len());
         let mut missing = Missing { records, train, stated: &frame.stated, setting, windows, precisions };
         // Where nothing needs to be missing, a trajectory that follows the sensors follows their noise.
@@ -325,7 +331,7 @@ fn stretches(records: &[Dataset]) -> Vec<(usize, Range<usize>)> {
     let share = (SAMPLES as f64 / total.max(1) as f64).min(1.0);
     let mut all = Vec::new();
     for (number, record) in records.iter().enumerate() {
-        let longest = ((LONGEST / record.step) as usize).max(2);
+        let longest = ((LONGEST.0 / record.step) as usize).max(LONGEST.1);
         for section in &record.sections {
             let pieces = section.len().div_ceil(longest).max(1);
             let length = section.len() / pieces;

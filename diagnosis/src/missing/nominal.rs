@@ -72,8 +72,8 @@ impl Baseline<'_> {
         parameters.iter().map(of).collect()
     }
 
-    /// Corrects the nominal parameters as far as the missing signals allow.
-    pub(super) fn nominal_by_balance(&self, about: &About<'_, '_>, precisions: &[f64]) -> Estimate {
+    /// Corrects the nominal parameters as far as the missing signals allow: before the last step, and behind it.
+    pub(super) fn nominal_by_balance(&self, about: &About<'_, '_>, precisions: &[f64]) -> [Estimate; 2] {
         let mut point = about.frame.point.clone();
         for (index, value, _) in &self.known {
             point.parameters[*index] = *value;
@@ -89,7 +89,7 @@ impl Baseline<'_> {
         for _ in 0..rounds {
             // A step too far is taken back.
             let Ok(Some((_, fitted))) = self.corrected(about, (precisions, shares), &point) else {
-                point.parameters = before;
+                point.parameters.clone_from(&before);
                 break;
             };
             before.clone_from(&point.parameters);
@@ -97,7 +97,7 @@ impl Baseline<'_> {
                 point.parameters[*index] = self.moved(*index, before[*index], *step);
             }
             if about.frame.dynamics.check(&point.parameters).is_err() {
-                point.parameters = before;
+                point.parameters.clone_from(&before);
                 break;
             }
             let moved = |index: &usize| {
@@ -107,7 +107,7 @@ impl Baseline<'_> {
                 break;
             }
         }
-        point
+        [Estimate { parameters: before, ..point.clone() }, point]
     }
 
     /// A point with one parameter of the order that makes the record likeliest: a force moves a mass that is off by decades

@@ -152,9 +152,10 @@ impl<'a> Setting<'a> {
         let ties =
             (0..ports.len()).map(|port| (0..port).find(|it| same(*it, port)).unwrap_or(port)).collect();
         let inputs = column..seeds.len();
+        let changes: Vec<f64> = record.measured.iter().map(|it| change(&it.values)).collect();
         let size = |(port, own): (&Port, &Option<usize>)| match (port.entry, own) {
             (Entry::Sensor(row), _) => magnitudes[row],
-            (_, own) => own.map_or(f64::MIN_POSITIVE, |own| look.size(own, &magnitudes, &inputs)),
+            (_, own) => own.map_or(f64::MIN_POSITIVE, |own| look.size(own, &magnitudes, &changes, &inputs)),
         };
         let sizes: Vec<f64> = ports.iter().zip(&columns).map(size).collect();
         let point = point.clone();
@@ -297,6 +298,13 @@ fn magnitude(records: &[Dataset], row: usize) -> f64 {
     let values: Vec<f64> =
         records.iter().flat_map(|it: &Dataset| it.measured[row].values.iter().copied()).collect();
     rms(&values).max(f64::MIN_POSITIVE)
+}
+
+/// Root mean square of what a signal changes by from sample to sample.
+fn change(values: &[f64]) -> f64 {
+    let changes = values.windows(2).map(|pair| pair[1] - pair[0]).filter(|it| it.is_finite());
+    let (sum, count) = changes.fold((0.0, 0), |(sum, count), it| (sum + it * it, count + 1));
+    (sum / f64::from(count.max(1))).sqrt()
 }
 
 /// An extended Kalman filter on its way through a record, every port's signal being free.

@@ -41,6 +41,14 @@ pub fn typical(
             }
         };
         let (deflection, velocity) = (magnitude(&positions), magnitude(&velocities));
+        // What moves the mass of an element that nothing pushes is in the element.
+        let of_mass = || {
+            let missing = rig.kind.missing.iter().filter(|it| it.over.contains(&element.element));
+            let mass = missing.filter_map(|it| it.times.as_deref()).map(value).next()?;
+            let pairs = velocities.iter().zip(records);
+            let accelerations: Vec<_> = pairs.map(|(v, record)| derivative(v, record.step)).collect();
+            Some(mass * magnitude(&accelerations))
+        };
         let force = match &element.force {
             ForceOf::Output { output: name } => {
                 // Measured rather than simulated, where it is measured: the model may be far off.
@@ -50,7 +58,9 @@ pub fn typical(
                     .flat_map(|record| record.measured.iter().filter(|it| Some(it.output) == index))
                     .flat_map(|measured| measured.values.clone())
                     .collect();
-                if measured.is_empty() { magnitude(&signal(name)) } else { rms(&measured).max(1e-12) }
+                let own =
+                    if measured.is_empty() { magnitude(&signal(name)) } else { rms(&measured).max(1e-12) };
+                own.max(of_mass().unwrap_or(0.0))
             }
             ForceOf::Input { input: name } => driven(name),
             ForceOf::Inertia { acceleration: output, mass: by }
