@@ -42,6 +42,7 @@ pub fn problems(rig: &Rig, records: &Split, options: &Options) -> Result<Vec<Dat
     if !problems.is_empty() {
         return Ok(problems);
     }
+    problems.extend(records_of().flat_map(|it| kinematics::late(rig, it)));
     // A vague value says nothing of magnitudes.
     let given = |index: usize| {
         let own = options.known.iter().find(|(other, _, _)| *other == index);
@@ -51,7 +52,8 @@ pub fn problems(rig: &Rig, records: &Split, options: &Options) -> Result<Vec<Dat
     let mut nominal = rig.nominal().filter_map(|name| rig.plant.parameter(name));
     // A start value of zero claims no magnitude.
     if !nominal.all(|index| known(index) || rig.parameters[index] == 0.0) {
-        return Ok(records_of().flat_map(|it| kinematics::beyond_any_rig(rig, it)).collect());
+        problems.extend(records_of().flat_map(|it| kinematics::beyond_any_rig(rig, it)));
+        return Ok(problems);
     }
     let dynamics = rig.plant.prepare(&rig.choices)?;
     for record in records_of() {

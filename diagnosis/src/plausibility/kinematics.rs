@@ -53,6 +53,28 @@ pub(super) fn problems(rig: &Rig, record: &Dataset) -> Vec<DataProblem> {
     problems
 }
 
+/// Rates that are late or early beside their motion: a shift in time that a model would have to make up for. It is a note, since the
+/// search looks for a sensor's delay, too.
+pub(super) fn late(rig: &Rig, record: &Dataset) -> Vec<DataProblem> {
+    // Over stretches in which a simulation drifts little, a slow motion turns too seldom.
+    let record = &record.joined();
+    let columns = columns(rig, record);
+    let pairs = columns.iter().flat_map(|motion| {
+        let rates = columns.iter().filter(|rate| is_rate(motion.0, rate.0));
+        rates.map(move |rate| (motion, rate))
+    });
+    let of = |(motion, rate): (&Column<'_>, &Column<'_>)| {
+        let late = in_step(record, motion.2, rate.2).filter(Agreement::is_related)?.late()?;
+        let text = format!(
+            "is {late}, compared with the rate of {}: its sensor, or what computes it, delays it. Correct it in the map (`delay`), or \
+             take the column out",
+            motion.0
+        );
+        Some(DataProblem { record: record.name.clone(), signal: rate.0.into(), text, fatal: false })
+    };
+    pairs.filter_map(of).collect()
+}
+
 /// Positions beyond any test rig, by distance or speed. A drive may turn, and angles are no lengths: there, it is a note.
 pub(super) fn beyond_any_rig(rig: &Rig, record: &Dataset) -> Vec<DataProblem> {
     let may_turn = rig.kind.elements.iter().all(|it| it.element == Element::GUIDE);
@@ -159,6 +181,7 @@ fn in_step(record: &Dataset, motion: &[f64], rate: &[f64]) -> Option<Agreement> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dataset::recorded::Measured;
 
     /// A sensor may be some percent off or late; a tenth of the rate is another quantity.
     #[test]
@@ -181,6 +204,37 @@ mod tests {
         assert!(tenth.fatal && tenth.signal == "velocity", "{tenth:?}");
         assert!(tenth.text.starts_with("velocity is 10 % of the rate of position, and 4"), "{}", tenth.text);
         assert_eq!((seen(1.2, 0.0), seen(0.8, 0.02)), (None, None));
+    }
+
+    #[test]
+    fn a_late_rate_is_noted_whatever_drives_the_model() {
+        const STEP: f64 = 0.005;
+        let rig = Rig::published("rotary-drive").unwrap();
+        let output = |name: &str| rig.plant.output(name).unwrap();
+        let noted = |late: f64| {
+            let of = |name: &str, of: &dyn Fn(f64) -> f64| Measured {
+                output: output(name),
+                values: (0..2000).map(|k| of(STEP * f64::from(k))).collect(),
+                noise_floor: 0.0,
+            };
+            let rate = |t: f64| 5.0 * (5.0 * (t - late)).cos() - 1.3 * (13.0 * (t - late)).sin();
+            let record = Dataset {
+                step: STEP,
+                measured: vec![
+                    of("position", &|t| (5.0 * t).sin() + 0.1 * (13.0 * t).cos()),
+                    of("velocity", &rate),
+                ],
+                sections: std::iter::once(0..2000).collect(),
+                ..Dataset::default()
+            };
+            super::late(&rig, &record)
+        };
+        let [note] = &noted(0.02)[..] else { panic!("one note") };
+        assert!(
+            note.signal == "velocity" && !note.fatal && note.text.starts_with("is 20 ms late"),
+            "{note:?}"
+        );
+        assert_eq!(noted(0.0), []);
     }
 
     #[test]
