@@ -197,9 +197,12 @@ impl Baseline<'_> {
                 Choice::Nothing => return Ok(Next::Nothing),
                 Choice::Unmodelled(score) => {
                     curve = Some(score);
-                    // A fit shows what a simulation would: features may explain each sample's innovation, and little of that.
+                    // A fit shows what a simulation would: features may explain each sample's innovation, and little of that. And it is
+                    // judged where it explains less: features may explain much of the estimation data, and little of others.
                     let simulated = self.reduction((missing, compared), score);
-                    (likely(&names, &score), CRITERIA.fitted * score.share.min(simulated))
+                    let shares = [score.share, score.validated, simulated];
+                    let explained = shares.into_iter().fold(f64::INFINITY, f64::min);
+                    (likely(&names, &score), CRITERIA.fitted * explained)
                 }
                 Choice::Named(scores) => (scores, 0.0),
             };
