@@ -65,7 +65,7 @@ pub struct Minimum<P, T> {
 }
 
 /// A way downhill, as far as it has gone.
-pub struct Descent<'p, P: Problem> {
+struct Descent<'p, P: Problem> {
     problem: &'p P,
     at: Minimum<P::Estimate, P::Trace>,
     scale: DVector<f64>,

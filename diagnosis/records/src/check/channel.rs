@@ -15,6 +15,8 @@ const FLAT: usize = 3;
 const FEWEST_FLAT: usize = 5;
 /// How much more often the extreme value is taken than the next one. A sine on a lattice has 2.4 at most.
 const PILED: usize = 4;
+/// Change over a lattice's step below which it is one step.
+const CREEPING: f64 = 1.5;
 /// Noise over the spread of a signal, below which flat parts may be its own: what the noise's estimate leaves of a
 /// smooth signal is a few parts in ten thousand.
 const SMOOTH: f64 = 1e-3;
@@ -148,9 +150,15 @@ fn saturation(time: &[f64], channel: &Channel, extreme: fn(f64, f64) -> f64, wor
     let top = values.iter().copied().reduce(extreme)?;
     let next = values.iter().copied().filter(|&v| v != top).reduce(extreme)?;
     let at = |wanted: f64| values.iter().filter(|&&v| v == wanted).count();
-    // At either end of the record the signal may simply be at rest.
+    let step = lattice(values).map_or(0.0, |lattice| lattice.step);
+    // At either end of the record the signal may simply be at rest, and where a coarse one creeps to its highest value by a step of its lattice
+    // and off again, it turned or rested there.
     let inner = |run: &Range<usize>| run.len() >= FLAT && run.start > 0 && run.end < values.len();
-    let tops: Vec<_> = runs(values, top).into_iter().filter(inner).collect();
+    let creeps = |run: &Range<usize>| {
+        let beside = [run.start - 1, run.end].map(|it| (values[it] - top).abs());
+        beside.iter().all(|it| *it < CREEPING * step)
+    };
+    let tops: Vec<_> = runs(values, top).into_iter().filter(|run| inner(run) && !creeps(run)).collect();
     let count: usize = tops.iter().map(Range::len).sum();
     let by_nature = count as f64 > BY_NATURE * values.len() as f64;
     (count >= FEWEST_FLAT && count > PILED * at(next) && !by_nature).then(|| {
@@ -279,7 +287,7 @@ fn quantisation(channel: &Channel) -> Option<String> {
     }
     // A coarse measurement creeps from value to value, a command jumps over several.
     let changes = || channel.values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|c| *c > 0.0);
-    let small = changes().filter(|c| *c < 1.5 * lattice.step).count();
+    let small = changes().filter(|c| *c < CREEPING * lattice.step).count();
     (2 * small > changes().count()).then(|| {
         format!(
             "uses {} different values only, {} {} apart, which is a noise of {} {}: use a smaller range or more bits",

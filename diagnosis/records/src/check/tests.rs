@@ -193,6 +193,23 @@ fn saturation() {
     assert_eq!(check(&record).problems.len(), 2);
 }
 
+/// A carriage that friction holds where it turns, behind a coarse encoder: it creeps to there and off again.
+#[test]
+fn where_a_coarse_signal_creeps_to_its_highest_value_it_is_not_saturated() {
+    const MOVES: f64 = 600.0;
+    const RESTS: f64 = 400.0;
+    let mut record = clean(1, 0.01);
+    let ease = |share: f64| share * share * (3.0 - 2.0 * share);
+    for (k, value) in record.channels[2].values.iter_mut().enumerate() {
+        let later = (k as f64 - MOVES - RESTS).clamp(0.0, MOVES);
+        let position =
+            ease((k as f64 / MOVES).min(1.0)) - ease(later / MOVES) - 1e-4 * (k as f64 - 1600.0).max(0.0);
+        *value = (20_000.0 * position).round() / 20_000.0;
+    }
+    assert_eq!(check(&record).unusable, [vec![], vec![], vec![]]);
+    assert!(check(&record).problems.iter().all(|it| !it.text.contains("saturated")), "{record:?}");
+}
+
 /// What a radio link or a bus makes of lost samples: the last value stays.
 #[test]
 fn held_values() {
