@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::dataset::recorded::{Dataset, Source};
+use crate::diagnosis::root_mean_square;
 use crate::estimation::unknowns::Estimate;
 use crate::plant::{Drive, Dynamics, Follower, Seed, Seen};
 use crate::screening::rms;
@@ -302,9 +303,7 @@ fn magnitude(records: &[Dataset], row: usize) -> f64 {
 
 /// Root mean square of what a signal changes by from sample to sample.
 fn change(values: &[f64]) -> f64 {
-    let changes = values.windows(2).map(|pair| pair[1] - pair[0]).filter(|it| it.is_finite());
-    let (sum, count) = changes.fold((0.0, 0), |(sum, count), it| (sum + it * it, count + 1));
-    (sum / f64::from(count.max(1))).sqrt()
+    root_mean_square(&values.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>())
 }
 
 /// An extended Kalman filter on its way through a record, every port's signal being free.
