@@ -86,12 +86,11 @@ impl Look {
         }
         let driven = self.next.chunks_exact(self.width).filter(|row| row[port] > 0.0);
         let driven = driven.flat_map(|row| row[inputs.clone()].iter().map(move |it| it / row[port]));
-        let in_time = || at_once.min(self.least_in_time(port, magnitudes, changes));
+        let driven = Some(driven.fold(0.0, f64::max));
+        let is_size = |it: &f64| *it > 0.0 && it.is_finite();
+        let in_time = || Some(at_once.min(self.least_in_time(port, magnitudes, changes)));
         // What shows nowhere is not missed.
-        [driven.fold(0.0, f64::max), in_time()]
-            .into_iter()
-            .find(|it| *it > 0.0 && it.is_finite())
-            .unwrap_or(f64::MIN_POSITIVE)
+        driven.filter(is_size).or_else(in_time).filter(is_size).unwrap_or(f64::MIN_POSITIVE)
     }
 
     /// The least constant signal at a port that moves one of the outputs as far as it moves, in the time in which that does.
