@@ -150,15 +150,19 @@ fn saturation(time: &[f64], channel: &Channel, extreme: fn(f64, f64) -> f64, wor
     let top = values.iter().copied().reduce(extreme)?;
     let next = values.iter().copied().filter(|&v| v != top).reduce(extreme)?;
     let at = |wanted: f64| values.iter().filter(|&&v| v == wanted).count();
-    let step = lattice(values).map_or(0.0, |lattice| lattice.step);
     // At either end of the record the signal may simply be at rest, and where a coarse one creeps to its highest value by a step of its lattice
     // and off again, it turned or rested there.
     let inner = |run: &Range<usize>| run.len() >= FLAT && run.start > 0 && run.end < values.len();
+    let mut tops: Vec<_> = runs(values, top).into_iter().filter(inner).collect();
+    if tops.is_empty() {
+        return None;
+    }
+    let step = lattice(values).map_or(0.0, |lattice| lattice.step);
     let creeps = |run: &Range<usize>| {
         let beside = [run.start - 1, run.end].map(|it| (values[it] - top).abs());
         beside.iter().all(|it| *it < CREEPING * step)
     };
-    let tops: Vec<_> = runs(values, top).into_iter().filter(|run| inner(run) && !creeps(run)).collect();
+    tops.retain(|run| !creeps(run));
     let count: usize = tops.iter().map(Range::len).sum();
     let by_nature = count as f64 > BY_NATURE * values.len() as f64;
     (count >= FEWEST_FLAT && count > PILED * at(next) && !by_nature).then(|| {
