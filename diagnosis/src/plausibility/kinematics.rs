@@ -40,14 +40,12 @@ fn columns<'a>(rig: &'a Rig, record: &'a Dataset) -> Vec<Column<'a>> {
 pub(super) fn problems(rig: &Rig, record: &Dataset) -> Vec<DataProblem> {
     let columns = columns(rig, record);
     let mut problems: Vec<DataProblem> = Vec::new();
-    for motion in &columns {
-        for rate in columns.iter().filter(|rate| is_rate(motion.0, rate.0)) {
-            // One wrong column is wrong beside each of its relatives.
-            if let Some(problem) = compared(record, *motion, *rate).or_else(|| apart(record, *motion, *rate))
-                && !problems.iter().any(|it| it.signal == problem.signal)
-            {
-                problems.push(problem);
-            }
+    for (motion, rate) in pairs(&columns) {
+        // One wrong column is wrong beside each of its relatives.
+        if let Some(problem) = compared(record, motion, rate).or_else(|| apart(record, motion, rate))
+            && !problems.iter().any(|it| it.signal == problem.signal)
+        {
+            problems.push(problem);
         }
     }
     problems
@@ -59,11 +57,7 @@ pub(super) fn late(rig: &Rig, record: &Dataset) -> Vec<DataProblem> {
     // Over stretches in which a simulation drifts little, a slow motion turns too seldom.
     let record = &record.joined();
     let columns = columns(rig, record);
-    let pairs = columns.iter().flat_map(|motion| {
-        let rates = columns.iter().filter(|rate| is_rate(motion.0, rate.0));
-        rates.map(move |rate| (motion, rate))
-    });
-    let of = |(motion, rate): (&Column<'_>, &Column<'_>)| {
+    let of = |(motion, rate): (Column<'_>, Column<'_>)| {
         let late = in_step(record, motion.2, rate.2).filter(Agreement::is_related)?.late()?;
         let text = format!(
             "is {late}, compared with the rate of {}: its sensor, or what computes it, delays it. Correct it in the map (`delay`), or \
@@ -72,7 +66,16 @@ pub(super) fn late(rig: &Rig, record: &Dataset) -> Vec<DataProblem> {
         );
         Some(DataProblem { record: record.name.clone(), signal: rate.0.into(), text, fatal: false })
     };
-    pairs.filter_map(of).collect()
+    pairs(&columns).filter_map(of).collect()
+}
+
+/// Each motion with each of its rates.
+fn pairs<'a>(columns: &[Column<'a>]) -> impl Iterator<Item = (Column<'a>, Column<'a>)> {
+    let rates = |motion: &Column<'a>| {
+        let motion = *motion;
+        columns.iter().filter(move |rate| is_rate(motion.0, rate.0)).map(move |rate| (motion, *rate))
+    };
+    columns.iter().flat_map(rates)
 }
 
 /// Positions beyond any test rig, by distance or speed. A drive may turn, and angles are no lengths: there, it is a note.
