@@ -208,10 +208,15 @@ impl Rig {
         Ok(())
     }
 
+    /// Whether its inputs impose all motion.
+    pub fn imposes_motion(&self) -> bool {
+        self.kind.imposed == Some(true)
+    }
+
     /// Longest segment that is simulated in one go, in seconds. Where motion is imposed nothing drifts, and what friction remembers of
     /// it would have to be estimated at every new start.
     pub fn segment(&self) -> f64 {
-        let usual = if self.kind.imposed == Some(true) { f64::INFINITY } else { MINUTE };
+        let usual = if self.imposes_motion() { f64::INFINITY } else { MINUTE };
         self.driven().and_then(|by| by.segment).or(self.kind.segment).unwrap_or(usual)
     }
 

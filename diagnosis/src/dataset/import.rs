@@ -160,7 +160,7 @@ pub(super) fn import(rig: &Rig, origin: &Origin, map: &Map, rate: Option<&str>) 
             inputs,
             between: Between::Lines,
             wide: None,
-            imposed: rig.kind.imposed == Some(true),
+            imposed: rig.imposes_motion(),
             measured,
             others: others(&mapped.record.time, mapped.unused),
             errors: vec![],

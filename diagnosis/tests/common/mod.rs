@@ -20,7 +20,7 @@ pub fn on_a_bench(
         inputs: rig.plant.inputs.iter().map(|it| of(&it.name)).collect(),
         sections: std::iter::once(0..force.len()).collect(),
         measured: vec![Measured { output: rig.plant.output("force").unwrap(), values: force, noise_floor }],
-        imposed: rig.kind.imposed == Some(true),
+        imposed: rig.imposes_motion(),
         ..Dataset::default()
     }
 }
