@@ -74,6 +74,32 @@ impl Response {
     }
 }
 
+/// What the stages of a step differ by, over the states.
+#[derive(Default)]
+struct Met {
+    /// Of the first and the second slope: the sum of squares.
+    change: f64,
+    /// Of the second and the third slope: the same.
+    answer: f64,
+    /// Of the step and one of lower order: the largest.
+    error: f64,
+}
+
+impl Met {
+    #[inline(always)]
+    fn add(&mut self, [first, second, third, fourth]: [f64; 4], scale: f64) {
+        self.change += ((second - first) * scale).powi(2);
+        self.answer += ((third - second) * scale).powi(2);
+        self.error = self.error.max(((first - second - third + fourth) * scale).abs());
+    }
+
+    /// Whether it is more than rounding.
+    #[inline(always)]
+    fn tells(&self) -> bool {
+        self.answer.sqrt() > NEGLIGIBLE
+    }
+}
+
 impl Pace {
     /// None is longer than [`LONGEST_STEP`], and the fastest mode about rest, where friction is stiffest, can be
     /// integrated stably. A sampled part is computed at the ends of steps, which therefore do not change with the state.
@@ -82,19 +108,27 @@ impl Pace {
         let (loose, tight) =
             if states.is_empty() { (1, 1) } else { range(model, parameters, drive, &states) };
         let loose = if M::period(parameters).is_some() { tight } else { loose };
-        Self { loose, tight, steps: tight, scales: vec![f64::MAX; states.len()] }
+        Self::between(loose, tight, states.len())
+    }
+
+    /// From so many steps between samples to so many.
+    pub fn between(loose: usize, tight: usize, states: usize) -> Self {
+        Self { loose, tight, steps: tight, scales: vec![f64::MAX; states] }
     }
 
     /// Looks at a state at a sample.
     pub fn reach<R: Scalar>(&mut self, state: &impl Bundle<R>) {
         if self.varies() {
-            state.for_each(|index, value| {
-                let value = value.number().abs();
-                // Seldom: a division for each state in each step would be felt.
-                if value * self.scales[index] > 1.0 {
-                    self.scales[index] = value.recip();
-                }
-            });
+            state.for_each(|index, value| self.reach_value(index, value.number()));
+        }
+    }
+
+    /// Looks at the value of one state at a sample.
+    #[inline]
+    pub fn reach_value(&mut self, index: usize, value: f64) {
+        // Seldom: a division for each state in each step would be felt.
+        if value.abs() * self.scales[index] > 1.0 {
+            self.scales[index] = value.abs().recip();
         }
     }
 
@@ -105,30 +139,43 @@ impl Pace {
         if !self.varies() {
             return 1.0;
         }
-        let (mut change, mut answer, mut error, mut index) = (0.0, 0.0, 0.0_f64, 0);
+        let (mut met, mut index) = (Met::default(), 0);
         let mut derivatives = [Response::default(); DIRECTIONS];
         k1.combine([k2, k3, k4], &mut |k1, [k2, k3, k4]| {
-            let [first, second, third, fourth] = [k1, k2, k3, k4].map(Scalar::number);
             let scale = h * self.scales[index];
+            met.add([k1, k2, k3, k4].map(Scalar::number), scale);
             let slopes = k1.slopes().iter().zip(k2.slopes()).zip(k3.slopes());
             for (own, ((first, second), third)) in derivatives.iter_mut().zip(slopes) {
                 own.add([*first, *second, *third], scale);
             }
-            change += ((second - first) * scale).powi(2);
-            answer += ((third - second) * scale).powi(2);
-            error = error.max(((first - second - third + fourth) * scale).abs());
             index += 1;
             *k1
         });
-        if !change.is_finite() {
+        self.needed(&met, derivatives.iter().map(Response::stiffness).fold(0.0, f64::max))
+    }
+
+    /// The same of numbers, by the four slopes of each state; where nothing tells how stiff it is, all steps that there may be.
+    pub fn need_of(&self, h: f64, slopes: impl Iterator<Item = [f64; 4]>) -> f64 {
+        if !self.varies() {
+            return 1.0;
+        }
+        let mut met = Met::default();
+        slopes.zip(&self.scales).for_each(|(slopes, scale)| met.add(slopes, h * scale));
+        let unknown = if met.tells() { 0.0 } else { self.tight as f64 / self.steps as f64 };
+        self.needed(&met, unknown)
+    }
+
+    /// By what was met, or another stiffness if that is larger.
+    #[inline]
+    fn needed(&self, met: &Met, other: f64) -> f64 {
+        if !met.change.is_finite() {
             return f64::INFINITY;
         }
         // The second slope's change by half a step is answered by the third's: half of the step times the fastest rate.
-        let stiffness =
-            if answer.sqrt() > NEGLIGIBLE { 2.0 * (answer / change).sqrt() / STABLE } else { 0.0 };
-        let stiffness = derivatives.iter().map(Response::stiffness).fold(stiffness, f64::max);
+        let own = if met.tells() { 2.0 * (met.answer / met.change).sqrt() / STABLE } else { 0.0 };
+        let stiffness = own.max(other);
         // The larger of the stiffness and the root of the error. That costs much and seldom asks for more than the fewest steps.
-        let error = error / TOLERATED;
+        let error = met.error / TOLERATED;
         let least = stiffness.max(self.loose as f64 / self.steps as f64);
         if error > least.powi(3) { error.cbrt() } else { stiffness }
     }

@@ -2,10 +2,11 @@
 
 use super::{Effect, Element, FRICTION_VELOCITY, Onset, PLAIN, Prevalence, Scale, addend, part, within};
 
-/// Pole pitches and spindle pitches in m: so close that over a stroke of some periods no phase is lost between two of them.
+/// Pole pitches and spindle pitches in m, as far as they are looked for: so close that over a stroke of some periods no phase is lost
+/// between two of them.
 const PERIODS: &[f64] = &[
     0.004, 0.0046, 0.0053, 0.0061, 0.007, 0.008, 0.0092, 0.0106, 0.0122, 0.014, 0.0161, 0.0185, 0.0213,
-    0.0245, 0.028, 0.032, 0.037, 0.043, 0.049, 0.057,
+    0.0245, 0.028, 0.032, 0.037, 0.043, 0.049, 0.057, 0.066, 0.076, 0.088, 0.101, 0.117, 0.135, 0.156, 0.18,
 ];
 
 pub(super) const EFFECTS: &[Effect] = &[

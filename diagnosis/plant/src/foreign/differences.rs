@@ -108,10 +108,7 @@ impl Differences {
         let mut signals = vec![Vec::with_capacity(drive.len()); count];
         let mut state = changed.start.clone();
         let mut walk = self.walk(&changed.parameters, drive.start);
-        let least = match (steps, &mut walk) {
-            (None, Some(walk)) => walk.steps(&state, drive),
-            _ => 1,
-        };
+        let mut pace = walk.as_mut().filter(|_| steps.is_none()).map(|walk| walk.pace(&state, drive));
         let mut made = Vec::with_capacity(drive.len());
         let (mut rates, mut outputs) = (vec![0.0; state.len()], vec![f64::NAN; count]);
         for sample in 0..drive.len() {
@@ -124,9 +121,17 @@ impl Differences {
                 }
                 if sample + 1 < drive.len() {
                     let input = |i: usize, share: f64| changed.input(drive, i, sample, share);
-                    let own = || walk.paced(least, drive, &outputs);
-                    let steps = steps.and_then(|it| it.get(sample)).copied().unwrap_or_else(own);
-                    walk.advance(&Way { sample, steps, drive, input: &input }, &mut state, &rates, true);
+                    let given = steps.and_then(|it| it.get(sample)).copied().unwrap_or(1);
+                    let steps = match &mut pace {
+                        Some(pace) => {
+                            walk.advance_at(pace, (sample, drive, &input), (&mut state, &rates, &outputs), true)
+                        }
+                        None => {
+                            let way = Way { sample, steps: given, drive, input: &input };
+                            walk.advance(&way, &mut state, &rates, true, None);
+                            given
+                        }
+                    };
                     made.push(steps);
                 }
             }
@@ -232,7 +237,7 @@ impl Dynamics for Differences {
             seeds.iter().zip(&changes).map(|(seed, by)| Self::changed(parameters, &none, seed, *by));
         let Some(mut lanes) = Lanes::new(self, std::iter::once(plain).chain(changed), drive) else { return };
         let mut state = start.to_vec();
-        let least = lanes.steps(&state);
+        let Some(mut pace) = lanes.pace(&state) else { return };
         let count = seeds.len();
         let (mut values, mut slopes) = (vec![0.0; wanted.len()], vec![0.0; wanted.len() * count]);
         let mut advanced = vec![0.0; state.len() * count];
@@ -254,7 +259,7 @@ impl Dynamics for Differences {
                 return;
             }
             lanes.look(sample, &state);
-            lanes.advance(sample, least);
+            lanes.advance(sample, &mut pace);
             state.copy_from_slice(lanes.next(0));
             for (index, value) in state.iter().enumerate() {
                 for (seed, by) in changes.iter().enumerate() {

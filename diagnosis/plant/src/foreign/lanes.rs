@@ -1,6 +1,7 @@
 //! A model and changed versions of it, each one sample ahead of the same state: what derivatives of predictions are made of.
 
 use crate::Drive;
+use crate::pace::Pace;
 
 use super::beside::Set;
 use super::differences::{Changed, Differences};
@@ -57,9 +58,9 @@ impl<'a> Lanes<'a> {
         Some(Self { drive, walks, lanes })
     }
 
-    /// Steps between two samples that the model asks for.
-    pub fn steps(&mut self, state: &[f64]) -> usize {
-        self.walks.first_mut().map_or(1, |walk| walk.steps(state, self.drive))
+    /// The pace between samples that the model asks for.
+    pub fn pace(&mut self, state: &[f64]) -> Option<Pace> {
+        self.walks.first_mut().map(|walk| walk.pace(state, self.drive))
     }
 
     /// Puts all of them in a state at a sample, each with its own change, and computes rates and outputs there.
@@ -86,18 +87,23 @@ impl<'a> Lanes<'a> {
         }
     }
 
-    /// Goes to the next sample from where they are. All make the same number of steps, `least` or what the model needs there.
-    pub fn advance(&mut self, sample: usize, least: usize) {
+    /// Goes to the next sample from where they are. All make the same number of steps: what the pace of the model as it is, the first
+    /// of them, asks for there.
+    pub fn advance(&mut self, sample: usize, pace: &mut Pace) {
         let Self { drive, walks, lanes } = self;
-        let Some(first) = lanes.first() else { return };
-        let steps = walks[first.walk].paced(least, drive, &first.outputs);
+        let mut made = None;
         for lane in lanes {
             let walk = &mut walks[lane.walk];
             walk.exchange(&mut lane.set);
             lane.next.copy_from_slice(&lane.from);
             let input = |i: usize, share: f64| lane.changed.input(drive, i, sample, share);
             // Lanes that share a walk share its events, which are those of the model as it is at the samples.
-            walk.advance(&Way { sample, steps, drive, input: &input }, &mut lane.next, &lane.rates, false);
+            if let Some(steps) = made {
+                walk.advance(&Way { sample, steps, drive, input: &input }, &mut lane.next, &lane.rates, false, None);
+            } else {
+                let from = (&mut lane.next[..], &lane.rates[..], &lane.outputs[..]);
+                made = Some(walk.advance_at(pace, (sample, drive, &input), from, false));
+            }
             walk.exchange(&mut lane.set);
         }
     }

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use crate::Drive;
-use crate::pace::{ACCURATE, LONGEST_STEP, MOST_STEPS};
+use crate::pace::{ACCURATE, LONGEST_STEP, MOST_STEPS, Pace};
 
 use super::beside::{Beside, Set};
 use super::exchange::Session;
@@ -28,6 +28,7 @@ pub struct Walk<'a> {
     /// Memory of states and rates that is used again.
     next: Vec<f64>,
     unused: Vec<f64>,
+    before: Vec<f64>,
 }
 
 /// The way between two samples; positions on it are counted in steps.
@@ -70,6 +71,7 @@ impl<'a> Walk<'a> {
             middle: vec![0.0; states],
             next: vec![0.0; states],
             unused: vec![0.0; states],
+            before: vec![0.0; states],
         }
     }
 
@@ -129,11 +131,45 @@ impl<'a> Walk<'a> {
         self.unused = unused;
     }
 
+    /// Goes from a sample to the next in as many steps as the pace asks for, and the elements' memory; gives their number. Where a step
+    /// was too long, the way is gone once more. Events are handled as by [`Self::advance`].
+    pub fn advance_at(
+        &mut self,
+        pace: &mut Pace,
+        (sample, drive, input): (usize, &Drive, &dyn Fn(usize, f64) -> f64),
+        (state, first, outputs): (&mut [f64], &[f64], &[f64]),
+        to_events: bool,
+    ) -> usize {
+        let mut before = std::mem::take(&mut self.before);
+        before.copy_from_slice(state);
+        state.iter().enumerate().for_each(|(index, value)| pace.reach_value(index, *value));
+        let (beside, set) = &self.beside;
+        let least = beside.steps(set, drive.step, outputs).min(MOST_STEPS as usize);
+        let made = loop {
+            pace.steps = pace.steps.max(least);
+            let way = Way { sample, steps: pace.steps, drive, input };
+            let need = self.advance(&way, state, first, to_events, Some(pace));
+            if !pace.refuse(need) {
+                break way.steps;
+            }
+            state.copy_from_slice(&before);
+        };
+        self.before = before;
+        made
+    }
+
     /// Goes from a sample to the next; `first` are the rates there. Events on the way are handled where they are, `to_events`, or
-    /// not at all.
-    pub fn advance(&mut self, way: &Way<'_>, state: &mut [f64], first: &[f64], to_events: bool) {
-        let to_events = to_events && (self.session.indicates() || self.session.next_event().is_finite());
-        let mut next = std::mem::take(&mut self.next);
+    /// not at all. The largest need of the steps at a pace, as [`Pace::need`].
+    pub fn advance(
+        &mut self,
+        way: &Way<'_>,
+        state: &mut [f64],
+        first: &[f64],
+        to_events: bool,
+        pace: Option<&Pace>,
+    ) -> f64 {
+        let to_events = to_events && self.has_events();
+        let (mut next, mut need) = (std::mem::take(&mut self.next), 0.0_f64);
         self.slopes[0].copy_from_slice(first);
         for part in 0..way.steps {
             let from = part as f64;
@@ -145,9 +181,18 @@ impl<'a> Walk<'a> {
                 self.look_on(way, from, state, 0);
             }
             self.step(way, (from, from + 1.0), state, &mut next);
+            if let Some(pace) = pace {
+                let slopes = |state: usize| std::array::from_fn(|stage| self.slopes[stage][state]);
+                need = need.max(pace.need_of(way.size(), (0..next.len()).map(slopes)));
+            }
             state.copy_from_slice(&next);
         }
         self.next = next;
+        need
+    }
+
+    fn has_events(&self) -> bool {
+        self.session.indicates() || self.session.next_event().is_finite()
     }
 
     /// A step of the classical method between two positions, from the slopes at the first.
@@ -233,14 +278,9 @@ impl<'a> Walk<'a> {
         self.session.settle(time, &mut state[..self.own])
     }
 
-    /// Number of steps to the next sample: `least`, or more where an element moves fast, as its memory then changes fast.
-    pub fn paced(&self, least: usize, drive: &Drive, outputs: &[f64]) -> usize {
-        let (beside, set) = &self.beside;
-        beside.steps(set, drive.step, outputs).max(least).min(MOST_STEPS as usize)
-    }
-
-    /// Steps between two samples that the fastest mode about a state asks for.
-    pub fn steps(&mut self, state: &[f64], drive: &Drive) -> usize {
+    /// The pace between samples: what the fastest mode about a state asks for, at which friction is stiffest, or fewer steps where it
+    /// slides. A step with an event in it is not repeated: then, there are as many everywhere.
+    pub fn pace(&mut self, state: &[f64], drive: &Drive) -> Pace {
         let (states, inputs) = (state.len(), drive.inputs.len());
         let input = |i: usize| drive.inputs[i].first().copied().unwrap_or(0.0);
         let (mut rest, mut moved) = (vec![0.0; states], vec![0.0; states]);
@@ -259,7 +299,9 @@ impl<'a> Walk<'a> {
         let finite = jacobian.iter().all(|it| it.is_finite());
         let eigenvalues = (finite && states > 0).then(|| jacobian.complex_eigenvalues());
         let fastest = eigenvalues.map_or(0.0, |all| all.iter().map(|it| it.norm()).fold(0.0, f64::max));
-        (drive.step * (fastest / ACCURATE).max(1.0 / LONGEST_STEP)).ceil().clamp(1.0, MOST_STEPS) as usize
+        let steps = |rate: f64| (drive.step * rate.max(1.0 / LONGEST_STEP)).ceil().clamp(1.0, MOST_STEPS) as usize;
+        let tight = steps(fastest / ACCURATE);
+        Pace::between(if self.has_events() { tight } else { steps(0.0) }, tight, states)
     }
 }
 
