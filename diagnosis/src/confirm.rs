@@ -215,8 +215,12 @@ impl Baseline<'_> {
 
     /// Whether the records tell how large a term is: its amount is not zero, and at no end of where it is looked for.
     pub fn is_sized(&self, tried: &Tried, base: &Fitted) -> bool {
-        let determined = |fitted: &Fitted| is_determined(&self.amounts(tried.term, fitted, base));
-        tried.fitted.as_ref().is_ok_and(determined)
+        tried.fitted.as_ref().is_ok_and(|fitted| self.is_sized_in(tried.term, fitted, base))
+    }
+
+    /// The same in a fit.
+    pub(crate) fn is_sized_in(&self, term: Term, fitted: &Fitted, base: &Fitted) -> bool {
+        is_determined(&self.amounts(term, fitted, base))
     }
 
     /// The effect among those that were tried which the data confirm, if any.

@@ -10,6 +10,7 @@ use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::lsq::Stop;
 use crate::estimation::unknowns::Unknown;
 
+use super::weighing::LATE;
 use super::{Tried, contains, has_no_name, parts};
 
 impl Baseline<'_> {
@@ -39,15 +40,17 @@ impl Baseline<'_> {
     }
 
     /// Unknowns of a fit that are claims about the rig. The usual timing of a channel is not: every fit has it, and with it a delay
-    /// would be a part of a lag.
+    /// would be a part of a lag. One that is late beyond that is a claim, whichever term it comes with.
     fn claims(&self, fitted: &Fitted) -> BTreeSet<Unknown> {
-        self.claimed(&fitted.terms, parts(fitted))
+        self.claimed(&fitted.terms, parts(fitted).into_iter().map(|it| (it, fitted.point.get(it))))
     }
 
-    fn claimed(&self, terms: &[Term], mut changed: BTreeSet<Unknown>) -> BTreeSet<Unknown> {
-        changed.retain(|it| self.usual(*it).is_none());
-        changed.extend(terms.iter().flat_map(|term| self.own_coordinates(*term)).map(|it| it.handle));
-        changed
+    fn claimed(&self, terms: &[Term], changed: impl Iterator<Item = (Unknown, f64)>) -> BTreeSet<Unknown> {
+        let is_claim = |(unknown, value): &(Unknown, f64)| {
+            self.usual(*unknown).is_none_or(|deviation| value.abs() > LATE * deviation)
+        };
+        let own = terms.iter().flat_map(|term| self.own_coordinates(*term)).map(|it| it.handle);
+        changed.filter(is_claim).map(|(unknown, _)| unknown).chain(own).collect()
     }
 
     /// Whether a fit explains the data as well as the best one.
@@ -92,7 +95,9 @@ impl Baseline<'_> {
             let closer = self.closely(base, Ok(fitted.clone()), best);
             let closer_is = || closer.as_ref().is_ok_and(|it| self.as_good(base, close, it));
             let as_good = self.as_good(base, best, fitted) || closer_is();
-            as_good && !self.is_another_law(other.term, closer.as_ref().unwrap_or(fitted))
+            let fitted = closer.as_ref().unwrap_or(fitted);
+            // Where its amount is nothing, what every fit has explains the data, as the usual timing of a channel.
+            as_good && !self.is_another_law(other.term, fitted) && self.is_sized_in(other.term, fitted, base)
         };
         passing.par_iter().filter(rival).map(|it| it.term).collect()
     }
@@ -113,10 +118,12 @@ mod tests {
         let baseline = Baseline::new(&rig, &records, Options::default());
         let [delay, lag] = [Fault::Delay, Fault::Lag].map(|fault| Unknown::Output(0, fault));
         let mass = Unknown::Parameter(0);
-        let with = |term: Unknown, changed: &[Unknown]| {
-            baseline.claimed(&[Term::Fault(term)], changed.iter().copied().collect())
+        let with = |term: Unknown, changed: &[Unknown], late: f64| {
+            baseline.claimed(&[Term::Fault(term)], changed.iter().map(|it| (*it, late)))
         };
-        let (of_lag, of_delay) = (with(lag, &[mass, delay, lag]), with(delay, &[mass, delay]));
+        let (of_lag, of_delay) = (with(lag, &[mass, delay, lag], 1e-5), with(delay, &[mass, delay], 1e-5));
         assert_eq!((of_lag, of_delay), ([mass, lag].into(), [mass, delay].into()));
+        // Late as no channel usually is, it is a delay and something more.
+        assert_eq!(with(lag, &[mass, delay, lag], 9e-3), [mass, lag, delay].into());
     }
 }

@@ -17,7 +17,7 @@ use crate::signal::distortion::Fault;
 use super::has_threshold;
 
 /// Standard deviations of a channel's timing beyond which a signal is late.
-const LATE: f64 = 5.0;
+pub(super) const LATE: f64 = 5.0;
 
 impl Baseline<'_> {
     fn block(&self) -> usize {

@@ -86,7 +86,10 @@ impl Baseline<'_> {
             let Accepted { term, rivals, .. } = &found.accepted[index];
             let stays = |rival: &&Term| {
                 let other = self.in_place_of(found, *term, **rival);
-                other.is_ok_and(|it| self.as_good(&found.base, &found.extended, &it))
+                other.is_ok_and(|it| {
+                    let as_good = self.as_good(&found.base, &found.extended, &it);
+                    as_good && self.is_sized_in(**rival, &it, &found.base)
+                })
             };
             found.accepted[index].rivals = rivals.par_iter().filter(stays).copied().collect();
         }

@@ -72,8 +72,11 @@ impl Baseline<'_> {
                 }
             }
             let found = beside.pull(range).map(|it| {
-                let (within, _) = self.start(term, probe, &it.amounts, &fitted.point);
-                it.held(within)
+                let (possible, _) = self.start(term, probe, &it.amounts, &fitted.point);
+                // A gain is nearly another name for the scale of the parameters, and as large as one likes: of one that is tried, anybody
+                // would take notice.
+                let unnoticed = if is_gain(term) { it.amounts.amax().recip().min(1.0) } else { 1.0 };
+                it.held(possible.min(unnoticed))
             });
             let found = found.filter(|it| it.gain > worth(fitted));
             let most = &mut most[probe.term];
