@@ -46,7 +46,12 @@ mod tests {
     fn record(step: f64, of: &[&dyn Fn(f64) -> f64]) -> Dataset {
         let values = |signal: &&dyn Fn(f64) -> f64| (0..4000).map(|k| signal(f64::from(k) * step)).collect();
         let measured = of.iter().map(|it| Measured { output: 0, values: values(it), noise_floor: 0.0 });
-        Dataset { step, measured: measured.collect(), sections: std::iter::once(0..4000).collect(), ..Dataset::default() }
+        Dataset {
+            step,
+            measured: measured.collect(),
+            sections: std::iter::once(0..4000).collect(),
+            ..Dataset::default()
+        }
     }
 
     #[test]

@@ -12,8 +12,8 @@ const SIGNIFICANT: f64 = 1.5;
 pub struct Moved {
     /// By how much.
     pub change: f64,
-    /// Where it started.
-    pub before: f64,
+    /// What that is compared with: where it started, or of a force that was absent, the forces of the records.
+    pub size: f64,
     /// Half its interval.
     pub half: f64,
     /// Half its interval if nothing that is not in the model could have moved it.
@@ -32,7 +32,7 @@ impl Moved {
 /// Parameters that take most of the error are not right. If none is sure by itself, since effects that are not in the model
 /// could have moved it, the one that moved most beside its noise is named.
 pub fn mismatched(all: &[Moved], left: f64, is_named: bool) -> Vec<bool> {
-    let matters = |it: &Moved| left < 1.0 && it.change > MISMATCH * it.before.abs();
+    let matters = |it: &Moved| left < 1.0 && it.change > MISMATCH * it.size;
     let mut mismatched: Vec<bool> =
         all.iter().map(|it| matters(it) && it.change > SIGNIFICANT * it.half).collect();
     let is_theirs = left < 1.0 - CRITERIA.majority && !is_named && !mismatched.contains(&true);
@@ -47,7 +47,7 @@ pub fn mismatched(all: &[Moved], left: f64, is_named: bool) -> Vec<bool> {
 mod tests {
     use super::*;
 
-    const SURE: Moved = Moved { change: 0.3, before: 1.0, half: 0.1, half_of_noise: 0.05 };
+    const SURE: Moved = Moved { change: 0.3, size: 1.0, half: 0.1, half_of_noise: 0.05 };
     const UNSURE: Moved = Moved { half: 0.25, ..SURE };
 
     #[test]

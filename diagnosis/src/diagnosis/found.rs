@@ -4,7 +4,8 @@ use crate::confirm::{Accepted, Confirmed, Tried};
 use crate::decision::choice::Score;
 use crate::decision::description::error_left;
 use crate::estimation::hypothesis::{Fitted, Term};
-use crate::explain::describe::{MissingSignal, Unmodelled};
+use crate::explain::describe::Unmodelled;
+use crate::explain::signal::MissingSignal;
 
 /// What was found.
 pub struct Found {

@@ -1,5 +1,7 @@
 //! The search: place, law, confirmation, repeated until no error worth reporting remains.
 
+mod worth;
+
 use crate::catalogue::Prevalence;
 use crate::catalogue::naming::prevalence;
 use crate::confirm::{Confirmed, Tried, contains_by_name};
@@ -9,14 +11,14 @@ use crate::decision::description::place_of_rest;
 use crate::estimation::deadline::Stage;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::unknowns::Estimate;
-use crate::explain::describe::{MissingSignal, Unmodelled};
+use crate::explain::describe::Unmodelled;
 use crate::explain::selection::{Compared, MOST_FITTED};
+use crate::explain::signal::{MissingSignal, swings_by_itself};
 use crate::missing::innovations::Noise;
 use crate::missing::locate::Location;
 use crate::missing::motion::outputs;
 use crate::missing::{Frame, Missing};
 use crate::plant::Signals;
-use crate::screening::bent_rms;
 
 use super::Found;
 use super::component::Component;
@@ -134,7 +136,12 @@ impl Baseline<'_> {
                 }
                 // An unfinished search claims nothing.
                 _ if over => false,
-                Next::Curve(score) if self.unmodelled(found, (&missing, &compared), score)? => true,
+                Next::Curve(score)
+                    if !swings_by_itself((&missing, &location, &compared), score)
+                        && self.unmodelled(found, (&missing, &compared), score)? =>
+                {
+                    true
+                }
                 _ => {
                     let rest = self.remainder(found, &missing, &location, &compared);
                     self.place_rest(found, described, rest.or(unrefined));
@@ -188,13 +195,16 @@ impl Baseline<'_> {
         let mut features = compared.features.clone();
         let mut curve = None;
         let left = self.leaves_something(&found.extended.test);
+        // The fits of a model without what was described bend any effect to that: what the comparison does not choose, they cannot.
+        let lacks = found.unmodelled.iter().any(|it| it.curve.is_none());
         for _ in 0..ATTEMPTS {
             let choice = choose(compared.misses, &names, &features);
             let is_last_resort = choice == Choice::Nothing;
             let (scores, least) = match choice {
                 // Beside an effect that the model has only roughly, amounts by innovations may not hold on other data: fits decide.
-                Choice::Nothing if left => (likeliest(&names), 0.0),
+                Choice::Nothing if left && !lacks => (likeliest(&names), 0.0),
                 Choice::Nothing => return Ok(Next::Nothing),
+                Choice::Unmodelled(score) if lacks => return Ok(Next::Curve(score)),
                 Choice::Unmodelled(score) => {
                     curve = Some(score);
                     // A fit shows what a simulation would: features may explain each sample's innovation, and little of that. And it is
@@ -367,30 +377,5 @@ impl Baseline<'_> {
         let improvement = self.improvement(&found.extended, 2.0 * best.gain / compared.left);
         let improvement = improvement * found.left_by_descriptions();
         (improvement >= CRITERIA.improvement).then(|| Unmodelled::remainder(missing, location, best.port))
-    }
-
-    /// Whether the fit of some signal would rise by what is worth reporting if its error were its noise alone.
-    fn is_worth_a_look(&self, fitted: &Fitted) -> bool {
-        let above = |(row, error): (usize, f64)| (error - self.floor[row]) / bent_rms(self.train, row);
-        self.roots(fitted).map(above).any(|it| it >= CRITERIA.improvement)
-    }
-
-    /// Share by which a candidate reduces the squared errors of a simulation, signals in shares of their magnitudes.
-    fn reduction(&self, (missing, compared): (&Missing<'_>, &Compared), score: Score) -> f64 {
-        let magnitudes: Vec<f64> =
-            (0..missing.setting.magnitudes.len()).map(|row| bent_rms(self.train, row)).collect();
-        compared.reduction(score.candidate, missing, &magnitudes, self.rig.segment()).unwrap_or_default()
-    }
-
-    /// By how much the fit of the worst signal would rise without a share of its error's power.
-    fn improvement(&self, fitted: &Fitted, share: f64) -> f64 {
-        let of = |(row, error): (usize, f64)| error / bent_rms(self.train, row);
-        let worst = self.roots(fitted).map(of).fold(0.0, f64::max);
-        worst * (1.0 - (1.0 - share.clamp(0.0, 1.0)).sqrt())
-    }
-
-    /// Root mean square of each signal's error on the estimation records, by its row.
-    fn roots(&self, fitted: &Fitted) -> impl Iterator<Item = (usize, f64)> {
-        self.errors(&fitted.train).roots().into_iter().enumerate()
     }
 }

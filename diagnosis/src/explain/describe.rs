@@ -5,15 +5,15 @@ use crate::decision::choice::Score;
 use crate::estimation::hypothesis::{Baseline, Term};
 use crate::missing::Missing;
 use crate::missing::locate::Location;
-use crate::missing::motion::{Motion, Mover, column, place};
+use crate::missing::motion::{Mover, column, place};
 use crate::missing::ports::{Entry, Port};
-use crate::missing::trajectory::Window;
 use crate::plant::{Plant, Signals};
 use crate::report::words::digits;
 use crate::signal::spectral::{line, periodogram};
 
 use super::features::{AGEING, Group, RESONANCES, features};
 use super::selection::Compared;
+use super::signal::{over_training, signal};
 
 /// Kurtosis beyond which a signal comes in bursts: ten percent of the time hold all of it.
 const BURSTS: f64 = 8.0;
@@ -21,8 +21,6 @@ const BURSTS: f64 = 8.0;
 const ASIDE: f64 = 0.1;
 /// Share of a band's end below which its beginning is not worth a word.
 const SLOW: f64 = 0.02;
-/// Samples of a missing signal that are shown.
-const SHOWN: usize = 1500;
 
 /// Something missing that has no name.
 #[derive(Clone, Debug)]
@@ -116,9 +114,7 @@ impl Unmodelled {
     /// It is described and not explained: nothing predicts it, so that its shares are zero.
     pub fn remainder(missing: &Missing<'_>, location: &Location, port: usize) -> Self {
         let own = &missing.setting.ports[port];
-        let train = missing.windows.iter().filter(|window| window.record < missing.train);
-        let signals: Vec<(f64, Vec<f64>)> =
-            train.map(|window| (window.step, signal(missing, location, port, window).0)).collect();
+        let signals = over_training(missing, |window| signal(missing, location, port, window).0);
         let frequency = line(&signals);
         let in_bursts = frequency.is_none() && kurtosis(&signals) > BURSTS;
         let depends_on = match frequency {
@@ -253,79 +249,6 @@ fn words(group: Group, mover: Mover, (missing, plant): (&Missing<'_>, &Plant)) -
         Group::Other(number) => return vec![format!("column {}", missing.records[0].others[number].name)],
     };
     words.iter().map(|word| (*word).to_owned()).collect()
-}
-
-/// The missing signal at the likeliest place.
-#[derive(Clone, Debug, Default)]
-pub struct MissingSignal {
-    /// Where.
-    pub place: String,
-    /// Its unit.
-    pub unit: &'static str,
-    /// Other places that the records cannot tell from it.
-    pub ties: Vec<String>,
-    /// Every place with the logarithm of its likelihood, less that of nothing missing.
-    pub ranked: Vec<(String, f64)>,
-    /// Time since the record's beginning in seconds.
-    pub time: Vec<f64>,
-    /// The signal.
-    pub value: Vec<f64>,
-    /// Its standard deviation.
-    pub deviation: Vec<f64>,
-    /// Deflection there; empty at a sensor.
-    pub deflection: Vec<f64>,
-    /// Velocity there; empty at a sensor.
-    pub velocity: Vec<f64>,
-}
-
-impl MissingSignal {
-    /// At the likeliest port, on the first estimation record.
-    pub fn of(
-        baseline: &Baseline<'_>,
-        missing: &Missing<'_>,
-        location: &Location,
-        signals: &[Signals],
-    ) -> Self {
-        let ports = &missing.setting.ports;
-        let Some(best) = location.ranked.first() else { return Self::default() };
-        let Some(window) = missing.windows.first() else { return Self::default() };
-        let (value, deviation) = signal(missing, location, best.port, window);
-        let motion = Mover::Element.motions(baseline.rig, (&ports[best.port], &missing.windows), signals);
-        let motion = motion.and_then(|all| all.into_iter().next());
-        let Motion { deflection, velocity } =
-            motion.unwrap_or(Motion { deflection: vec![], velocity: vec![] });
-        let step = window.samples.len().div_ceil(SHOWN).max(1);
-        let thin = |values: Vec<f64>| values.into_iter().step_by(step).collect::<Vec<_>>();
-        let ties = (0..ports.len()).filter(|it| *it != best.port && missing.setting.ties[*it] == best.port);
-        Self {
-            place: ports[best.port].place.clone(),
-            unit: ports[best.port].unit,
-            ties: ties.map(|it| ports[it].place.clone()).collect(),
-            ranked: location.ranked.iter().map(|it| (ports[it.port].place.clone(), it.gain)).collect(),
-            time: thin(
-                (0..window.samples.len()).map(|k| window.step * (window.samples.start + k) as f64).collect(),
-            ),
-            value: thin(value),
-            deviation: thin(deviation),
-            deflection: thin(deflection),
-            velocity: thin(velocity),
-        }
-    }
-}
-
-/// The missing signal at a port over a window, and its standard deviation.
-fn signal(missing: &Missing<'_>, location: &Location, port: usize, window: &Window) -> (Vec<f64>, Vec<f64>) {
-    let mut noise = location.background.clone();
-    let located = location.ranked.iter().find(|it| it.port == port);
-    noise.ports[port] = noise.ports[port].max(located.map_or(0.0, |it| it.deviation));
-    let before = noise.ports[..port].iter().filter(|it| **it > 0.0).count();
-    let place = window.states + before;
-    let moved = vec![0.0; missing.setting.parameters.len()];
-    let smoothed = missing.setting.smoothed(window, &noise, &[], &moved);
-    (
-        smoothed.iter().map(|it| it.x[place]).collect(),
-        smoothed.iter().map(|it| it.variance[place].sqrt()).collect(),
-    )
 }
 
 /// Fourth moment over the squared second: three for noise, much more where a signal comes in bursts.

@@ -5,4 +5,5 @@ pub mod columns;
 pub mod describe;
 pub mod features;
 pub mod selection;
+pub mod signal;
 mod simulated;

@@ -142,7 +142,10 @@ impl Diagnosis<'_> {
             // Of values that the records tell only together, their common factor is the parameter set's matter.
             let common = if is_scaled(&it) { common } else { 1.0 };
             let change = (it.value - before).abs().min((it.value - common * before).abs());
-            Moved { change, before, half: it.half_of_data, half_of_noise: it.half_of_noise }
+            let record = self.baseline.train.first().filter(|_| before == 0.0);
+            let size =
+                record.map_or(before.abs(), |it| it.magnitude(&rig.plant, rig.plant.parameters[index].unit));
+            Moved { change, size, half: it.half_of_data, half_of_noise: it.half_of_noise }
         };
         let moved: Vec<Moved> = nominal.clone().map(moved).collect();
         let is_named = !self.found.accepted.is_empty() || !list.is_empty();

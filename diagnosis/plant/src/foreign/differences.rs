@@ -123,9 +123,12 @@ impl Differences {
                     let input = |i: usize, share: f64| changed.input(drive, i, sample, share);
                     let given = steps.and_then(|it| it.get(sample)).copied().unwrap_or(1);
                     let steps = match &mut pace {
-                        Some(pace) => {
-                            walk.advance_at(pace, (sample, drive, &input), (&mut state, &rates, &outputs), true)
-                        }
+                        Some(pace) => walk.advance_at(
+                            pace,
+                            (sample, drive, &input),
+                            (&mut state, &rates, &outputs),
+                            true,
+                        ),
                         None => {
                             let way = Way { sample, steps: given, drive, input: &input };
                             walk.advance(&way, &mut state, &rates, true, None);

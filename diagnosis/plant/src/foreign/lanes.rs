@@ -99,7 +99,13 @@ impl<'a> Lanes<'a> {
             let input = |i: usize, share: f64| lane.changed.input(drive, i, sample, share);
             // Lanes that share a walk share its events, which are those of the model as it is at the samples.
             if let Some(steps) = made {
-                walk.advance(&Way { sample, steps, drive, input: &input }, &mut lane.next, &lane.rates, false, None);
+                walk.advance(
+                    &Way { sample, steps, drive, input: &input },
+                    &mut lane.next,
+                    &lane.rates,
+                    false,
+                    None,
+                );
             } else {
                 let from = (&mut lane.next[..], &lane.rates[..], &lane.outputs[..]);
                 made = Some(walk.advance_at(pace, (sample, drive, &input), from, false));

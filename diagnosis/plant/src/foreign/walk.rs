@@ -299,7 +299,8 @@ impl<'a> Walk<'a> {
         let finite = jacobian.iter().all(|it| it.is_finite());
         let eigenvalues = (finite && states > 0).then(|| jacobian.complex_eigenvalues());
         let fastest = eigenvalues.map_or(0.0, |all| all.iter().map(|it| it.norm()).fold(0.0, f64::max));
-        let steps = |rate: f64| (drive.step * rate.max(1.0 / LONGEST_STEP)).ceil().clamp(1.0, MOST_STEPS) as usize;
+        let steps =
+            |rate: f64| (drive.step * rate.max(1.0 / LONGEST_STEP)).ceil().clamp(1.0, MOST_STEPS) as usize;
         let tight = steps(fastest / ACCURATE);
         Pace::between(if self.has_events() { tight } else { steps(0.0) }, tight, states)
     }

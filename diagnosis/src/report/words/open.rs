@@ -49,8 +49,7 @@ pub fn small_rest(findings: &Findings) -> Option<OpenSignal> {
         return None;
     }
     let all = findings.account.iter().map(|it| unexplained(findings, it));
-    let limits =
-        [(CRITERIA.improvement, CRITERIA.above_noise), (CRITERIA.visible, CRITERIA.certain)];
+    let limits = [(CRITERIA.improvement, CRITERIA.above_noise), (CRITERIA.visible, CRITERIA.certain)];
     let shown = all.filter(|it| limits.iter().any(|(share, noise)| it.share > *share && it.noise > *noise));
     shown.max_by(|a, b| a.share.total_cmp(&b.share))
 }
