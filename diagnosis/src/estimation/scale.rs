@@ -19,10 +19,15 @@ const KEPT: f64 = 1e-6;
 
 impl Baseline<'_> {
     /// Nominal parameters with a dimension of mass, by their indices, with its exponent.
-    fn scaled(&self) -> Vec<(usize, i32)> {
+    fn with_mass(&self) -> impl Iterator<Item = (usize, i32)> {
         let exponent = |index: usize| i32::from(self.rig.plant.parameters[index].unit.base.kg);
-        let all = self.rig.base().into_iter().map(|index| (index, exponent(index)));
-        all.filter(|(index, exponent)| *exponent != 0 && self.rig.parameters[*index] != 0.0).collect()
+        let all = self.rig.base().into_iter().map(move |index| (index, exponent(index)));
+        all.filter(|(_, exponent)| *exponent != 0)
+    }
+
+    /// Those that the parameter set has: a value of zero is one at any scale.
+    fn scaled(&self) -> Vec<(usize, i32)> {
+        self.with_mass().filter(|(index, _)| self.rig.parameters[*index] != 0.0).collect()
     }
 
     /// Whether a parameter keeps its value, so that others are relative to it.
@@ -50,7 +55,7 @@ impl Baseline<'_> {
     pub(crate) fn hold_scale(&mut self, fitted: &Fitted) -> Option<Estimate> {
         let scaled = self.scaled();
         let is_known = |(index, _): &(usize, i32)| self.known.iter().any(|(known, _, _)| known == index);
-        let is_determined = || self.information(fitted, &scaled) * TOLERANCE.powi(2) >= 1.0;
+        let is_determined = || self.information(fitted) * TOLERANCE.powi(2) >= 1.0;
         if scaled.iter().any(is_known) || self.records_a_force() || is_determined() {
             return None;
         }
@@ -65,7 +70,8 @@ impl Baseline<'_> {
         }
         let mut point = fitted.point.clone();
         let sheet_factor = (value / self.sheet[held]).powf(f64::from(exponent).recip());
-        for (index, exponent) in scaled {
+        // A stiffness that the parameter set lacks and the fit has is at the same scale.
+        for (index, exponent) in self.with_mass().collect::<Vec<_>>() {
             point.parameters[index] *= factor.powi(exponent);
             self.sheet[index] *= sheet_factor.powi(exponent);
         }
@@ -86,7 +92,8 @@ impl Baseline<'_> {
     }
 
     /// Information of the data on the logarithm of the common scale: the inverse of its variance.
-    fn information(&self, fitted: &Fitted, scaled: &[(usize, i32)]) -> f64 {
+    fn information(&self, fitted: &Fitted) -> f64 {
+        let scaled: Vec<(usize, i32)> = self.with_mass().collect();
         let slope = |coordinate: &FreeParameter| {
             let own = scaled.iter().find(|(index, _)| coordinate.handle == Unknown::Parameter(*index));
             own.map_or(0.0, |(_, exponent)| f64::from(*exponent) * fitted.point.get(coordinate.handle))
