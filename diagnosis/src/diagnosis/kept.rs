@@ -11,7 +11,7 @@ use crate::estimation::fit::Residuals;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::intervals::Interval;
 use crate::estimation::lsq::Stop;
-use crate::estimation::unknowns::{Estimate, Unknown};
+use crate::estimation::unknowns::{Estimate, FreeParameter, Unknown};
 use crate::signal::distortion::Fault;
 
 use super::{Found, phi};
@@ -27,8 +27,17 @@ impl Baseline<'_> {
             let half = if handle.fault() == Some(Fault::Gain) { it.half } else { it.half_of_data };
             Some(Amount { value, bounds: (f64::NEG_INFINITY, f64::INFINITY), half })
         };
+        // No single amount says how much of a curve there is, and any other shape pulls at it: it is there if one of its points is beyond
+        // its noise and what the records disagree on.
+        let point = |it: FreeParameter| {
+            let own = intervals.iter().find(|interval| interval.handle == it.handle)?;
+            Some(Amount { value: own.value, bounds: (f64::NEG_INFINITY, f64::INFINITY), half: own.half_of_noise })
+        };
         found.accepted.iter().rposition(|it| {
-            let amounts: Vec<Amount> = self.sizes(it.term).into_iter().filter_map(amount).collect();
+            let amounts: Vec<Amount> = match it.term {
+                Term::Table(_) => self.own_coordinates(it.term).into_iter().filter_map(point).collect(),
+                term => self.sizes(term).into_iter().filter_map(amount).collect(),
+            };
             !is_determined(&amounts) || self.is_in_time(it.term, &found.extended)
         })
     }
