@@ -102,3 +102,34 @@ fn what_swings_freely_has_a_spring() {
     assert!((stiffness / mass / (RATE.powi(2) + DECAY.powi(2)) - 1.0).abs() < 5e-3, "{stiffness} {mass}");
     assert!((damping / mass / (2.0 * DECAY) - 1.0).abs() < 0.1, "{damping} {mass}");
 }
+
+/// Longer than a pole of any linear motor: a wheel with few teeth. Its curve over the position has more turns than free features have.
+#[test]
+fn cogging_over_a_long_pitch_is_found() {
+    const STROKES: [(f64, f64); 3] = [(0.16, 0.17), (0.05, 0.41), (0.02, 1.1)];
+    const FORCE: f64 = 14.0;
+    const PITCH: f64 = 0.11;
+    let record = |later: f64, seed: u64| {
+        let mut normal = noise(seed);
+        let mut text = "time [s],motor.force [N],position [m]\n".to_owned();
+        for t in (0..5000).map(|k| f64::from(k) / 250.0) {
+            let sum = |of: fn(f64, f64) -> f64| -> f64 {
+                STROKES.map(|(size, hertz)| size * of(TAU * hertz, TAU * hertz * (t + later))).iter().sum()
+            };
+            let (x, v, a) = (sum(|_, p| p.sin()), sum(|w, p| w * p.cos()), sum(|w, p| -w * w * p.sin()));
+            let force = MASS * a + DAMPING * v + FORCE * (TAU * x / PITCH + 0.6).sin() + 0.2 * normal();
+            writeln!(text, "{t:.3},{force:.6},{:.8}", x + 1e-6 * normal()).unwrap();
+        }
+        text
+    };
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("train.csv"), record(0.0, 3)).unwrap();
+    fs::write(folder.path().join("test.csv"), record(33.0, 4)).unwrap();
+    let report = diagnosed(folder.path(), "2");
+    let effects = report["effects"].as_array().unwrap();
+    assert_eq!(effects.iter().map(|it| it["id"].as_str().unwrap()).collect::<Vec<_>>(), ["27"]);
+    for (number, truth) in [FORCE, PITCH].into_iter().enumerate() {
+        let value = effects[0]["parameters"][number]["value"].as_f64().unwrap();
+        assert!((value / truth - 1.0).abs() < 0.02, "{value} for {truth}");
+    }
+}

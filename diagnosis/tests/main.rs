@@ -9,6 +9,7 @@ mod drive;
 mod experiment;
 mod finer_motion;
 mod foreign;
+mod hidden_motion;
 mod invariance;
 mod nist;
 mod nist_sets;

@@ -31,7 +31,11 @@ impl Baseline<'_> {
         // its noise and what the records disagree on.
         let point = |it: FreeParameter| {
             let own = intervals.iter().find(|interval| interval.handle == it.handle)?;
-            Some(Amount { value: own.value, bounds: (f64::NEG_INFINITY, f64::INFINITY), half: own.half_of_noise })
+            Some(Amount {
+                value: own.value,
+                bounds: (f64::NEG_INFINITY, f64::INFINITY),
+                half: own.half_of_noise,
+            })
         };
         found.accepted.iter().rposition(|it| {
             let amounts: Vec<Amount> = match it.term {
