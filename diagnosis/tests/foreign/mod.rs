@@ -145,8 +145,8 @@ fn an_fmu_that_cannot_be_used_by_several_threads_is_used_by_one() {
         return println!("skipped: there is only one processor");
     }
     let Some((folder, rig)) = rig(&["-DALONE"], |text| text) else { return };
-    // A quarter of the records is enough to be run by several threads.
-    let (train, test) = records("none", folder.path(), 5000);
+    // An eighth of the records is enough to be run by several threads.
+    let (train, test) = records("none", folder.path(), 2500);
     let output = diagnosed(&rig, (&train, &test), &folder.path().join("report"));
     let told = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && told.contains("once more with one thread"), "{told}");
