@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use strut_diagnosis::dataset::recorded::{Dataset, Measured, Source};
 use strut_diagnosis::dataset::split::Split;
 use strut_diagnosis::diagnosis::{Options, diagnose};
+use strut_diagnosis::explain::describe::Unmodelled;
 use strut_diagnosis::rig::Rig;
 
 use crate::common::noise;
@@ -102,7 +103,7 @@ fn found(hidden: Hidden, count: usize) -> (usize, Vec<String>) {
     }
     let records = Split::new(&[record(&rig, hidden, count, 1)], vec![record(&rig, hidden, count, 2)]);
     let diagnosis = diagnose(&rig, &records, Options::default(), &|_| ()).unwrap();
-    let described = diagnosis.found.unmodelled.iter().map(|it| it.description()).collect();
+    let described = diagnosis.found.unmodelled.iter().map(Unmodelled::description).collect();
     (diagnosis.found.accepted.len(), described)
 }
 
