@@ -1,6 +1,5 @@
 //! A table of columns as a rig's inputs and outputs: import, conditioning, segments, witnesses.
 
-mod block;
 mod columns;
 pub mod conditioning;
 mod driven;

@@ -126,7 +126,15 @@ pub fn noise_floor(records: &[Dataset], row: usize) -> f64 {
 /// Length of a short stretch of data in seconds, over which no model goes far astray.
 pub const SHORT: f64 = 1.0;
 
+/// Length of the blocks of time over which errors and scores are summed, in seconds: longer than the residuals' memory.
+pub const BLOCK: f64 = 0.5;
+
 impl Dataset {
+    /// Number of samples in such a block.
+    pub fn block(&self) -> usize {
+        ((BLOCK / self.step).round() as usize).max(4)
+    }
+
     /// Number of samples.
     pub fn len(&self) -> usize {
         self.measured.first().map_or(0, |measured| measured.values.len())

@@ -4,8 +4,7 @@ use strut_model::Declaration;
 
 use crate::data::check::DataProblem;
 use crate::data::check::noise_floor;
-use crate::dataset::block::SHORTEST;
-use crate::dataset::recorded::{Dataset, Source};
+use crate::dataset::recorded::{BLOCK, Dataset, Source};
 use crate::diagnosis::root_mean_square;
 use crate::report::words::{self, digits};
 use crate::screening::rms;
@@ -94,12 +93,12 @@ pub fn notes(train: &[Dataset], test: &[Dataset], inputs: &[Declaration]) -> Vec
             continue;
         }
         let seconds = record.sections.iter().map(|it| it.len() as f64 * record.step).sum::<f64>();
-        if seconds < BLOCKS * SHORTEST {
+        if seconds < BLOCKS * BLOCK {
             let text = format!(
-                "only {} s long: errors are compared over blocks of {SHORTEST} s, and fewer than {BLOCKS:.0} of them do not \
+                "only {} s long: errors are compared over blocks of {BLOCK} s, and fewer than {BLOCKS:.0} of them do not \
                  show what is chance. Intervals and p-values are not reliable. Record at least {} s",
                 digits(seconds, 2),
-                digits(BLOCKS * SHORTEST, 1)
+                digits(BLOCKS * BLOCK, 1)
             );
             note(record, "time", text);
         }
