@@ -9,6 +9,15 @@ use serde_json::Value;
 use crate::common::noise;
 use crate::simulated::{DAMPING, FRICTION, MASS, diagnosed, plain};
 
+/// Position, velocity and acceleration at a time in s, from amplitudes in m and frequencies in Hz.
+fn along(sines: [(f64, f64); 3], time: f64) -> [f64; 3] {
+    let of = |(size, hertz): (f64, f64)| {
+        let (rate, phase) = (TAU * hertz, TAU * hertz * time + hertz);
+        [size * phase.sin(), size * rate * phase.cos(), -size * rate * rate * phase.sin()]
+    };
+    sines.map(of).into_iter().fold([0.0; 3], |sum, it| std::array::from_fn(|i| sum[i] + it[i]))
+}
+
 #[test]
 fn friction_is_found_in_a_drive_of_which_nothing_was_known() {
     let report = plain();
@@ -51,12 +60,7 @@ fn what_noise_of_the_motion_makes_of_a_force_is_noise() {
     let mut record = |seconds: f64, later: f64| {
         let mut text = "time [s],motor.force [N],position [m]\n".to_owned();
         for t in (0..(500.0 * seconds) as usize).map(|k| k as f64 / 500.0) {
-            let sum = |of: fn(f64, f64) -> f64| -> f64 {
-                let sine =
-                    |(size, hertz): (f64, f64)| size * of(TAU * hertz, TAU * hertz * (t + later) + hertz);
-                SINES.map(sine).iter().sum()
-            };
-            let (x, v, a) = (sum(|_, p| p.sin()), sum(|w, p| w * p.cos()), sum(|w, p| -w * w * p.sin()));
+            let [x, v, a] = along(SINES, t + later);
             let force = MASS * a + DAMPING * v + 3e-3 * normal();
             writeln!(text, "{t:.3},{force:.6},{:.8}", x + 3e-5 * normal()).unwrap();
         }
@@ -113,10 +117,7 @@ fn cogging_over_a_long_pitch_is_found() {
         let mut normal = noise(seed);
         let mut text = "time [s],motor.force [N],position [m]\n".to_owned();
         for t in (0..5000).map(|k| f64::from(k) / 250.0) {
-            let sum = |of: fn(f64, f64) -> f64| -> f64 {
-                STROKES.map(|(size, hertz)| size * of(TAU * hertz, TAU * hertz * (t + later))).iter().sum()
-            };
-            let (x, v, a) = (sum(|_, p| p.sin()), sum(|w, p| w * p.cos()), sum(|w, p| -w * w * p.sin()));
+            let [x, v, a] = along(STROKES, t + later);
             let force = MASS * a + DAMPING * v + FORCE * (TAU * x / PITCH + 0.6).sin() + 0.2 * normal();
             writeln!(text, "{t:.3},{force:.6},{:.8}", x + 1e-6 * normal()).unwrap();
         }

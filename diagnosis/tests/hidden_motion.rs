@@ -95,7 +95,7 @@ fn record(rig: &Rig, hidden: Hidden, count: usize, seed: u64) -> Dataset {
     }
 }
 
-/// How many effects have a name in records of so many samples, and what is said of the rest.
+/// The number of named effects, and the descriptions of the rest, from records with `count` samples.
 fn found(hidden: Hidden, count: usize) -> (usize, Vec<String>) {
     let mut rig = Rig::published("sprung-mass").unwrap();
     for (name, value) in [("sprung_mass", MASS), ("strut.stiffness", STIFFNESS), ("strut.damping", DAMPING)] {

@@ -111,9 +111,14 @@ impl Pace {
         Self::between(loose, tight, states.len())
     }
 
-    /// From so many steps between samples to so many.
+    /// With the fewest and the most steps between samples.
     pub fn between(loose: usize, tight: usize, states: usize) -> Self {
         Self { loose, tight, steps: tight, scales: vec![f64::MAX; states] }
+    }
+
+    /// Makes the most steps everywhere from now on.
+    pub fn tighten(&mut self) {
+        (self.loose, self.steps) = (self.tight, self.tight);
     }
 
     /// Looks at a state at a sample.

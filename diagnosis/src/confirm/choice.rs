@@ -96,7 +96,7 @@ impl Baseline<'_> {
             let closer_is = || closer.as_ref().is_ok_and(|it| self.as_good(base, close, it));
             let as_good = self.as_good(base, best, fitted) || closer_is();
             let fitted = closer.as_ref().unwrap_or(fitted);
-            // Where its amount is nothing, what every fit has explains the data, as the usual timing of a channel.
+            // If its amount may be zero, something that every fit has explains the data, as the usual timing of a channel.
             as_good && !self.is_another_law(other.term, fitted) && self.is_sized_in(other.term, fitted, base)
         };
         passing.par_iter().filter(rival).map(|it| it.term).collect()
@@ -123,7 +123,7 @@ mod tests {
         };
         let (of_lag, of_delay) = (with(lag, &[mass, delay, lag], 1e-5), with(delay, &[mass, delay], 1e-5));
         assert_eq!((of_lag, of_delay), ([mass, lag].into(), [mass, delay].into()));
-        // Late as no channel usually is, it is a delay and something more.
+        // Beyond the usual timing, it is a delay and something more.
         assert_eq!(with(lag, &[mass, delay, lag], 9e-3), [mass, lag, delay].into());
     }
 }

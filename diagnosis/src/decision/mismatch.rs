@@ -12,7 +12,7 @@ const SIGNIFICANT: f64 = 1.5;
 pub struct Moved {
     /// By how much.
     pub change: f64,
-    /// What that is compared with: where it started, or of a force that was absent, the forces of the records.
+    /// The scale of the change: the start value, or the records' forces for a force that started at zero.
     pub size: f64,
     /// Half its interval.
     pub half: f64,

@@ -27,8 +27,8 @@ impl Baseline<'_> {
             let half = if handle.fault() == Some(Fault::Gain) { it.half } else { it.half_of_data };
             Some(Amount { value, bounds: (f64::NEG_INFINITY, f64::INFINITY), half })
         };
-        // No single amount says how much of a curve there is, and any other shape pulls at it: it is there if one of its points is beyond
-        // its noise and what the records disagree on.
+        // A curve has no single amount, and every similar law pulls at it. One of its points has to exceed its noise and the records'
+        // disagreement.
         let point = |it: FreeParameter| {
             let own = intervals.iter().find(|interval| interval.handle == it.handle)?;
             Some(Amount {

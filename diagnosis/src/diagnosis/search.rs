@@ -195,7 +195,7 @@ impl Baseline<'_> {
         let mut features = compared.features.clone();
         let mut curve = None;
         let left = self.leaves_something(&found.extended.test);
-        // The fits of a model without what was described bend any effect to that: what the comparison does not choose, they cannot.
+        // A model without a described signal bends every fitted effect to it. Then only the comparison chooses effects.
         let lacks = found.unmodelled.iter().any(|it| it.curve.is_none());
         for _ in 0..ATTEMPTS {
             let choice = choose(compared.misses, &names, &features);

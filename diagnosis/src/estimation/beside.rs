@@ -73,8 +73,8 @@ impl Baseline<'_> {
             }
             let found = beside.pull(range).map(|it| {
                 let (possible, _) = self.start(term, probe, &it.amounts, &fitted.point);
-                // A gain is nearly another name for the scale of the parameters, and as large as one likes: of one that is tried, anybody
-                // would take notice.
+                // A gain is nearly another name for the common scale of the parameters, so that the data hardly limit it. A larger one
+                // than the probe would have been noticed.
                 let unnoticed = if is_gain(term) { it.amounts.amax().recip().min(1.0) } else { 1.0 };
                 it.held(possible.min(unnoticed))
             });

@@ -75,8 +75,8 @@ impl MissingSignal {
     }
 }
 
-/// Whether what features with a memory explain swings by itself: at its likeliest place it is a line, and no input has one there, or one
-/// that it is a multiple of. A filter follows any line, by the motion that the line itself makes.
+/// Whether a missing signal that features with a memory explain is periodic by itself: a line at its likeliest place, and no multiple of
+/// an input's line. A filter follows any line, by the motion that the line itself makes.
 pub fn swings_by_itself(
     (missing, location, compared): (&Missing<'_>, &Location, &Compared),
     score: Score,

@@ -121,7 +121,6 @@ impl Differences {
                 }
                 if sample + 1 < drive.len() {
                     let input = |i: usize, share: f64| changed.input(drive, i, sample, share);
-                    let given = steps.and_then(|it| it.get(sample)).copied().unwrap_or(1);
                     let steps = match &mut pace {
                         Some(pace) => walk.advance_at(
                             pace,
@@ -130,9 +129,10 @@ impl Differences {
                             true,
                         ),
                         None => {
-                            let way = Way { sample, steps: given, drive, input: &input };
+                            let steps = steps.and_then(|it| it.get(sample)).copied().unwrap_or(1);
+                            let way = Way { sample, steps, drive, input: &input };
                             walk.advance(&way, &mut state, &rates, true, None);
-                            given
+                            steps
                         }
                     };
                     made.push(steps);

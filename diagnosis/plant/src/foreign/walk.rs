@@ -132,7 +132,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Goes from a sample to the next in as many steps as the pace asks for, and the elements' memory; gives their number. Where a step
-    /// was too long, the way is gone once more. Events are handled as by [`Self::advance`].
+    /// was too long, all are repeated, unless there may be events. Events are handled as by [`Self::advance`].
     pub fn advance_at(
         &mut self,
         pace: &mut Pace,
@@ -142,6 +142,10 @@ impl<'a> Walk<'a> {
     ) -> usize {
         let mut before = std::mem::take(&mut self.before);
         before.copy_from_slice(state);
+        // An event cannot be undone, so that no step may turn out too long.
+        if self.has_events() {
+            pace.tighten();
+        }
         state.iter().enumerate().for_each(|(index, value)| pace.reach_value(index, *value));
         let (beside, set) = &self.beside;
         let least = beside.steps(set, drive.step, outputs).min(MOST_STEPS as usize);
@@ -278,8 +282,8 @@ impl<'a> Walk<'a> {
         self.session.settle(time, &mut state[..self.own])
     }
 
-    /// The pace between samples: what the fastest mode about a state asks for, at which friction is stiffest, or fewer steps where it
-    /// slides. A step with an event in it is not repeated: then, there are as many everywhere.
+    /// The pace between samples: as many steps as the fastest mode about a state needs, where friction is stiffest, and fewer where it
+    /// slides.
     pub fn pace(&mut self, state: &[f64], drive: &Drive) -> Pace {
         let (states, inputs) = (state.len(), drive.inputs.len());
         let input = |i: usize| drive.inputs[i].first().copied().unwrap_or(0.0);
@@ -301,8 +305,7 @@ impl<'a> Walk<'a> {
         let fastest = eigenvalues.map_or(0.0, |all| all.iter().map(|it| it.norm()).fold(0.0, f64::max));
         let steps =
             |rate: f64| (drive.step * rate.max(1.0 / LONGEST_STEP)).ceil().clamp(1.0, MOST_STEPS) as usize;
-        let tight = steps(fastest / ACCURATE);
-        Pace::between(if self.has_events() { tight } else { steps(0.0) }, tight, states)
+        Pace::between(steps(0.0), steps(fastest / ACCURATE), states)
     }
 }
 

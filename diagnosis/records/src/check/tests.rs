@@ -363,6 +363,8 @@ fn offset_at_rest() {
     let (signal, text, fatal) = only(&record);
     assert_eq!((signal.as_str(), fatal), ("y", false));
     assert!(text.starts_with("shows 7.") && text.contains("at rest until 1.199 s"), "{text}");
+    record.channels[1].unit = "Pa".into();
+    assert_eq!(check(&record).problems, []);
     assert_eq!(standstill(&clean(1, 0.01)), None);
 }
 

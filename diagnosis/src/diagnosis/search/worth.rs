@@ -8,7 +8,7 @@ use crate::missing::Missing;
 use crate::screening::bent_rms;
 
 impl Baseline<'_> {
-    /// Whether the fit of some signal would rise by what is worth reporting if its error were its noise alone.
+    /// Whether the fit of some signal would rise visibly if its error were its noise alone.
     pub(super) fn is_worth_a_look(&self, fitted: &Fitted) -> bool {
         let above = |(row, error): (usize, f64)| (error - self.floor[row]) / bent_rms(self.train, row);
         self.roots(fitted).map(above).any(|it| it >= CRITERIA.improvement)
