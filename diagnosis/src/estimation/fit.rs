@@ -284,12 +284,13 @@ impl Problem for Fit<'_> {
             moved.set(coordinate.handle, *value);
         }
         for (start, elimination) in moved.starts.iter_mut().zip(&trace.sections) {
-            let change = &elimination.constant + &elimination.linear * &step;
-            for (state, change) in self.states.iter().zip(change.iter()) {
-                start[*state] -= change;
-            }
+            *start = self.gone(start, &(&elimination.constant + &elimination.linear * &step));
         }
         moved
+    }
+
+    fn held_back(&self, point: &Estimate, trace: &Trace) -> Option<Trace> {
+        Some(self.held_back(point, trace))
     }
 
     fn bounds(&self) -> &[(f64, f64)] {

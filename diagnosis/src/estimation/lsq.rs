@@ -35,6 +35,10 @@ pub trait Problem {
         trace: &Self::Trace,
         coordinates: &DVector<f64>,
     ) -> Self::Estimate;
+    /// What linearising left behind, where it leads no way uphill on its own; asked for once a step was not downhill.
+    fn held_back(&self, _: &Self::Estimate, _: &Self::Trace) -> Option<Self::Trace> {
+        None
+    }
     /// Bounds of each coordinate.
     fn bounds(&self) -> &[(f64, f64)];
 }
@@ -109,6 +113,7 @@ impl<'p, P: Problem> Descent<'p, P> {
     fn go_on(&mut self, stop: Stop) {
         let Self { problem, at, scale, lambda, has_ended } = self;
         let mut free = vec![true; problem.bounds().len()];
+        let mut is_held_back = false;
         while !*has_ended && at.iterations < stop.iterations {
             let here = problem.coordinates(&at.point);
             let candidate = clamped_step(&at.linear, *lambda, scale, &here, problem.bounds(), &free);
@@ -132,6 +137,10 @@ impl<'p, P: Problem> Descent<'p, P> {
             if !(cost.is_finite() && fall > 0.0) {
                 *lambda = (*lambda * 4.0).max(1e-12);
                 *has_ended = *lambda > 1e14;
+                if !is_held_back && let Some(trace) = problem.held_back(&at.point, &at.trace) {
+                    at.trace = trace;
+                }
+                is_held_back = true;
                 continue;
             }
             let quality = fall / expected.max(f64::MIN_POSITIVE);
@@ -139,6 +148,7 @@ impl<'p, P: Problem> Descent<'p, P> {
             *lambda *= (1.0 - (2.0 * quality - 1.0).powi(3)).clamp(1.0 / 9.0, 2.0);
             *lambda = lambda.max(1e-16);
             free.fill(true);
+            is_held_back = false;
             let is_small = fall <= stop.cost * at.cost;
             let (linear, trace) = problem.linearise(&trial);
             *at = Minimum { point: trial, cost, linear, trace, iterations: at.iterations + 1 };
@@ -272,6 +282,44 @@ mod tests {
         // Together with the steps of the race, no way is longer than that of the lowest alone.
         let alone = starts().nth(1).map(|it| minimise(&problem, it, careful).iterations);
         assert_eq!(Some(found.iterations), alone);
+    }
+
+    /// A distance from one, beside something hidden whose own way, as it is linearised, leads uphill.
+    struct Misled;
+
+    impl Problem for Misled {
+        type Estimate = [f64; 2];
+        type Trace = f64;
+
+        fn cost(&self, [x, hidden]: &[f64; 2]) -> f64 {
+            0.5 * (x - 1.0).powi(2) + 100.0 * hidden.abs()
+        }
+
+        fn linearise(&self, [x, _]: &[f64; 2]) -> (Linear, f64) {
+            (Linear::by_cholesky(&DMatrix::identity(1, 1), &DVector::from_element(1, x - 1.0)), 5.0)
+        }
+
+        fn coordinates(&self, [x, _]: &[f64; 2]) -> DVector<f64> {
+            DVector::from_element(1, *x)
+        }
+
+        fn moved(&self, [_, hidden]: &[f64; 2], own: &f64, x: &DVector<f64>) -> [f64; 2] {
+            [x[0], hidden + own]
+        }
+
+        fn held_back(&self, _: &[f64; 2], _: &f64) -> Option<f64> {
+            Some(0.0)
+        }
+
+        fn bounds(&self) -> &[(f64, f64)] {
+            &[(-10.0, 10.0)]
+        }
+    }
+
+    #[test]
+    fn what_leads_uphill_on_its_own_does_not_keep_the_coordinates_where_they_are() {
+        let found = minimise(&Misled, [-3.0, 0.0], Stop::EXACT);
+        assert!((found.point[0] - 1.0).abs() < 1e-6 && found.point[1] == 0.0, "{:?}", found.point);
     }
 
     #[test]

@@ -22,14 +22,14 @@ pub(super) struct Elimination {
     pub(super) constant: DVector<f64>,
     /// `C⁻¹ Bᵀ`
     pub(super) linear: DMatrix<f64>,
-    /// By how much the cost falls where they follow.
+    /// Half the weighted sum of squares of the section where they are.
+    pub(super) cost: f64,
+    /// By how much it falls where they follow.
     pub(super) fall: f64,
 }
 
 /// The normal equations of a section.
 pub(super) struct Section {
-    /// Half the weighted sum of squares.
-    pub(super) cost: f64,
     pub(super) h: DMatrix<f64>,
     pub(super) g: DVector<f64>,
     pub(super) scores: Vec<DVector<f64>>,
@@ -192,11 +192,10 @@ fn eliminate(cost: f64, h: &DMatrix<f64>, scores: &[DVector<f64>], ridge: &[f64]
     let fall = 0.5 * constant.dot(&g.rows(0, states));
     let reduce = |whole: &DVector<f64>| whole.rows(states, n) - linear.transpose() * whole.rows(0, states);
     Section {
-        cost,
         h: h.view((states, states), (n, n)) - &b * &linear,
         g: reduce(&g),
         scores: scores.iter().map(reduce).collect(),
-        elimination: Elimination { constant, linear, fall },
+        elimination: Elimination { constant, linear, cost, fall },
     }
 }
 

@@ -2,13 +2,14 @@
 
 use std::ops::Range;
 
+use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::dataset::recorded::Dataset;
 use crate::estimation::unknowns::Estimate;
 
-use super::Fit;
-use super::normal::Section;
+use super::normal::{Elimination, Section};
+use super::{Fit, Trace};
 
 /// Steps at most.
 const STEPS: usize = 6;
@@ -38,24 +39,66 @@ impl Fit<'_> {
         section: &Range<usize>,
     ) -> Vec<f64> {
         for _ in 0..STEPS {
-            let Section { cost, elimination, .. } = self.section(point, &start, record, section, (&[], &[]));
-            if elimination.fall < SETTLED * cost {
+            let Section { elimination, .. } = self.section(point, &start, record, section, (&[], &[]));
+            if elimination.is_settled() {
                 break;
             }
-            let step = elimination.constant;
-            let tried = (0..=HALVINGS).map(|halvings| {
-                let mut moved = start.clone();
-                for (state, change) in self.states.iter().zip(step.iter()) {
-                    moved[*state] -= change * 0.5_f64.powi(halvings);
-                }
-                (self.section_cost(point, &moved, record, section), moved)
-            });
-            let Some((better, moved)) = tried.into_iter().find(|(better, _)| *better < cost) else { break };
-            start = moved;
-            if cost - better < SETTLED * cost {
+            let Some((cost, share)) = self.downhill(point, &start, (record, section), &elimination) else {
+                break;
+            };
+            start = self.gone(&start, &(share * &elimination.constant));
+            if elimination.cost - cost < SETTLED * elimination.cost {
                 break;
             }
         }
         start
+    }
+
+    /// The cost of a section after its own step, and the share of the step that leads there; none if it leads uphill.
+    fn downhill(
+        &self,
+        point: &Estimate,
+        start: &[f64],
+        (record, section): (&Dataset, &Range<usize>),
+        elimination: &Elimination,
+    ) -> Option<(f64, f64)> {
+        let shares = (0..=HALVINGS).map(|halvings| 0.5_f64.powi(halvings));
+        let tried = shares.map(|share| {
+            let gone = self.gone(start, &(share * &elimination.constant));
+            (self.section_cost(point, &gone, record, section), share)
+        });
+        tried.into_iter().find(|(cost, _)| *cost < elimination.cost)
+    }
+
+    /// States at a start after a step of those that are estimated.
+    pub(super) fn gone(&self, start: &[f64], step: &DVector<f64>) -> Vec<f64> {
+        let mut gone = start.to_vec();
+        for (state, change) in self.states.iter().zip(step.iter()) {
+            gone[*state] -= change;
+        }
+        gone
+    }
+
+    /// Each section's own step as far as it leads downhill. Where a body sticks, its start hardly shows: there the linearisation may
+    /// lead anywhere, and with it every step of the coordinates.
+    pub(super) fn held_back(&self, point: &Estimate, trace: &Trace) -> Trace {
+        let sections = self.sections().into_par_iter().zip(&trace.sections);
+        let held = sections.map(|((index, record, section), it)| {
+            let share = if it.is_settled() {
+                None
+            } else {
+                self.downhill(point, &point.starts[index], (record, section), it)
+            };
+            let share = share.map_or(0.0, |(_, share)| share);
+            Elimination { constant: share * &it.constant, ..it.clone() }
+        });
+        Trace { sections: held.collect(), scores: trace.scores.clone() }
+    }
+}
+
+impl Elimination {
+    /// Whether the states are where they fit best.
+    fn is_settled(&self) -> bool {
+        self.fall < SETTLED * self.cost
     }
 }
