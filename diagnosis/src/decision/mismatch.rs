@@ -43,9 +43,41 @@ pub fn mismatched(all: &[Moved], left: f64, is_named: bool) -> Vec<bool> {
     mismatched
 }
 
+/// The factor that each of some parameters may have in common with the others, from the ratio of each to its starting value and half the
+/// interval of that; none for a parameter that has its own value. One without others shares nothing.
+pub fn common_factors(ratios: &[Option<(f64, f64)>]) -> Vec<f64> {
+    let of_others = |index: usize| {
+        let others = ratios.iter().enumerate().filter(|(other, _)| *other != index);
+        common_factor(others.filter_map(|(_, ratio)| *ratio))
+    };
+    ratios.iter().enumerate().map(|(index, it)| it.map_or(1.0, |_| of_others(index))).collect()
+}
+
+/// The mean of the logarithms, each by how well the records tell it.
+fn common_factor(ratios: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let told = ratios.filter(|(ratio, half)| *ratio > 0.0 && *half > 0.0 && half.is_finite());
+    let (sum, weights) = told.fold((0.0, 0.0), |(sum, weights), (ratio, half)| {
+        let weight = (ratio / half).powi(2);
+        (sum + weight * ratio.ln(), weights + weight)
+    });
+    if weights > 0.0 { (sum / weights).exp() } else { 1.0 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_common_factor_is_that_of_the_others_that_are_told_best() {
+        let [sure, vague] = [Some((1.05, 0.001)), Some((0.7, 0.5))];
+        let absurd = [Some((f64::NAN, 0.1)), Some((1.2, f64::INFINITY))];
+        let found = common_factors(&[sure, sure, vague, None, absurd[0], absurd[1]]);
+        let wanted = [1.05, 1.05, 1.05, 1.0, 1.05, 1.05];
+        assert!(found.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-4), "{found:?}");
+        // What one alone says is its own.
+        assert_eq!(common_factors(&[Some((1.8, 0.1)), None]), [1.0, 1.0]);
+        assert_eq!(common_factors(&[]), Vec::<f64>::new());
+    }
 
     const SURE: Moved = Moved { change: 0.3, size: 1.0, half: 0.1, half_of_noise: 0.05 };
     const UNSURE: Moved = Moved { half: 0.25, ..SURE };

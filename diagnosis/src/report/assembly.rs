@@ -19,7 +19,7 @@ use crate::dataset::recorded::{Dataset, noise_floor};
 use crate::dataset::witness::same_excitation;
 use crate::decision::choice::Score;
 use crate::decision::evidence::Evidence;
-use crate::decision::mismatch::{MISMATCH, Moved, mismatched};
+use crate::decision::mismatch::{MISMATCH, Moved, common_factors, mismatched};
 use crate::decision::verdict::{Facts, verdict};
 use crate::diagnosis::{Diagnosis, phi, root_mean_square};
 use crate::estimation::coordinates::SURE;
@@ -127,27 +127,25 @@ impl Diagnosis<'_> {
             })
             .collect();
         let base = rig.base();
-        let is_scaled = |it: &&Interval| self.baseline.is_scaled(it.handle);
-        let common = common_factor(self.intervals.iter().filter(is_scaled).filter_map(|it| {
-            let Unknown::Parameter(index) = it.handle else { return None };
-            let ratio = || (it.value / rig.parameters[index], it.half_of_data / rig.parameters[index]);
-            (!self.baseline.is_yardstick(it.handle)).then(ratio)
-        }));
         let nominal = self.intervals.iter().filter_map(|it| match it.handle {
             Unknown::Parameter(index) if base.contains(&index) => Some((index, it)),
             _ => None,
         });
-        let moved = |(index, it): (usize, &Interval)| {
+        let ratio = |(index, it): (usize, &Interval)| {
+            let is_free = self.baseline.is_scaled(it.handle) && !self.baseline.is_yardstick(it.handle);
+            is_free.then(|| (it.value / rig.parameters[index], it.half_of_data / rig.parameters[index]))
+        };
+        let ratios: Vec<Option<(f64, f64)>> = nominal.clone().map(ratio).collect();
+        // Of values that the records tell only together, their common factor is the parameter set's matter.
+        let moved = |((index, it), common): ((usize, &Interval), f64)| {
             let before = rig.parameters[index];
-            // Of values that the records tell only together, their common factor is the parameter set's matter.
-            let common = if is_scaled(&it) { common } else { 1.0 };
             let change = (it.value - before).abs().min((it.value - common * before).abs());
             let record = self.baseline.train.first().filter(|_| before == 0.0);
             let size =
                 record.map_or(before.abs(), |it| it.magnitude(&rig.plant, rig.plant.parameters[index].unit));
             Moved { change, size, half: it.half_of_data, half_of_noise: it.half_of_noise }
         };
-        let moved: Vec<Moved> = nominal.clone().map(moved).collect();
+        let moved: Vec<Moved> = nominal.clone().zip(common_factors(&ratios)).map(moved).collect();
         let is_named = !self.found.accepted.is_empty() || !list.is_empty();
         for ((index, interval), mismatch) in nominal.zip(mismatched(&moved, left, is_named)) {
             let (before, after, declared) =
@@ -350,17 +348,6 @@ impl Diagnosis<'_> {
     }
 }
 
-/// The factor that parameters have in common, from each one's ratio to its starting value and half the interval of that: the mean of
-/// the logarithms, each by how well the records tell it.
-fn common_factor(ratios: impl Iterator<Item = (f64, f64)>) -> f64 {
-    let told = ratios.filter(|(ratio, half)| *ratio > 0.0 && *half > 0.0 && half.is_finite());
-    let (sum, weights) = told.fold((0.0, 0.0), |(sum, weights), (ratio, half)| {
-        let weight = (ratio / half).powi(2);
-        (sum + weight * ratio.ln(), weights + weight)
-    });
-    if weights > 0.0 { (sum / weights).exp() } else { 1.0 }
-}
-
 /// Root mean square of the difference of the first two records with the same excitation, over √2: no model can do
 /// better than a repetition does.
 fn repeatability(records: &[Dataset], row: usize) -> Option<f64> {
@@ -372,16 +359,4 @@ fn repeatability(records: &[Dataset], row: usize) -> Option<f64> {
     let values = one.measured[row].values.iter().zip(&two.measured[row].values);
     let differences: Vec<f64> = values.map(|(one, two)| one - two).collect();
     Some(root_mean_square(&differences) / 2.0_f64.sqrt())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::common_factor;
-
-    #[test]
-    fn the_common_factor_is_that_of_what_is_told_best() {
-        let ratios = [(1.05, 0.001), (1.05, 0.001), (0.7, 0.5), (f64::NAN, 0.1), (1.2, f64::INFINITY)];
-        assert!((common_factor(ratios.into_iter()) - 1.05).abs() < 1e-4);
-        assert_eq!(common_factor([].into_iter()), 1.0);
-    }
 }

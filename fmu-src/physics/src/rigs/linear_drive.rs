@@ -55,8 +55,8 @@ pub struct Parameters<R> {
 /// A spring between carriage and ground.
 #[derive(Variables, Clone, Copy, Debug, PartialEq)]
 pub struct GroundSpring<R> {
-    /// Rate
-    #[var(unit = N_PER_M, start = 0.0, min = 0.0)]
+    /// Rate (below zero what pushes it further, as a weight above a joint does)
+    #[var(unit = N_PER_M, start = 0.0)]
     pub stiffness: R,
     /// Curvature of its characteristic
     pub progression: Progression<R>,
