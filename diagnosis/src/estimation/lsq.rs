@@ -117,9 +117,8 @@ impl<'p, P: Problem> Descent<'p, P> {
         while !*has_ended && at.iterations < stop.iterations {
             let here = problem.coordinates(&at.point);
             let candidate = clamped_step(&at.linear, *lambda, scale, &here, problem.bounds(), &free);
-            let length = candidate.component_mul(scale).norm();
-            let reach = here.component_mul(scale).norm();
-            if length <= stop.step * (reach + stop.step) {
+            // Not in shares of the coordinates themselves: one that is held as if it were measured exactly would make all steps small.
+            if candidate.component_mul(scale).norm() <= stop.step * (2.0 * at.cost).sqrt() {
                 *has_ended = true;
                 break;
             }
@@ -282,6 +281,43 @@ mod tests {
         // Together with the steps of the race, no way is longer than that of the lowest alone.
         let alone = starts().nth(1).map(|it| minimise(&problem, it, careful).iterations);
         assert_eq!(Some(found.iterations), alone);
+    }
+
+    /// An exponential that is to be three, beside a coordinate that is held where it is.
+    struct Held;
+
+    impl Problem for Held {
+        type Estimate = DVector<f64>;
+        type Trace = ();
+
+        fn cost(&self, point: &DVector<f64>) -> f64 {
+            0.5 * ((point[0].exp() - 3.0).powi(2) + (1e6 * (point[1] - 1.0)).powi(2) + 1.0)
+        }
+
+        fn linearise(&self, point: &DVector<f64>) -> (Linear, ()) {
+            let [slope, held] = [point[0].exp(), 1e6_f64];
+            let h = DMatrix::from_diagonal(&DVector::from_row_slice(&[slope * slope, held * held]));
+            let g = [slope * (slope - 3.0), held * held * (point[1] - 1.0)];
+            (Linear::by_cholesky(&h, &DVector::from_row_slice(&g)), ())
+        }
+
+        fn coordinates(&self, point: &DVector<f64>) -> DVector<f64> {
+            point.clone()
+        }
+
+        fn moved(&self, _: &DVector<f64>, (): &(), coordinates: &DVector<f64>) -> DVector<f64> {
+            coordinates.clone()
+        }
+
+        fn bounds(&self) -> &[(f64, f64)] {
+            &[(-10.0, 10.0), (0.0, 2.0)]
+        }
+    }
+
+    #[test]
+    fn a_coordinate_that_is_held_ends_no_other_s_way() {
+        let found = minimise(&Held, DVector::from_row_slice(&[3.0, 1.0]), Stop::ROUGH);
+        assert!((found.point[0] - 3.0_f64.ln()).abs() < 1e-3, "{}", found.point);
     }
 
     /// A distance from one, beside something hidden whose own way, as it is linearised, leads uphill.

@@ -11,7 +11,7 @@ pub struct Stop {
     pub iterations: usize,
     /// Relative fall of the cost below which it ends.
     pub cost: f64,
-    /// Relative change of the coordinates, in units of their scale, below which it ends.
+    /// Change of the residuals that a step may make, in shares of the residuals, below which it ends.
     pub step: f64,
     /// Cost that has to come in sight: it ends where neither the linearisation has its minimum below, nor as many steps as
     /// are left lead there if each gains as much as the last one.
