@@ -2,7 +2,7 @@
 //!
 //! Each record is compared on its own, over its first seconds. Magnitudes are judged only where the parameters are those of a
 //! data sheet: of a model's start values nobody knows what the rig has. Columns of one motion are compared with each other in
-//! any case, and without a data sheet lengths with what test rigs do.
+//! any case, two of one unit with both of the model's signals, and without a data sheet lengths with what test rigs do.
 
 mod kinematics;
 
@@ -51,15 +51,17 @@ pub fn problems(rig: &Rig, records: &Split, options: &Options) -> Result<Vec<Dat
     let known = |index: usize| rig.stated[index] || given(index);
     let mut nominal = rig.nominal().filter_map(|name| rig.plant.parameter(name));
     // A start value of zero claims no magnitude.
-    if !nominal.all(|index| known(index) || rig.parameters[index] == 0.0) {
-        problems.extend(records_of().flat_map(|it| kinematics::beyond_any_rig(rig, it)));
-        return Ok(problems);
-    }
+    let has_sheet = nominal.all(|index| known(index) || rig.parameters[index] == 0.0);
     let dynamics = rig.plant.prepare(&rig.choices)?;
     for record in records_of() {
         let [whole, part] = [SECONDS, FEWER_SECONDS].map(|seconds| shortened(record, seconds));
         let [whole, part] = [&whole, &part].map(|it| Compared::new(rig, it, records, options, &*dynamics));
-        problems.extend(whole.problems(&part));
+        if has_sheet {
+            problems.extend(whole.problems(&part));
+        } else {
+            problems.extend(kinematics::beyond_any_rig(rig, record));
+            problems.extend(whole.exchanged(&whole.simulated(whole.nominal())));
+        }
     }
     Ok(problems)
 }
