@@ -141,6 +141,21 @@ pub fn handle(handle: Unknown, plant: &Plant) -> (String, String) {
     }
 }
 
+/// What a fault of a signal amounts to where it arises, from the amount in a fit. A fit corrects a measured input: it takes away what its
+/// sensor has done. A lag stays what the fit has, since no filter undoes one.
+pub fn arisen(handle: Unknown, plant: &Plant, amount: f64) -> f64 {
+    match handle {
+        Unknown::Input(index, fault) if Signal::of_input(&plant.inputs[index].name) == Signal::Input => {
+            match fault {
+                Fault::Delay | Fault::Offset | Fault::Drift => -amount,
+                Fault::Gain | Fault::Rate => 1.0 / (1.0 + amount) - 1.0,
+                _ => amount,
+            }
+        }
+        _ => amount,
+    }
+}
+
 fn amount(declared: &Declaration, fault: Fault) -> (String, String) {
     (format!("{}.{}", declared.name, fault.name()), fault.unit(declared.unit.symbol))
 }

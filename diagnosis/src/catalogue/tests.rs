@@ -7,6 +7,7 @@ use std::collections::BTreeSet;
 use super::signals::{Among, DISTORTIONS};
 use super::tables::{TABLES, UNNAMED};
 use super::*;
+use crate::estimation::unknowns::Unknown;
 use crate::rig::Rig;
 use build_fmu::literature::works;
 
@@ -160,6 +161,19 @@ fn what_a_signal_s_name_ends_in_is_a_model_s_signal() {
             assert!(models.iter().any(has), "{end}");
         }
     }
+}
+
+/// A column is late and 10 % too large: what makes it right is early, and 9 % smaller.
+#[test]
+fn a_measured_input_s_fault_is_what_its_sensor_does() {
+    let rig = Rig::published("tum-linear-measured-quarter-car").unwrap();
+    let of = |name: &str, fault: Fault, amount: f64| {
+        naming::arisen(Unknown::Input(rig.plant.input(name).unwrap(), fault), &rig.plant, amount)
+    };
+    assert_eq!(of("road.position", Fault::Delay, -0.02), 0.02);
+    assert!((of("road.position", Fault::Gain, -1.0 / 11.0) - 0.1).abs() < 1e-12);
+    assert_eq!(of("actuator.force", Fault::Delay, 0.02), 0.02);
+    assert_eq!(naming::arisen(Unknown::Output(0, Fault::Delay), &rig.plant, 0.02), 0.02);
 }
 
 #[test]

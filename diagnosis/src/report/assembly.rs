@@ -265,9 +265,13 @@ impl Diagnosis<'_> {
                 Unknown::Input(input, fault) => point.holds(plant, input, fault),
                 _ => None,
             };
-            let shown = |end: f64| held.map_or(end, |held| held.with(point.parameters[held.parameter], end));
+            let shown = |end: f64| match held {
+                Some(held) => held.with(point.parameters[held.parameter], end),
+                None => naming::arisen(it.handle, plant, end),
+            };
             let handle = held.map_or(it.handle, |held| Unknown::Parameter(held.parameter));
             let ((name, unit), [value, low, high]) = (naming::handle(handle, plant), ends.map(shown));
+            let (low, high) = (low.min(high), low.max(high));
             let reached = !unreached.contains(&it.handle);
             let (of_ratio, limit) = (it.of_ratio(), it.limit().map(shown));
             EffectParameter { name, value, unit, low, high, of_ratio, limit, reached }
@@ -293,7 +297,8 @@ impl Diagnosis<'_> {
         let own = self.baseline.own_coordinates(term).into_iter();
         own.map(|it| {
             let (name, unit) = naming::handle(it.handle, &self.baseline.rig.plant);
-            FittedValue { name, value: fitted.point.get(it.handle), unit }
+            let value = naming::arisen(it.handle, &self.baseline.rig.plant, fitted.point.get(it.handle));
+            FittedValue { name, value, unit }
         })
         .collect()
     }
