@@ -6,7 +6,7 @@
 mod channel;
 mod lines;
 
-use super::uniform::{RoundedClock, median_period, rounded_clock, runs};
+use super::uniform::{GAP, MOST_MISSING, RoundedClock, rounded_clock, runs, usual_period};
 use super::{Channel, Record};
 use std::ops::Range;
 
@@ -19,10 +19,6 @@ pub use lines::lines;
 const FEWEST_SAMPLES: usize = 200;
 /// Deviation of an interval from the period, in periods, that is reported as jitter.
 const JITTER: f64 = 0.05;
-/// Length of an interval, in periods, from which it is a gap.
-const GAP: f64 = 1.5;
-/// Share of missing samples from which a record or a signal cannot be used.
-const MOST_MISSING: f64 = 0.1;
 /// Samples of a block, and of all blocks, in which a record has to be at rest to show offsets.
 pub(crate) const REST_BLOCK: usize = 50;
 const SHORTEST_REST: usize = 200;
@@ -58,7 +54,7 @@ pub fn check(record: &Record) -> Checked {
     let mut unusable = vec![Vec::new(); record.channels.len()];
     let rounded = rounded_clock(record);
     if check_time(&record.time, rounded.is_some(), &mut problems) {
-        check_intervals(&record.time, rounded.as_ref(), &mut problems);
+        check_intervals(record, rounded.as_ref(), &mut problems);
         let rest = standstill(record);
         for (i, channel) in record.channels.iter().enumerate() {
             let others = record.channels.iter().enumerate().filter(|&(j, _)| j != i).map(|(_, other)| other);
@@ -129,8 +125,9 @@ fn check_time(time: &[f64], is_rounded: bool, problems: &mut Problems) -> bool {
 }
 
 /// Gaps and jitter.
-fn check_intervals(time: &[f64], rounded: Option<&RoundedClock>, problems: &mut Problems) {
-    let Some(period) = rounded.map(|it| it.period).or_else(|| median_period(time)) else { return };
+fn check_intervals(record: &Record, rounded: Option<&RoundedClock>, problems: &mut Problems) {
+    let Some(period) = rounded.map(|it| it.period).or_else(|| usual_period(record)) else { return };
+    let time = &record.time;
     let length = |sample: usize| match rounded {
         Some(clock) => (clock.places[sample + 1] - clock.places[sample]) as f64,
         None => (time[sample + 1] - time[sample]) / period,
@@ -139,7 +136,7 @@ fn check_intervals(time: &[f64], rounded: Option<&RoundedClock>, problems: &mut 
     let gaps: Vec<_> = intervals().filter(|interval| interval.1 > GAP).collect();
     let lost: f64 = gaps.iter().map(|gap| gap.1.round() - 1.0).sum();
     if let Some(longest) = gaps.iter().max_by(|a, b| a.1.total_cmp(&b.1)) {
-        let share = lost / (lost + time.len() as f64);
+        let share = lost * period / (time[time.len() - 1] - time[0]);
         let fatal = share > MOST_MISSING;
         let places = describe(gaps.iter().map(|gap| format!("{} s", number(gap.0))));
         let text = format!(

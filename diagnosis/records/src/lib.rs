@@ -25,6 +25,7 @@ mod noise;
 mod parquet;
 mod quantity;
 pub mod reading;
+pub mod repair;
 mod spreadsheet;
 pub mod table;
 mod timestamp;
@@ -90,7 +91,7 @@ impl Unread {
 }
 
 /// One measured signal.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Channel {
     /// Its name: the file's, or after mapping the model's.
     pub name: String,

@@ -14,7 +14,7 @@ use std::ops::Range;
 
 use grid::Grid;
 pub use grid::ON_GRID;
-pub(crate) use grid::{RoundedClock, median_period, rounded_clock};
+pub(crate) use grid::{GAP, MOST_MISSING, RoundedClock, median_period, rounded_clock, usual_period};
 
 /// Missing samples in a row that are interpolated.
 pub const BRIDGED: usize = 5;

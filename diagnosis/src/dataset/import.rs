@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::data::check::DataProblem;
 use crate::data::check::{Checked, check, lines, noise_at_rest, noise_floor, rounding, standstill};
 use crate::data::map::{Map, Wanted};
+use crate::data::repair::{leave_out_repeated, remove_absurd, remove_spikes};
 use crate::data::{
     Channel, Origin, Record,
     uniform::{Uniform, uniform},
@@ -49,8 +50,10 @@ pub(super) fn import(rig: &Rig, origin: &Origin, map: &Map, rate: Option<&str>) 
     missing(rig, &mapped.record, &name, &titles(&mapped.unused))?;
     let read = read(&mapped);
     let turned = follow(rig, map, &mut mapped.record);
+    let absurd = remove_absurd(&mut mapped.record);
+    let repeated = leave_out_repeated(&mut mapped.record, &mut mapped.unused);
     let Checked { mut problems, unusable } = check(&mapped.record);
-    problems.extend(turned);
+    problems.extend(turned.into_iter().chain(absurd).chain(repeated));
     problems.extend(doubt(&mapped.record, &read));
     problems.extend(leave_out_copies(&mapped.record, &mut mapped.unused));
     let unused = titles(&mapped.unused);
@@ -66,6 +69,12 @@ pub(super) fn import(rig: &Rig, origin: &Origin, map: &Map, rate: Option<&str>) 
     }
     if problems.iter().any(|problem| problem.fatal) {
         return Ok(Imported { recorded: None, problems, read });
+    }
+    for (channel, wrong) in mapped.record.channels.iter_mut().zip(&unusable) {
+        // What an output shows there is not compared; an input has to drive the model there, too.
+        if rig.plant.input(&channel.name).is_some() {
+            remove_spikes(channel, wrong);
+        }
     }
     let (uniform, resampled) = uniform(&mapped.record).map_err(|error| error.to_string())?;
     problems.extend(resampled);

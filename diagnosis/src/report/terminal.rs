@@ -124,8 +124,8 @@ impl Lines {
                 Some(limit) => format!("{} {limit} {unit}", parameter.name),
                 None => {
                     let text = format!("{} = {value} {unit}", parameter.name);
-                    let ratio = of_ratio(findings, parameter).map(|it| format!("; {it}"));
-                    format!("{} (95 %: {low} … {high}{})", text.trim_end(), ratio.unwrap_or_default())
+                    let ratio = of_ratio(findings, parameter.value, parameter.of_ratio);
+                    within(&text, [low, high], ratio)
                 }
             };
             self.wrapped("  ", text.trim_end());
@@ -184,7 +184,8 @@ impl Lines {
             let [value, low, high] = interval(parameter.after, parameter.low, parameter.high);
             let (before, unit) = (digits(parameter.before, 4), unit(&parameter.unit));
             let text = format!("{}: {before} -> {value} {unit}", parameter.name);
-            self.wrapped("  ", &format!("{} (95 %: {low} … {high})", text.trim_end()));
+            let ratio = of_ratio(findings, parameter.after, parameter.of_ratio);
+            self.wrapped("  ", &within(&text, [low, high], ratio));
         }
         self.more(wrong.len());
     }
@@ -210,6 +211,12 @@ impl Lines {
         }
         self.more(findings.data_problems.len());
     }
+}
+
+/// A value with its interval, and the interval that it has beside what is held.
+fn within(value: &str, [low, high]: [String; 2], ratio: Option<String>) -> String {
+    let ratio = ratio.map_or(String::new(), |it| format!("; {it}"));
+    format!("{} (95 %: {low} … {high}{ratio})", value.trim_end())
 }
 
 fn account_row(findings: &Findings, account: &SignalAccount) -> [String; 8] {

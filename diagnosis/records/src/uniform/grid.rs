@@ -12,6 +12,12 @@ pub const ON_GRID: f64 = 0.05;
 const ROUNDED: f64 = 1.1;
 /// Decimals of seconds that are looked for in printed times: nanoseconds.
 const MOST_DECIMALS: i32 = 9;
+/// Length of an interval, in periods, from which it is a gap.
+pub(crate) const GAP: f64 = 1.5;
+/// Share of missing samples from which a record or a signal cannot be used.
+pub(crate) const MOST_MISSING: f64 = 0.1;
+/// Longest period of a program's loop that is used, in its median.
+const LONGEST_LOOP: u8 = 16;
 /// Last digits in a time, at most, of which a double shows whether their number is whole.
 const MOST_DIGITS: f64 = 1e11;
 
@@ -65,6 +71,7 @@ impl Grid {
                 "the times do not increase from sample to sample: sort the file and remove double rows";
             return Err(DataError::signal(&record.name, "time", text));
         }
+        let period = loop_period(time, period);
         let step = snap(period).unwrap_or(period);
         let length = ((last - first) / step * (1.0 + 1e-12)) as usize + 1;
         Ok(Self { start: first, step, length, places: None, rounded_to: None })
@@ -160,6 +167,29 @@ pub(crate) fn median_period(time: &[f64]) -> Option<f64> {
     let mut steps: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let middle = steps.len() / 2;
     (!steps.is_empty()).then(|| *steps.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
+/// The period of samples that are on no even grid: the median of their differences. A program's loop takes the time that it takes:
+/// where too many samples would be missing at that, it is the least multiple at which they are not.
+fn loop_period(time: &[f64], median: f64) -> f64 {
+    let multiples = (1..=LONGEST_LOOP).map(|number| f64::from(number) * median);
+    multiples.into_iter().find(|period| share_missing(time, *period) <= MOST_MISSING).unwrap_or(median)
+}
+
+/// The period of a record's samples, as [`Grid`] has it; none for fewer than two.
+pub(crate) fn usual_period(record: &Record) -> Option<f64> {
+    Grid::of(record).map(|it| it.step).ok().or_else(|| median_period(&record.time))
+}
+
+/// The share of the samples that are missing at a period.
+pub(crate) fn share_missing(time: &[f64], period: f64) -> f64 {
+    let lost = |pair: &[f64]| match (pair[1] - pair[0]) / period {
+        gap if gap > GAP => gap.round() - 1.0,
+        _ => 0.0,
+    };
+    let lost: f64 = time.windows(2).map(lost).sum();
+    // As many as there would be with them; at a multiple of the period, there are more in the file.
+    lost / ((time[time.len() - 1] - time[0]) / period).max(1.0)
 }
 
 /// Number of the grid point of each sample, counted from gap to gap so that no error of the period adds up.

@@ -108,7 +108,7 @@ fn added(findings: &Findings, effect: &Effect) -> Markup {
                                         td.number { strong { (value) } }
                                         td.number {
                                             (low) " … " (high)
-                                            @if let Some(it) = of_ratio(findings, parameter) { br; (it) }
+                                            @if let Some(it) = of_ratio(findings, parameter.value, parameter.of_ratio) { br; (it) }
                                         }
                                         td.unit { (unit(&parameter.unit)) }
                                     } @else {

@@ -5,7 +5,9 @@ use maud::{Markup, html};
 use crate::data::check::DataProblem;
 use crate::report::findings::{Findings, NominalParameter, RecordRead};
 use crate::report::words::records::read;
-use crate::report::words::{capitalised, count, digits, interval, number, percent, place, reservation, unit};
+use crate::report::words::{
+    capitalised, count, digits, interval, number, of_ratio, percent, place, reservation, unit,
+};
 
 /// Change below which its sign is no matter.
 const UNCHANGED: f64 = 5e-4;
@@ -92,7 +94,10 @@ pub fn nominal_parameters(findings: &Findings) -> Markup {
                         td { code { (parameter.name) } }
                         td.number { (digits(parameter.before, 4)) }
                         td.number { strong { (after) } }
-                        td.number { (low) " … " (high) }
+                        td.number {
+                            (low) " … " (high)
+                            @if let Some(it) = of_ratio(findings, parameter.after, parameter.of_ratio) { br; (it) }
+                        }
                         td.unit { (unit(&parameter.unit)) }
                         td.number { (change(parameter)) }
                         td {

@@ -78,11 +78,11 @@ pub fn sized(effect: &Effect) -> String {
     }
 }
 
-/// How sure an effect's parameter is beside the one that keeps its value: `39.8 … 40.2 if sprung_mass is 90.00 kg`.
-pub fn of_ratio(findings: &Findings, parameter: &EffectParameter) -> Option<String> {
-    let [low, high] = parameter.of_ratio?;
+/// How sure a parameter is beside the one that keeps its value: `39.8 … 40.2 if sprung_mass is 90.00 kg`.
+pub fn of_ratio(findings: &Findings, of: f64, ratio: Option<[f64; 2]>) -> Option<String> {
+    let [low, high] = ratio?;
     let held = findings.nominal_parameters.iter().find(|it| it.is_yardstick)?;
-    let [_, low, high] = interval(parameter.value, low, high);
+    let [_, low, high] = interval(of, low, high);
     Some(format!("{low} … {high} if {} is {}", held.name, value(held.after, &held.unit)))
 }
 
