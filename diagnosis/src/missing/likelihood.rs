@@ -4,6 +4,9 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
+/// Share of their power by which columns differ through rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// Sums over the innovations of a stretch of a record. Candidates are compared and never fitted together, so there are no products
 /// of two candidates' columns.
 #[derive(Clone, Debug)]
@@ -110,6 +113,11 @@ impl Normal {
     /// The best amounts of the first columns behind the record, with the precision that is known of each before; none where columns
     /// do the same.
     pub fn fitted(&self, precisions: &[f64]) -> Option<Amounts> {
+        self.fitted_apart(precisions, ROUNDING)
+    }
+
+    /// The same, columns being one that differ by less than this share of their power.
+    pub fn fitted_apart(&self, precisions: &[f64], alike: f64) -> Option<Amounts> {
         let n = precisions.len();
         let product = |i: usize, j: usize| self.products[(i + 1, j + 1)];
         let size: Vec<f64> = (0..n).map(|it| (product(it, it) + precisions[it]).sqrt()).collect();
@@ -118,7 +126,7 @@ impl Normal {
                 return f64::from(i == j);
             }
             let prior = if i == j { precisions[i] } else { 0.0 };
-            let ridge = if i == j { 1e-9 } else { 0.0 };
+            let ridge = if i == j { alike } else { 0.0 };
             (product(i, j) + prior) / size[i] / size[j] + ridge
         });
         let unscale = |i: usize| if size[i] == 0.0 { 0.0 } else { 1.0 / size[i] };
@@ -151,6 +159,26 @@ impl Normal {
 mod tests {
     use super::*;
     use crate::signal::random::with_noise;
+
+    /// A nuisance and a column that differs from it by a thousandth, in which a record has a little of something else: apart, they are a
+    /// hundred times as large as together.
+    #[test]
+    fn columns_that_are_nearly_one_share_what_they_explain() {
+        let count = 400;
+        let (first, other) = (with_noise(&vec![0.0; count], 1.0, 1), with_noise(&vec![0.0; count], 1.0, 2));
+        let rows: Vec<[f64; 3]> =
+            first.iter().zip(&other).map(|(a, b)| [-3.0 * a - 0.1 * b, *a, a + 1e-3 * b]).collect();
+        let sums = DMatrix::from_fn(3, 3, |i, j| rows.iter().map(|row| row[i] * row[j]).sum());
+        let normal = Normal { products: sums, log_variance: 0.0, count };
+        let apart = normal.fitted(&[0.0; 2]).unwrap();
+        let together = normal.fitted_apart(&[0.0; 2], 1e-4).unwrap();
+        assert!(apart.values.amax() > 90.0, "{}", apart.values);
+        assert!(
+            (together.values.sum() - 3.0).abs() < 0.02 && together.values.amax() < 3.0,
+            "{}",
+            together.values
+        );
+    }
 
     /// A record, a nuisance, and two candidates of one and two columns, seven measurements in two stretches.
     #[test]
