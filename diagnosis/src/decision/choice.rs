@@ -58,9 +58,11 @@ pub fn choose(misses: f64, named: &[Score], features: &[Score]) -> Choice {
     }
 }
 
-/// Names that explain more of the estimation records than background effects do, the best first, whatever the validation records say.
-pub fn likeliest(named: &[Score]) -> Vec<Score> {
-    by_share(named.iter().filter(|it| it.share >= CRITERIA.background_share).copied().collect())
+/// Names that explain more of the estimation records than background effects do, the best first, whatever the validation records say;
+/// `promised` is the share of a simulation's errors that one may take, which counts as well.
+pub fn likeliest(named: &[Score], promised: impl Fn(&Score) -> f64) -> Vec<Score> {
+    let larger = |it: &Score| Score { share: it.share.max(promised(it)), ..*it };
+    by_share(named.iter().map(larger).filter(|it| it.share >= CRITERIA.background_share).collect())
 }
 
 /// The one that explains most, of those that the validation records show, too.
@@ -124,7 +126,10 @@ pub(crate) mod tests {
     #[test]
     fn the_likeliest_names_need_not_hold_on_other_data() {
         let named = [score(0, 0.05, -0.2), score(1, 0.03, 0.9), score(2, 0.3, -4.0)];
-        assert_eq!(likeliest(&named), [named[2], named[0]]);
+        assert_eq!(likeliest(&named, |_| 0.0), [named[2], named[0]]);
+        // What a simulation promises counts where innovations show nothing.
+        let promised = likeliest(&named, |it| if it.candidate == named[1].candidate { 0.9 } else { 0.0 });
+        assert!(promised.len() == 3 && promised[0].candidate == named[1].candidate, "{promised:?}");
     }
 
     #[test]

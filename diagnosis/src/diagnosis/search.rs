@@ -66,6 +66,7 @@ impl Baseline<'_> {
         }
         let tried = self.tried_out(&base)?;
         (self.looks, self.shapes) = (tried.looks(&base), self.best_shapes(&base, &tried));
+        self.promised = self.promised(&base, &tried);
         Ok(base)
     }
 
@@ -197,12 +198,19 @@ impl Baseline<'_> {
         let left = self.leaves_something(&found.extended.test);
         // A model without a described signal bends every fitted effect to it. Then only the comparison chooses effects.
         let lacks = found.unmodelled.iter().any(|it| it.curve.is_none());
+        // Of the starting model alone it is known what its simulation asks for.
+        let is_first = found.extended.terms.is_empty();
+        let promised = |score: &Score| {
+            let term = compared.term(score).filter(|_| is_first);
+            let found = self.promised.iter().find(|(of, _)| Some(*of) == term);
+            found.map_or(0.0, |(_, share)| *share)
+        };
         for _ in 0..ATTEMPTS {
             let choice = choose(compared.misses, &names, &features);
             let is_last_resort = choice == Choice::Nothing;
             let (scores, least) = match choice {
                 // Beside an effect that the model has only roughly, amounts by innovations may not hold on other data: fits decide.
-                Choice::Nothing if left && !lacks => (likeliest(&names), 0.0),
+                Choice::Nothing if left && !lacks => (likeliest(&names, promised), 0.0),
                 Choice::Nothing => return Ok(Next::Nothing),
                 Choice::Unmodelled(score) if lacks => return Ok(Next::Curve(score)),
                 Choice::Unmodelled(score) => {

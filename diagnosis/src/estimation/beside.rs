@@ -12,7 +12,7 @@ use crate::estimation::deadline::Stage;
 use crate::estimation::fit::Normal;
 use crate::estimation::hypothesis::{Baseline, Fitted, Term};
 use crate::estimation::unknowns::{Estimate, FreeParameter, Unknown};
-use crate::screening::{TriedOut, of_gain};
+use crate::screening::{Probe, TriedOut, of_gain};
 use crate::signal::distortion::Fault;
 
 /// Share of a column's square below which it does nothing that the coordinates could not do: it is another name for one of
@@ -115,6 +115,24 @@ impl Baseline<'_> {
             Some((*term, start))
         };
         terms.iter().enumerate().filter_map(best).collect()
+    }
+
+    /// The share of the sum of squares that each term takes from a simulation's errors in its best shape, all else giving way, as far as
+    /// the linearisation tells. Where an innovation hides what nominal parameters have bent to, a simulation may show it.
+    pub fn promised(&self, fitted: &Fitted, tried: &TriedOut) -> Vec<(Term, f64)> {
+        let TriedOut { terms, probes, normal: Normal { h, g, .. } } = tried;
+        let effects = vec![false; fitted.coordinates.len()];
+        let beside = Beside { h, g, effects: &effects, left: 2.0 * fitted.cost };
+        let share = |(probe, range): &(Probe, Range<usize>)| {
+            let pull = beside.pull(range)?;
+            let (possible, _) = self.start(terms[probe.term], probe, &pull.amounts, &fitted.point);
+            Some(pull.held(possible).gain / beside.left)
+        };
+        let of = |(index, term): (usize, &Term)| {
+            let own = probes.iter().filter(|(probe, _)| probe.term == index).filter_map(share);
+            (*term, own.fold(0.0, f64::max))
+        };
+        terms.iter().enumerate().map(of).collect()
     }
 }
 

@@ -70,6 +70,8 @@ pub struct Baseline<'a> {
     pub looks: f64,
     /// Where fits of terms that come in several shapes may begin.
     pub shapes: Vec<(Term, Estimate)>,
+    /// What each term promises to take from the errors of the starting model's simulation, as a share of the sum of squares.
+    pub promised: Vec<(Term, f64)>,
     /// Standard deviation of each output's residuals.
     pub sigma: Vec<f64>,
     /// The least noise that is believed of each measured output, in the order of a record's.
@@ -146,6 +148,7 @@ impl<'a> Baseline<'a> {
             without: options.without,
             looks: 1.0,
             shapes: Vec::new(),
+            promised: Vec::new(),
             sigma: vec![1.0; rig.plant.outputs.len()],
             floor: Vec::new(),
             transmitted: Vec::new(),

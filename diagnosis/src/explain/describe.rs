@@ -1,5 +1,6 @@
 //! What can be said of a missing signal that no law explains: where, how much of it, on what it depends.
 
+use crate::catalogue::Scale;
 use crate::catalogue::naming::name;
 use crate::decision::choice::Score;
 use crate::estimation::hypothesis::{Baseline, Term};
@@ -89,7 +90,10 @@ impl Unmodelled {
     /// A curve that was fitted in the model.
     pub fn curve(term: Term, score: Score, improvement: f64, plant: &Plant) -> Self {
         let (unit, depends_on) = match term {
-            Term::Table(table) => (table.unit(plant), vec![table.variable.to_owned()]),
+            Term::Table(table) => {
+                let rate = (table.law.point == Scale::DAMPING).then(|| "velocity".to_owned());
+                (table.unit(plant), std::iter::once(table.variable.to_owned()).chain(rate).collect())
+            }
             Term::Response(output) => (plant.outputs[output].unit.symbol, vec!["memory".to_owned()]),
             Term::Effect(_) | Term::Fault(_) => ("", Vec::new()),
         };
@@ -176,13 +180,20 @@ impl Unmodelled {
             ([], _) => match self.band {
                 Some([low, high]) if low > SLOW * high => {
                     let (low, high) = (digits(low, 2), digits(high, 2));
-                    format!("a signal between {low} and {high} Hz that no recorded signal explains")
+                    let band = match low == high {
+                        true => format!("near {low} Hz"),
+                        false => format!("between {low} and {high} Hz"),
+                    };
+                    format!("a signal {band} that no recorded signal explains")
                 }
                 Some([_, high]) => {
                     format!("a signal below {} Hz that no recorded signal explains", digits(high, 2))
                 }
                 None => "a signal that no recorded signal explains".to_owned(),
             },
+            ([motion, "velocity"], _) if self.curve.is_some() => {
+                format!("a damping that depends on the {motion}")
+            }
             (words, _) => format!("a signal that follows the {}", words.join(" and the ")),
         };
         format!("{what} {} {}", self.at, self.place)
@@ -283,6 +294,8 @@ fn band(signals: &[(f64, Vec<f64>)]) -> Option<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::catalogue::tables;
+    use crate::rig::Rig;
 
     fn signal(of: impl Fn(f64) -> f64) -> Vec<(f64, Vec<f64>)> {
         vec![(0.01, (0..1000).map(|k| of(0.01 * f64::from(k))).collect())]
@@ -307,6 +320,26 @@ mod tests {
         assert_eq!(of(&["time"]), "a signal that changes with time at the strut");
         let told = "a signal that follows the deflection and changes with time at the strut";
         assert_eq!(of(&["deflection", "time"]), told);
+    }
+
+    #[test]
+    fn a_band_of_one_frequency_is_near_it() {
+        let of = |band| Unmodelled { band: Some(band), ..at_the_strut(&[]) }.description();
+        assert_eq!(of([0.331, 0.334]), "a signal near 0.33 Hz that no recorded signal explains at the strut");
+        assert!(of([0.33, 0.9]).starts_with("a signal between 0.33 and 0.90 Hz"), "{}", of([0.33, 0.9]));
+    }
+
+    #[test]
+    fn a_curve_of_a_damping_is_no_force_over_the_deflection() {
+        let plant = Rig::published("quarter-car").unwrap().plant;
+        let term = |points: &str| Term::Table(tables(&plant).find(|it| it.points == points).expect(points));
+        let score = Score { candidate: 0, share: 0.9, validated: 0.9 };
+        let of = |points: &str| Unmodelled::curve(term(points), score, 0.5, &plant);
+        let damping = of("strut.curve.damping");
+        assert_eq!(damping.depends_on, ["deflection", "velocity"]);
+        assert_eq!(damping.description(), "a damping that depends on the deflection at the strut");
+        let spring = of("strut.curve.over_deflection");
+        assert_eq!(spring.description(), "a signal that follows the deflection at the strut");
     }
 
     fn at_the_strut(depends_on: &[&str]) -> Unmodelled {
