@@ -21,8 +21,9 @@ use super::features::Group;
 /// Names that are fitted at most.
 pub const MOST_FITTED: usize = 6;
 
-/// Share of their power by which columns differ that are compared as one: along a motion that is estimated, none is known better. Else a
-/// curve and the nominal parameter that it contains would each be as large as one likes, one against the other.
+/// Share of their power by which columns of a curve and nominal parameters differ that are compared as one: along a motion that is
+/// estimated, none is known better. Else a curve and the parameter that it contains would each be as large as one likes, one against the
+/// other.
 const ALIKE: f64 = 1e-4;
 
 /// A name to be fitted, and from where.
@@ -72,7 +73,10 @@ impl Baseline<'_> {
         let (mut all_amounts, mut points) = (Vec::new(), Vec::new());
         for (number, candidate) in candidates.list.iter().enumerate() {
             let precisions = missing.precisions_beside(candidate.columns.len());
-            let fitted = train.with(number).fitted_apart(&precisions, ALIKE);
+            let all = train.with(number);
+            let has_name = matches!(&candidate.kind, Kind::Named { term, .. } if !has_no_name(*term));
+            let fitted =
+                if has_name { all.fitted(&precisions) } else { all.fitted_apart(&precisions, ALIKE) };
             let amounts: Vec<f64> = fitted
                 .as_ref()
                 .map_or(Vec::new(), |it| it.values.iter().skip(missing.precisions.len()).copied().collect());
