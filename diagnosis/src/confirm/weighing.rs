@@ -19,6 +19,9 @@ use super::has_threshold;
 /// Standard deviations of a channel's timing beyond which a signal is late.
 pub(super) const LATE: f64 = 5.0;
 
+/// Share of a limited signal's power about its mean that has to be another shape than the signal's, for it to be limited.
+const LIMITED: f64 = 1e-4;
+
 impl Baseline<'_> {
     fn block(&self) -> usize {
         self.train.first().map_or(1, Dataset::block)
@@ -100,7 +103,16 @@ impl Baseline<'_> {
 
     /// Whether a fit has driven an effect to where its law is another one, which has a name of its own.
     pub(super) fn is_another_law(&self, term: Term, fitted: &Fitted) -> bool {
-        let Term::Effect(effect) = term else { return false };
+        let effect = match term {
+            Term::Effect(effect) => effect,
+            Term::Fault(Unknown::Input(input, Fault::Limit)) => {
+                let limit = fitted.point.inputs[input].get(Fault::Limit);
+                let signals = self.train.iter().filter_map(|record| record.inputs[input].measured());
+                let signals: Vec<f64> = signals.flatten().copied().collect();
+                return is_scaled_by_limit(&signals, limit);
+            }
+            _ => return false,
+        };
         effect.parts.iter().any(|part| {
             let handle = self.rig.plant.parameter(part.parameter).map(Unknown::Parameter);
             let coordinate = fitted.coordinates.iter().find(|it| Some(it.handle) == handle);
@@ -267,6 +279,16 @@ impl Baseline<'_> {
 }
 
 /// Delay or lag of an input in standard deviations of a channel's timing; none for other terms.
+/// Whether a limit makes a signal smaller as a whole, as it does where a command has two levels: then it is a gain.
+fn is_scaled_by_limit(signal: &[f64], limit: f64) -> bool {
+    let known = || signal.iter().filter(|it| it.is_finite()).map(|it| [*it, it.clamp(-limit, limit)]);
+    let count = known().count().max(1) as f64;
+    let mean = [0, 1].map(|of: usize| known().map(|it| it[of]).sum::<f64>() / count);
+    let product = |a: usize, b: usize| known().map(|it| (it[a] - mean[a]) * (it[b] - mean[b])).sum::<f64>();
+    let (own, limited, common) = (product(0, 0), product(1, 1), product(0, 1));
+    limit > 0.0 && own * limited - common * common <= LIMITED * own * limited
+}
+
 fn late_by(term: Term, fitted: &Fitted) -> Option<f64> {
     match term {
         Term::Fault(handle @ Unknown::Input(_, Fault::Lag | Fault::Delay)) => {
@@ -285,4 +307,19 @@ fn everywhere(term: Term, [train, test]: [f64; 2]) -> f64 {
 /// all, the validation data have to tell as of any other.
 fn is_resonance(term: Term) -> bool {
     matches!(term, Term::Effect(effect) if effect.element == Element::FRAME)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_of_a_command_with_two_levels_is_a_gain() {
+        let levels: Vec<f64> = (0..400).map(|k| if k / 7 % 3 == 0 { 5.0 } else { 0.0 }).collect();
+        assert!(is_scaled_by_limit(&levels, 1.8));
+        let wave: Vec<f64> = (0..400).map(|k| 5.0 * (f64::from(k) * 0.1).sin()).collect();
+        assert!(!is_scaled_by_limit(&wave, 3.5) && !is_scaled_by_limit(&wave, 4.5));
+        // What is never reached limits nothing.
+        assert!(is_scaled_by_limit(&wave, 5.0));
+    }
 }

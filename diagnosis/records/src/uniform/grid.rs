@@ -176,9 +176,11 @@ fn loop_period(time: &[f64], median: f64) -> f64 {
     multiples.into_iter().find(|period| share_missing(time, *period) <= MOST_MISSING).unwrap_or(median)
 }
 
-/// The period of a record's samples, as [`Grid`] has it; none for fewer than two.
+/// The period of a record's samples as its times have it, before it is rounded to a whole rate; none for fewer than two.
 pub(crate) fn usual_period(record: &Record) -> Option<f64> {
-    Grid::of(record).map(|it| it.step).ok().or_else(|| median_period(&record.time))
+    let median = median_period(&record.time)?;
+    let is_uneven = Grid::of(record).is_ok_and(|it| it.places.is_none());
+    Some(if is_uneven { loop_period(&record.time, median) } else { median })
 }
 
 /// The share of the samples that are missing at a period.
