@@ -47,6 +47,23 @@ fn a_clock_that_is_a_little_off_is_kept() {
     assert!((output.step - 1.0003e-3).abs() < 1e-12);
 }
 
+/// Most rounds of a loop take a millisecond, every third takes four and a bit: at the median, six in ten samples would be missing.
+#[test]
+fn a_loop_s_record_has_the_period_at_which_few_samples_are_missing() {
+    let mut time = vec![2.0];
+    for round in 0..1500 {
+        let lasts = if round % 3 == 0 { 4.3e-3 } else { 1e-3 + 1e-5 * f64::from(round % 7) };
+        time.push(time[time.len() - 1] + lasts);
+    }
+    let input = record(time);
+    assert!(crate::check::check(&input).problems.iter().all(|it| !it.fatal));
+    let (output, problems) = uniform(&input).unwrap();
+    assert!((2.5e-3..5e-3).contains(&output.step) && output.segments.len() == 1, "{}", output.step);
+    assert!(problems[0].text.starts_with("the samples are not evenly spaced"), "{problems:?}");
+    let values = output.channels[0].values.iter().enumerate();
+    assert!(values.into_iter().all(|(sample, value)| (value - signal(output.time(sample))).abs() < 2e-3));
+}
+
 #[test]
 fn missing_samples_are_bridged_and_reported() {
     let mut input = record(even(300, 1e-2));
