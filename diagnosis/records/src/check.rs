@@ -6,7 +6,7 @@
 mod channel;
 mod lines;
 
-use super::uniform::{GAP, MOST_MISSING, RoundedClock, rounded_clock, runs, usual_period};
+use super::uniform::{GAP, MOST_MISSING, RoundedClock, rounded_clock, runs, share_missing, usual_period};
 use super::{Channel, Record};
 use std::ops::Range;
 
@@ -134,9 +134,8 @@ fn check_intervals(record: &Record, rounded: Option<&RoundedClock>, problems: &m
     };
     let intervals = || (0..time.len() - 1).map(|sample| (time[sample], length(sample)));
     let gaps: Vec<_> = intervals().filter(|interval| interval.1 > GAP).collect();
-    let lost: f64 = gaps.iter().map(|gap| gap.1.round() - 1.0).sum();
     if let Some(longest) = gaps.iter().max_by(|a, b| a.1.total_cmp(&b.1)) {
-        let share = lost * period / (time[time.len() - 1] - time[0]);
+        let share = share_missing(intervals().map(|interval| interval.1));
         let fatal = share > MOST_MISSING;
         let places = describe(gaps.iter().map(|gap| format!("{} s", number(gap.0))));
         let text = format!(

@@ -14,7 +14,9 @@ use std::ops::Range;
 
 use grid::Grid;
 pub use grid::ON_GRID;
-pub(crate) use grid::{GAP, MOST_MISSING, RoundedClock, median_period, rounded_clock, usual_period};
+pub(crate) use grid::{
+    GAP, MOST_MISSING, RoundedClock, median_period, rounded_clock, share_missing, usual_period,
+};
 
 /// Missing samples in a row that are interpolated.
 pub const BRIDGED: usize = 5;

@@ -173,7 +173,8 @@ pub(crate) fn median_period(time: &[f64]) -> Option<f64> {
 /// where too many samples would be missing at that, it is the least multiple at which they are not.
 fn loop_period(time: &[f64], median: f64) -> f64 {
     let multiples = (1..=LONGEST_LOOP).map(|number| f64::from(number) * median);
-    multiples.into_iter().find(|period| share_missing(time, *period) <= MOST_MISSING).unwrap_or(median)
+    let lengths = |period: f64| time.windows(2).map(move |pair| (pair[1] - pair[0]) / period);
+    multiples.into_iter().find(|period| share_missing(lengths(*period)) <= MOST_MISSING).unwrap_or(median)
 }
 
 /// The period of a record's samples as its times have it, before it is rounded to a whole rate; none for fewer than two.
@@ -183,15 +184,11 @@ pub(crate) fn usual_period(record: &Record) -> Option<f64> {
     Some(if is_uneven { loop_period(&record.time, median) } else { median })
 }
 
-/// The share of the samples that are missing at a period.
-pub(crate) fn share_missing(time: &[f64], period: f64) -> f64 {
-    let lost = |pair: &[f64]| match (pair[1] - pair[0]) / period {
-        gap if gap > GAP => gap.round() - 1.0,
-        _ => 0.0,
-    };
-    let lost: f64 = time.windows(2).map(lost).sum();
-    // As many as there would be with them; at a multiple of the period, there are more in the file.
-    lost / ((time[time.len() - 1] - time[0]) / period).max(1.0)
+/// The share of the samples that are missing, from the lengths of all intervals in periods.
+pub(crate) fn share_missing(lengths: impl Iterator<Item = f64>) -> f64 {
+    let lost = |length: f64| if length > GAP { length.round() - 1.0 } else { 0.0 };
+    let (lost, all) = lengths.fold((0.0, 0.0), |(sum, all), it| (sum + lost(it), all + it));
+    lost / all
 }
 
 /// Number of the grid point of each sample, counted from gap to gap so that no error of the period adds up.
