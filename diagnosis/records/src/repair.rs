@@ -127,6 +127,14 @@ mod tests {
         assert!(values[0] == 1.0 && values[1].is_nan() && values[2] == 2.0 && values[3].is_nan());
     }
 
+    #[test]
+    fn a_spike_is_missing_and_a_long_fault_stays() {
+        let mut channel = record((0..20).map(f64::from).collect()).channels.remove(0);
+        remove_spikes(&mut channel, &[3..4, 8..16]);
+        let missing: Vec<usize> = (0..20).filter(|row| channel.values[*row].is_nan()).collect();
+        assert_eq!(missing, [3]);
+    }
+
     proptest! {
         #[test]
         fn held_values_are_had_back(
