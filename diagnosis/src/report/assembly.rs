@@ -270,10 +270,12 @@ impl Diagnosis<'_> {
                 None => naming::arisen(it.handle, plant, end),
             };
             let handle = held.map_or(it.handle, |held| Unknown::Parameter(held.parameter));
+            let ascending = |[low, high]: [f64; 2]| [low.min(high), low.max(high)];
             let ((name, unit), [value, low, high]) = (naming::handle(handle, plant), ends.map(shown));
-            let (low, high) = (low.min(high), low.max(high));
+            let [low, high] = ascending([low, high]);
             let reached = !unreached.contains(&it.handle);
-            let (of_ratio, limit) = (it.of_ratio(), it.limit().map(shown));
+            let of_ratio = it.of_ratio().map(|ends| ascending(ends.map(shown)));
+            let limit = it.limit().map(shown);
             EffectParameter { name, value, unit, low, high, of_ratio, limit, reached }
         });
         let rivals: Vec<naming::Name> = accepted.rivals.iter().map(|term| name(*term, plant)).collect();
