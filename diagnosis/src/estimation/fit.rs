@@ -289,8 +289,8 @@ impl Problem for Fit<'_> {
         moved
     }
 
-    fn held_back(&self, point: &Estimate, trace: &Trace) -> Option<Trace> {
-        Some(self.held_back(point, trace))
+    fn hold_back(&self, point: &Estimate, trace: &mut Trace) {
+        self.hold_sections_back(point, &mut trace.sections);
     }
 
     fn bounds(&self) -> &[(f64, f64)] {

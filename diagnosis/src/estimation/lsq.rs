@@ -35,10 +35,8 @@ pub trait Problem {
         trace: &Self::Trace,
         coordinates: &DVector<f64>,
     ) -> Self::Estimate;
-    /// What linearising left behind, where it leads no way uphill on its own; asked for once a step was not downhill.
-    fn held_back(&self, _: &Self::Estimate, _: &Self::Trace) -> Option<Self::Trace> {
-        None
-    }
+    /// Changes what linearising left behind so that it leads no way uphill on its own; asked for once a step was not downhill.
+    fn hold_back(&self, _: &Self::Estimate, _: &mut Self::Trace) {}
     /// Bounds of each coordinate.
     fn bounds(&self) -> &[(f64, f64)];
 }
@@ -136,10 +134,10 @@ impl<'p, P: Problem> Descent<'p, P> {
             if !(cost.is_finite() && fall > 0.0) {
                 *lambda = (*lambda * 4.0).max(1e-12);
                 *has_ended = *lambda > 1e14;
-                if !is_held_back && let Some(trace) = problem.held_back(&at.point, &at.trace) {
-                    at.trace = trace;
+                if !is_held_back {
+                    problem.hold_back(&at.point, &mut at.trace);
+                    is_held_back = true;
                 }
-                is_held_back = true;
                 continue;
             }
             let quality = fall / expected.max(f64::MIN_POSITIVE);
@@ -343,8 +341,8 @@ mod tests {
             [x[0], hidden + own]
         }
 
-        fn held_back(&self, _: &[f64; 2], _: &f64) -> Option<f64> {
-            Some(0.0)
+        fn hold_back(&self, _: &[f64; 2], own: &mut f64) {
+            *own = 0.0;
         }
 
         fn bounds(&self) -> &[(f64, f64)] {

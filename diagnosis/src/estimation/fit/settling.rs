@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use crate::dataset::recorded::Dataset;
 use crate::estimation::unknowns::Estimate;
 
+use super::Fit;
 use super::normal::{Elimination, Section};
-use super::{Fit, Trace};
 
 /// Steps at most.
 const STEPS: usize = 6;
@@ -81,18 +81,13 @@ impl Fit<'_> {
 
     /// Each section's own step as far as it leads downhill. Where a body sticks, its start hardly shows: there the linearisation may
     /// lead anywhere, and with it every step of the coordinates.
-    pub(super) fn held_back(&self, point: &Estimate, trace: &Trace) -> Trace {
-        let sections = self.sections().into_par_iter().zip(&trace.sections);
-        let held = sections.map(|((index, record, section), it)| {
-            let share = if it.is_settled() {
-                None
-            } else {
-                self.downhill(point, &point.starts[index], (record, section), it)
-            };
-            let share = share.map_or(0.0, |(_, share)| share);
-            Elimination { constant: share * &it.constant, ..it.clone() }
+    pub(super) fn hold_sections_back(&self, point: &Estimate, eliminations: &mut [Elimination]) {
+        let sections = self.sections().into_par_iter().zip(eliminations);
+        sections.for_each(|((index, record, section), it)| {
+            let downhill = || self.downhill(point, &point.starts[index], (record, section), it);
+            let share = if it.is_settled() { None } else { downhill() };
+            it.constant *= share.map_or(0.0, |(_, share)| share);
         });
-        Trace { sections: held.collect(), scores: trace.scores.clone() }
     }
 }
 
