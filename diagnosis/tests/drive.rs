@@ -76,6 +76,36 @@ fn what_noise_of_the_motion_makes_of_a_force_is_noise() {
     assert!((0.8..1.25).contains(&(left / noise)) && noise > 0.3, "{left} N beside {noise} N");
 }
 
+/// A mass with a spring and a damper whose force acts 150 ms after its command: a sixteenth of the slowest period.
+#[test]
+fn a_command_that_acts_late_is_found_however_slow_the_motion_is() {
+    const SINES: [(f64, f64); 3] = [(0.08, 0.4), (0.04, 0.7), (0.02, 1.2)];
+    const DELAY: f64 = 0.15;
+    let mut normal = noise(7);
+    let mut record = |seconds: f64, later: f64| {
+        let mut text = "time [s],motor.force [N],position [m]\n".to_owned();
+        for t in (0..(200.0 * seconds) as usize).map(|k| k as f64 / 200.0) {
+            let force = |[x, v, a]: [f64; 3]| MASS * a + DAMPING * v + 1500.0 * x;
+            let command = force(along(SINES, t + later + DELAY)) + 0.1 * normal();
+            writeln!(text, "{t:.3},{command:.6},{:.8}", along(SINES, t + later)[0] + 1e-5 * normal())
+                .unwrap();
+        }
+        text
+    };
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("train.csv"), record(20.0, 0.0)).unwrap();
+    fs::write(folder.path().join("test.csv"), record(15.0, 31.7)).unwrap();
+    let report = diagnosed(folder.path(), "2");
+    let effects = report["effects"].as_array().unwrap();
+    let values = effects.iter().flat_map(|it| it["parameters"].as_array().unwrap());
+    let delays: Vec<f64> = values
+        .filter(|it| it["name"].as_str().is_some_and(|name| name.ends_with(".delay")))
+        .map(|it| it["value"].as_f64().unwrap().abs())
+        .collect();
+    assert_eq!((effects.len(), delays.len()), (1, 1), "{}", report["summary"]);
+    assert!((delays[0] / DELAY - 1.0).abs() < 0.02, "{delays:?}");
+}
+
 /// A mass on a spring that was let go: nothing pushes, so that all forces have the mass as their scale.
 #[test]
 fn what_swings_freely_has_a_spring() {

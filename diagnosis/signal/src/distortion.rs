@@ -136,6 +136,20 @@ impl Correction {
         &self.response
     }
 
+    /// How many samples before and after some the signal has to be known to know what becomes of it there; a lag forgets what
+    /// was eight time constants ago.
+    pub fn reach(&self, samples: Samples, count: usize) -> (usize, usize) {
+        const FORGOTTEN: f64 = 8.0;
+        const CUBIC: f64 = 2.0;
+        let late = |index| self.get(Fault::Delay) - self.get(Fault::Rate) * samples.time(index);
+        let (first, last) = (late(0), late(count.saturating_sub(1)));
+        let memory = if self.response.is_neutral() { 0.0 } else { AFTER[AFTER.len() - 1] };
+        let late = first.max(last).max(0.0) + FORGOTTEN * self.get(Fault::Lag) + memory;
+        let early = (-first.min(last)).max(0.0);
+        let count = |time: f64| if time > 0.0 { ((time / samples.step).ceil() + CUBIC) as usize } else { 0 };
+        (count(late), count(early))
+    }
+
     /// What becomes of a signal.
     pub fn applied(&self, signal: &[f64], samples: Samples) -> Vec<f64> {
         self.through(signal, samples, true)

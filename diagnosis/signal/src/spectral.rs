@@ -14,7 +14,7 @@ pub use filter::{Line, about_line, filled, in_band};
 pub use line::line;
 pub use refine::{FINER, refined};
 pub use rustfft::num_complex::Complex;
-pub use welch::{coherence, periodogram, power_spectrum};
+pub use welch::{below, coherence, periodogram, power_spectrum};
 
 /// What is kept of the band below half the rate where a signal gets another rate.
 pub const KEPT: f64 = 0.8;

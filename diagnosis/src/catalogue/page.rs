@@ -122,6 +122,10 @@ impl Page<'_> {
                 Bounds::OfLargest(low, high) => {
                     format!("{} to {} × the largest magnitude of the signal", plain(low), plain(high))
                 }
+                Bounds::QuarterOfPeriod(least) if signal == Signal::Output => format!("±{}", plain(least)),
+                Bounds::QuarterOfPeriod(least) => {
+                    format!("±{}, or a quarter of the signal's period where that is longer", plain(least))
+                }
                 Bounds::Free => "none".to_owned(),
             };
             let _ = writeln!(self.text, "- `<signal>.{}` [{unit}]. Bounds: {bounds}", part.fault.name());

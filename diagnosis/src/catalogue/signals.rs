@@ -127,6 +127,9 @@ pub enum Bounds {
     Between(f64, f64),
     /// Shares of the signal's largest magnitude.
     OfLargest(f64, f64),
+    /// Seconds to either side, or of an input a quarter of its period: what is later is as well reversed and early by the rest. Of an
+    /// output, which is predicted in short sections, more would be lost at the begin of each.
+    QuarterOfPeriod(f64),
     /// Without any.
     Free,
 }
@@ -209,7 +212,7 @@ const DELAY: Distortion = Distortion {
     contains: &[],
     alike: &[Fault::Lag, Fault::Rate],
     onset: Onset::Always,
-    bounds: Bounds::Between(-0.05, 0.05),
+    bounds: Bounds::QuarterOfPeriod(0.05),
     literature: &["Bjorklund2003"],
     experiment: "strike once and compare the signals' onsets",
     command: at("23"),

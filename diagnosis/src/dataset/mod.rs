@@ -3,6 +3,7 @@
 mod columns;
 pub mod conditioning;
 mod driven;
+mod driving;
 mod import;
 pub mod inverse;
 pub mod load;

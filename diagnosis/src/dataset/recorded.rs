@@ -7,11 +7,11 @@ use std::sync::Arc;
 use crate::data::Channel;
 use strut_model::unit::Unit;
 
-use crate::plant::{Between, Drive, Plant};
+use crate::plant::{Between, Plant};
 use crate::screening::rms;
 use crate::signal::derivative;
-use crate::signal::distortion::{Correction, Samples};
-use crate::signal::spectral::{FINER, in_band, refined};
+use crate::signal::distortion::Samples;
+use crate::signal::spectral::in_band;
 
 /// A record on a plant's inputs and outputs, evenly sampled.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -56,12 +56,12 @@ pub struct Wide {
 
 impl Wide {
     /// Whether it knows an input.
-    fn has(&self, input: usize) -> bool {
+    pub(super) fn has(&self, input: usize) -> bool {
         !self.inputs[input].is_empty()
     }
 
     /// The values of an input in some samples of the record.
-    fn part(&self, input: usize, samples: &Range<usize>) -> Vec<f64> {
+    pub(super) fn part(&self, input: usize, samples: &Range<usize>) -> Vec<f64> {
         if samples.is_empty() {
             return Vec::new();
         }
@@ -226,102 +226,6 @@ impl Dataset {
         self
     }
 
-    /// How many values of an input there are in a step of what drives the plant: where signals go along curves, a cubic
-    /// through the record's own samples would lose a tenth of what is halfway to half the sampling rate.
-    fn finer(&self) -> usize {
-        match (&self.wide, self.between) {
-            (Some(wide), _) => wide.finer,
-            (None, Between::Lines) => 1,
-            (None, Between::Curves) => FINER,
-        }
-    }
-
-    /// The same with the rates of inputs that are known in a wider band, over each whole section.
-    #[must_use]
-    pub fn with_rates(mut self) -> Self {
-        let Some(mut wide) = self.wide.clone() else { return self };
-        let own = Arc::make_mut(&mut wide);
-        for (index, source) in self.inputs.iter().enumerate() {
-            let Some(other) = source.motion().filter(|it| own.has(*it)) else { continue };
-            let rates = self.sections.iter().flat_map(|section| {
-                let mut rate = self.rate(&own.part(other, section), source);
-                rate.resize(own.finer * section.len(), rate.last().copied().unwrap_or_default());
-                rate
-            });
-            own.inputs[index] = rates.collect();
-        }
-        self.wide = Some(wide);
-        self
-    }
-
-    /// Whether nothing was done to the motion that an input is a rate of.
-    fn is_plain(&self, input: usize, corrections: &[Correction]) -> bool {
-        corrections[input].is_neutral()
-            && self.inputs[input].motion().is_none_or(|it| self.is_plain(it, corrections))
-    }
-
-    /// The values of a measured input that drive the plant in a section.
-    fn driving(&self, input: usize, values: &[f64], section: &Range<usize>) -> Vec<f64> {
-        match (&self.wide, self.between) {
-            (Some(wide), _) => wide.part(input, section),
-            (None, Between::Lines) => values[section.clone()].to_vec(),
-            (None, Between::Curves) => refined(&values[section.clone()]),
-        }
-    }
-
-    /// What drives the plant in a section, the inputs' signals being corrected.
-    pub fn drive(&self, section: &Range<usize>, corrections: &[Correction]) -> Drive {
-        let finer = self.finer();
-        let samples = Samples { step: self.step / finer as f64, first: finer * section.start };
-        let mut inputs: Vec<Vec<f64>> = Vec::with_capacity(self.inputs.len());
-        for (index, (source, correction)) in self.inputs.iter().zip(corrections).enumerate() {
-            inputs.push(match source {
-                Source::Measured(values) if correction.is_neutral() => self.driving(index, values, section),
-                Source::Measured(values) => {
-                    correction.applied(&self.driving(index, values, section), samples)
-                }
-                Source::Constant(value) => vec![*value; finer * section.len().saturating_sub(1) + 1],
-                Source::DerivativeOf(_) | Source::RateOf(_) => Vec::new(),
-            });
-        }
-        for (index, source) in self.inputs.iter().enumerate() {
-            if let Some(other) = source.motion() {
-                inputs[index] = match &self.wide {
-                    Some(wide) if wide.has(index) && self.is_plain(other, corrections) => {
-                        wide.part(index, section)
-                    }
-                    _ => self.rate(&inputs[other], source),
-                };
-            }
-        }
-        Drive {
-            start: section.start as f64 * self.step,
-            step: self.step,
-            inputs,
-            finer,
-            between: self.between,
-            filtered: self.wide.is_some(),
-        }
-    }
-
-    /// The derivative of an input: as a file's reader takes it, nearly that of the curve through the samples, or that of the
-    /// signal in the band of its samples.
-    fn rate(&self, signal: &[f64], source: &Source) -> Vec<f64> {
-        let step = self.step / self.finer() as f64;
-        if matches!(source, Source::RateOf(_)) {
-            let needed = self.wide.as_ref().map_or(1, |wide| wide.needed);
-            return in_band(signal, step, 0.5 * needed as f64 / self.step, 1);
-        }
-        let mut rate = derivative(signal, step);
-        if self.between == Between::Curves {
-            for (rate, near) in rate.iter_mut().skip(3).zip(signal.windows(7)) {
-                let odd = |reach: usize| near[3 + reach] - near[3 - reach];
-                *rate = (45.0 * odd(1) - 9.0 * odd(2) + odd(3)) / (60.0 * step);
-            }
-        }
-        rate
-    }
-
     /// The derivative of a signal at the record's samples: exact where the record ends at its band, by differences elsewhere,
     /// since the fast part is noise.
     pub fn rate_of(&self, signal: &[f64]) -> Vec<f64> {
@@ -329,19 +233,6 @@ impl Dataset {
             true => in_band(signal, self.step, 0.5 / self.step, 1),
             false => derivative(signal, self.step),
         }
-    }
-
-    /// How the drive changes when one input's signal does.
-    pub fn change(&self, input: usize, change: Vec<f64>) -> Vec<(usize, Vec<f64>)> {
-        let mut changes = vec![(input, change)];
-        // A derivative comes after what it is the derivative of.
-        for (index, source) in self.inputs.iter().enumerate() {
-            let of = changes.iter().find(|(other, _)| source.motion() == Some(*other));
-            if let Some(rate) = of.map(|(_, change)| self.rate(change, source)) {
-                changes.push((index, rate));
-            }
-        }
-        changes
     }
 }
 
@@ -367,32 +258,5 @@ mod tests {
         assert!(bent.len() == 3 && bent.iter().all(|value| value.abs() < 1e-15), "{bent:?}");
         assert_eq!(without_line(&[3.0, 4.0, 7.0, 12.0]), [1.0, -1.0, -1.0, 1.0]);
         assert_eq!((without_line(&[7.0]), without_line(&[f64::NAN])), (vec![0.0], vec![]));
-    }
-
-    /// Of 20 Hz and of 64 Hz, of which differences of the samples alone would lose 0.6 %.
-    #[test]
-    fn a_curves_rate_is_that_of_the_signal() {
-        let step = 2.5e-3;
-        let time = |k: i32| f64::from(k) * step;
-        let rate = |omega: f64, between: Between| {
-            let position: Vec<f64> = (0..80).map(|k| (omega * time(k)).sin()).collect();
-            let inputs = vec![Source::Measured(position), Source::DerivativeOf(0)];
-            let record = Dataset {
-                step,
-                inputs,
-                between,
-                sections: std::iter::once(0..80).collect(),
-                ..Dataset::default()
-            };
-            let error = |(k, rate): (i32, &f64)| (rate / omega - (omega * time(k)).cos()).abs();
-            let drive = record.drive(&(0..80), &[Correction::default(); 2]);
-            assert_eq!(drive.len(), 80);
-            let rates = drive.inputs[1].iter().step_by(drive.finer);
-            (0..80).zip(rates).skip(10).take(60).map(error).fold(0.0, f64::max)
-        };
-        for omega in [125.0, 400.0] {
-            assert!(rate(omega, Between::Curves) < 4e-4, "{omega}: {}", rate(omega, Between::Curves));
-        }
-        assert!((0.015..0.018).contains(&rate(125.0, Between::Lines)), "{}", rate(125.0, Between::Lines));
     }
 }

@@ -8,6 +8,7 @@ use crate::diagnosis::component::Component;
 use crate::estimation::hypothesis::{Baseline, Term};
 use crate::estimation::unknowns::{FreeParameter, Prior, Unknown};
 use crate::signal::distortion::{AFTER, Fault, UNKNOWN};
+use crate::signal::spectral::below;
 
 /// Points of a table without a name.
 pub const POINTS: usize = 11;
@@ -31,6 +32,9 @@ const SHEET: f64 = 20.0;
 
 /// Standard deviation of a start value that may be negative, over its value.
 const SIGNED: f64 = 10.0;
+
+/// Share of a signal's period beyond which it is as well reversed and early as late.
+const QUARTER: f64 = 0.25;
 
 impl Baseline<'_> {
     /// Standard deviation of what any measurement does to a signal; none for what would be a fault.
@@ -194,7 +198,20 @@ impl Baseline<'_> {
         values.flatten().filter(|it| it.is_finite()).fold(0.0, |most, it| it.abs().max(most))
     }
 
-    fn fault_bounds(&self, handle: Unknown) -> (f64, f64) {
+    /// Period in seconds of a measured input: half of its power on the estimation data is slower.
+    fn period(&self, input: usize) -> Option<f64> {
+        let parts = self.train.iter().flat_map(|record| {
+            let values = match &record.inputs[input] {
+                Source::Measured(values) => &values[..],
+                Source::DerivativeOf(_) | Source::RateOf(_) | Source::Constant(_) => &[],
+            };
+            let sections = if values.is_empty() { Vec::new() } else { record.joined().sections };
+            sections.into_iter().map(|section| (record.step, values[section].to_vec()))
+        });
+        below(&parts.collect::<Vec<_>>(), 0.5).filter(|it| *it > 0.0).map(f64::recip)
+    }
+
+    pub(crate) fn fault_bounds(&self, handle: Unknown) -> (f64, f64) {
         let Some(fault) = handle.fault() else { return (f64::NEG_INFINITY, f64::INFINITY) };
         match (catalogue::distortion(fault).bounds, handle) {
             (Bounds::Between(low, high), _) => (low, high),
@@ -203,6 +220,11 @@ impl Baseline<'_> {
                 (low * largest, high * largest)
             }
             (Bounds::OfLargest(..), _) => (0.0, f64::INFINITY),
+            (Bounds::QuarterOfPeriod(least), Unknown::Input(input, _)) => {
+                let most = self.period(input).map_or(least, |period| least.max(QUARTER * period));
+                (-most, most)
+            }
+            (Bounds::QuarterOfPeriod(least), _) => (-least, least),
             (Bounds::Free, _) => (f64::NEG_INFINITY, f64::INFINITY),
         }
     }

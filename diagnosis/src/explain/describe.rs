@@ -10,7 +10,7 @@ use crate::missing::motion::{Mover, column, place};
 use crate::missing::ports::{Entry, Port};
 use crate::plant::{Plant, Signals};
 use crate::report::words::digits;
-use crate::signal::spectral::{line, periodogram};
+use crate::signal::spectral::{below, line};
 
 use super::features::{AGEING, Group, RESONANCES, features};
 use super::selection::Compared;
@@ -272,23 +272,7 @@ fn kurtosis(signals: &[(f64, Vec<f64>)]) -> f64 {
 
 /// From where to where in Hz signals have four fifths of their power, a tenth on either side aside; none where they have none.
 fn band(signals: &[(f64, Vec<f64>)]) -> Option<[f64; 2]> {
-    let mut bins: Vec<(f64, f64)> = Vec::new();
-    for (step, values) in signals {
-        let resolution = 1.0 / (step * values.len() as f64);
-        let powers = periodogram(values).into_iter().enumerate();
-        bins.extend(powers.map(|(bin, power)| (resolution * bin as f64, power)));
-    }
-    bins.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-    let total: f64 = bins.iter().map(|(_, power)| power).sum();
-    let below = |share: f64| {
-        let mut sum = 0.0;
-        let mut powers = bins.iter().map(|(frequency, power)| {
-            sum += power;
-            (*frequency, sum)
-        });
-        powers.find(|(_, sum)| *sum > share * total).map(|(frequency, _)| frequency)
-    };
-    Some([below(ASIDE)?, below(1.0 - ASIDE)?])
+    Some([below(signals, ASIDE)?, below(signals, 1.0 - ASIDE)?])
 }
 
 #[cfg(test)]

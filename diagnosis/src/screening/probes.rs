@@ -12,6 +12,9 @@ use super::rms;
 /// Relative errors of a sampling rate from which they are looked for.
 const RATES: &[f64] = &[1e-4, 1e-3, -1e-3, 3e-3, -3e-3, 6e-3, -6e-3, 1e-2, -1e-2];
 
+/// Delays in seconds that are looked for beside the shorter [`TIMES`]: of a valve, a fan, a cable, of loggers started by hand.
+const LONG: &[f64] = &[0.04, 0.1, 0.25];
+
 /// Shares of the largest command at which its limit is looked for.
 const LIMITS: &[f64] = &[0.5, 0.7, 0.85];
 
@@ -60,7 +63,9 @@ impl Baseline<'_> {
                     }
                     // Where one channel is early, all others are late.
                     Unknown::Input(_, Fault::Delay) | Unknown::Output(_, Fault::Delay) => {
-                        TIMES.iter().flat_map(|time| [*time, -time]).map(probe).collect()
+                        let (_, most) = self.fault_bounds(handle);
+                        let times = TIMES.iter().chain(LONG).filter(|time| **time <= most);
+                        times.flat_map(|time| [*time, -time]).map(probe).collect()
                     }
                     // What goes with it, as a drift with an offset, is there or not on its own.
                     _ => {

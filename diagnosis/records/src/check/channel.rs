@@ -276,8 +276,8 @@ fn dropouts(time: &[f64], channel: &Channel) -> Option<Fault> {
     (!found.is_empty()).then(|| {
         let places = describe(found.iter().map(|it| format!("{} s", number(time[it.start]))));
         let text = format!(
-            "drops out or spikes for single samples {} times, at {places}: check plugs and cables; leave these samples \
-             empty to have them interpolated",
+            "drops out or spikes for single samples {} times, at {places}: check plugs and cables; these samples are \
+             interpolated in an input, and not compared in an output",
             found.len()
         );
         Fault { text, samples: found }

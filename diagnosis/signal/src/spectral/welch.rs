@@ -39,6 +39,24 @@ pub fn periodogram(signal: &[f64]) -> Vec<f64> {
     bins.map(Complex::norm_sqr).collect()
 }
 
+/// Frequency in hertz below which signals, each with the time between its samples, have a share of their power about their means;
+/// none where they have none.
+pub fn below(signals: &[(f64, Vec<f64>)], share: f64) -> Option<f64> {
+    let mut bins: Vec<(f64, f64)> = Vec::new();
+    for (step, values) in signals {
+        let resolution = 1.0 / (step * values.len() as f64);
+        let powers = periodogram(values).into_iter().enumerate();
+        bins.extend(powers.map(|(bin, power)| (resolution * bin as f64, power)));
+    }
+    bins.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    let total: f64 = bins.iter().map(|(_, power)| power).sum();
+    let mut sum = 0.0;
+    bins.into_iter().find_map(|(frequency, power)| {
+        sum += power;
+        (sum > share * total).then_some(frequency)
+    })
+}
+
 /// The coherence of a signal with one that may drive it, `|S_xy|²/(S_xx S_yy)`.
 ///
 /// The limit is that of as many independent segments (G. C. Carter, Coherence and time delay estimation, Proc. IEEE
@@ -129,6 +147,17 @@ mod tests {
         assert_eq!(frequency.len(), density.len());
         // One-sided over 500 Hz.
         assert!((mean(&density) * 500.0 - 1.0).abs() < 0.02, "{}", mean(&density) * 500.0);
+    }
+
+    /// Of two sines of 2 and 7 Hz with three quarters and a quarter of the power, whatever the mean is.
+    #[test]
+    fn half_of_the_power_is_below_the_larger_sine() {
+        let sines = |t: f64| 100.0 + (2.0 * TAU * t).sin() + (7.0 * TAU * t).sin() / 3.0_f64.sqrt();
+        let signals = vec![(0.01, (0..1000).map(|k| sines(0.01 * f64::from(k))).collect())];
+        for (share, frequency) in [(0.5, 2.0), (0.7, 2.0), (0.8, 7.0)] {
+            assert!((below(&signals, share).unwrap() - frequency).abs() < 0.11, "{share}");
+        }
+        assert!(below(&[(0.01, vec![3.0; 50])], 0.5).is_none() && below(&[], 0.5).is_none());
     }
 
     /// Of y = h * x + e, the share that follows from x is that of the signal's power: SNR/(1 + SNR) at each frequency.

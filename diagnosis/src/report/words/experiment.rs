@@ -11,7 +11,9 @@ const TYPED: usize = 6;
 /// What to do, or that nothing within the limits decides.
 pub fn experiment(findings: &Findings, deciding: &DecidingExperiment) -> String {
     if deciding.compared == 0 {
-        return "No excitation could be simulated within the limits.".into();
+        return "The model diverges under each excitation within the limits. Smaller ones (--stroke, --force, --rate) may keep \
+                it where it is valid."
+            .into();
     }
     let mut effects: Vec<&str> = deciding.pairs.iter().map(|it| &it.effect[..]).collect();
     effects.dedup();
