@@ -251,8 +251,10 @@ impl Map {
         let unused = record.channels.iter().zip(used).filter(|(_, used)| !used);
         let unused = unused.map(|(channel, _)| channel.clone()).collect();
         if channels.is_empty() {
+            let columns: Vec<&str> = record.channels.iter().map(|it| it.name.as_str()).collect();
             let text = format!(
-                "none of the model's signals is among its columns; name the columns in a map: `[signals]`, `{} = \"…\"`",
+                "none of the model's signals is among its columns, {}; name the columns in a map: `[signals]`, `{} = \"…\"`",
+                columns.join(", "),
                 wanted.first().map_or("signal", |wanted| &wanted.name)
             );
             return Err(DataError::file(&record.name, text));

@@ -33,6 +33,11 @@ const DROPOUT: usize = 10;
 /// Size of a dropout over the median change and over the largest change nearby.
 const ABOVE_USUAL: f64 = 10.0;
 const ABOVE_NEAR: f64 = 5.0;
+/// Share of the samples beyond which spikes are what the signal does.
+const SELDOM: f64 = 0.01;
+/// Factor of both below which twice as many are found where spikes are the tail of what the signal does anyway, as a controller's
+/// kicks are, and no faults.
+const TAIL: f64 = 0.5;
 /// Values that a measurement should use at least; with fewer than four it is a switched command.
 const FEWEST_LEVELS: usize = 32;
 const SWITCHED: usize = 4;
@@ -164,18 +169,29 @@ fn saturation(time: &[f64], channel: &Channel, extreme: fn(f64, f64) -> f64, wor
     };
     tops.retain(|run| !creeps(run));
     let count: usize = tops.iter().map(Range::len).sum();
-    let by_nature = count as f64 > BY_NATURE * values.len() as f64;
+    let by_nature = count as f64 > BY_NATURE * values.len() as f64 || tops.len() < steps(values, step);
     (count >= FEWEST_FLAT && count > PILED * at(next) && !by_nature).then(|| {
         let places = describe(tops.iter().map(|run| format!("{} s", number(time[run.start]))));
         let text = format!(
             "is flat at its {word} value {} {} for {} of the record ({places}): the sensor or its amplifier is \
-             saturated, or a stop is reached; use a larger range or less excitation",
+             saturated, or a stop or a limit is reached; use a larger range or less excitation",
             number(top),
             channel.unit,
             percent(count as f64 / values.len() as f64)
         );
         Fault { text, samples: if is_smooth(values) { Vec::new() } else { tops } }
     })
+}
+
+/// How often a signal jumps to a value between its extreme ones and stays there, as a stepped command does.
+fn steps(values: &[f64], step: f64) -> usize {
+    let extremes = [f64::max as fn(f64, f64) -> f64, f64::min].map(|of| values.iter().copied().reduce(of));
+    let equal: Vec<bool> = values.windows(2).map(|pair| pair[0] == pair[1]).collect();
+    let jumps = |run: &Range<usize>| {
+        let jump = run.start.checked_sub(1).map_or(0.0, |before| (values[run.start] - values[before]).abs());
+        run.len() + 1 >= FLAT && !extremes.contains(&Some(values[run.start])) && jump > CREEPING * step
+    };
+    runs(&equal, true).iter().filter(|run| jumps(run)).count()
 }
 
 /// Whether a signal has so little noise that flat parts may be its own, as a computed force's of an open contact.
@@ -254,6 +270,26 @@ fn dropouts(time: &[f64], channel: &Channel) -> Option<Fault> {
     if usual == 0.0 {
         return None;
     }
+    let found = spikes(values, usual, 1.0);
+    let is_usual = found.len() as f64 > SELDOM * values.len() as f64;
+    if is_usual || spikes(values, usual, TAIL).len() > 2 * found.len() {
+        return None;
+    }
+    (!found.is_empty()).then(|| {
+        let places = describe(found.iter().map(|it| format!("{} s", number(time[it.start]))));
+        let text = format!(
+            "drops out or spikes for single samples {} times, at {places}: check plugs and cables; these samples are \
+             interpolated in an input, and not compared in an output",
+            found.len()
+        );
+        Fault { text, samples: found }
+    })
+}
+
+/// Single samples, or short runs of zeros, that are by so much farther from their neighbours than what usually changes and what changes
+/// nearby, in the two limits for that.
+fn spikes(values: &[f64], usual: f64, limits: f64) -> Vec<Range<usize>> {
+    let change = |i: usize| (values[i + 1] - values[i]).abs();
     let mut found = Vec::new();
     let mut i = 1;
     while i + 1 < values.len() {
@@ -266,22 +302,14 @@ fn dropouts(time: &[f64], channel: &Channel) -> Option<Fault> {
             let near = (i.saturating_sub(6)..i - 1).chain(end..(end + 5).min(values.len() - 1)).map(change);
             let drift = 2.0 * (values[end] - values[i - 1]).abs() / (length + 1) as f64;
             let largest_near = near.fold(drift, f64::max);
-            if opposite && jump > ABOVE_USUAL * usual && jump > ABOVE_NEAR * largest_near {
+            if opposite && jump > limits * ABOVE_USUAL * usual && jump > limits * ABOVE_NEAR * largest_near {
                 found.push(i..end);
                 i = end;
             }
         }
         i += 1;
     }
-    (!found.is_empty()).then(|| {
-        let places = describe(found.iter().map(|it| format!("{} s", number(time[it.start]))));
-        let text = format!(
-            "drops out or spikes for single samples {} times, at {places}: check plugs and cables; these samples are \
-             interpolated in an input, and not compared in an output",
-            found.len()
-        );
-        Fault { text, samples: found }
-    })
+    found
 }
 
 fn quantisation(channel: &Channel) -> Option<String> {

@@ -193,6 +193,35 @@ fn saturation() {
     assert_eq!(check(&record).problems.len(), 2);
 }
 
+/// A command in steps, the highest of which is not the only one that stays.
+#[test]
+fn a_stepped_command_is_not_saturated() {
+    let mut record = clean(1, 0.001);
+    let levels = [0.0, 0.3, -0.2, 0.6, 0.1, -0.5, 0.4, 0.6, -0.1];
+    for (k, value) in record.channels[0].values.iter_mut().enumerate() {
+        // Between two steps it goes along a ramp.
+        let (number, within) = (k / 40, k % 40);
+        let [from, to] = [number, number + 1].map(|it| levels[it % levels.len()]);
+        *value = from + (to - from) * (within as f64 / 30.0).min(1.0);
+    }
+    assert!(check(&record).problems.iter().all(|it| !it.text.contains("saturated")), "{record:?}");
+}
+
+/// Kicks of a controller's derivative of all sizes, or many, are what the signal does; few that are as large would be faults.
+#[test]
+fn kicks_of_all_sizes_are_no_spikes() {
+    let kicks = |every: usize, size: &dyn Fn(usize) -> f64| {
+        let mut record = clean(1, 0.01);
+        for k in (20..record.channels[2].values.len() - 20).step_by(every) {
+            record.channels[2].values[k] += size(k);
+        }
+        check(&record).problems.iter().any(|it| it.text.contains("spikes"))
+    };
+    // Twice as high is a quarter as often.
+    assert!(!kicks(30, &|k| 0.15 / (0.01 + (k as f64 * 0.618).fract()).sqrt()));
+    assert!(kicks(120, &|_| 5.0) && !kicks(40, &|_| 5.0));
+}
+
 /// A carriage that friction holds where it turns, behind a coarse encoder: it creeps to there and off again.
 #[test]
 fn where_a_coarse_signal_creeps_to_its_highest_value_it_is_not_saturated() {
