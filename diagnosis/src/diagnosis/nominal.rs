@@ -7,6 +7,7 @@ use crate::dataset::rate::along;
 use crate::dataset::recorded::{Dataset, SHORT, Source};
 use crate::dataset::split::Split;
 use crate::decision::criteria::CRITERIA;
+use crate::decision::rules::lowers;
 use crate::estimation::deadline::Stage;
 use crate::estimation::fit::{Residuals, contained};
 use crate::estimation::hypothesis::{Baseline, Fitted};
@@ -110,7 +111,7 @@ impl<'a> Baseline<'a> {
     /// The extended model that is reported, and what knows the weights and the records that it was fitted with. In a search, all fits have
     /// the weights of the nominal fit, by which the effects, once found, would count for little beside what was known of parameters
     /// before, and motion with as few samples as tell effects from each other. A curve without a name is no law: what it leaves is
-    /// not noise, and weighs as before.
+    /// not noise, and weighs as before. So does what a law leaves that is only a part of what is missing, if a signal loses by other weights.
     pub(super) fn weighed_by_what_is_left(
         &self,
         found: &Found,
@@ -120,14 +121,29 @@ impl<'a> Baseline<'a> {
         if terms.is_empty() || terms.iter().any(|it| has_no_name(*it)) {
             return Ok((self.clone(), found.extended.clone()));
         }
+        let before = validated(self.test, &found.extended);
         let on = |mut baseline: Baseline<'a>| {
             let extended = weighted(&mut baseline, found.extended.clone())?;
-            Ok((baseline, extended))
+            let after = validated(baseline.test, &extended);
+            Ok((!lowers(&before, &after)).then_some((baseline, extended)))
         };
         let [train, test] = &records.finer;
         // What diverges in finer motion need not in the search's.
-        on(Baseline { train, test, ..self.clone() }).or_else(|_: String| on(self.clone()))
+        let weighed = on(Baseline { train, test, ..self.clone() }).or_else(|_: String| on(self.clone()))?;
+        Ok(weighed.unwrap_or_else(|| (self.clone(), found.extended.clone())))
     }
+}
+
+/// How closely each signal of the validation data is met.
+fn validated(records: &[Dataset], fitted: &Fitted) -> Vec<f64> {
+    let of = |row: usize| {
+        let pairs = || records.iter().zip(&fitted.test);
+        let left: Vec<f64> = pairs().flat_map(|(_, left)| left[row].iter().copied()).collect();
+        let values: Vec<f64> =
+            pairs().flat_map(|(record, _)| record.measured[row].values.iter().copied()).collect();
+        phi(&left, &values)
+    };
+    (0..records.first().map_or(0, |it| it.measured.len())).map(of).collect()
 }
 
 /// The nominal fit from where many short stretches lead, each with states of its own at the start: over a long stretch, a
