@@ -179,6 +179,7 @@ impl Baseline<'_> {
         }
         let candidates = self.candidates(&missing, &signals, &found.extended.terms);
         let compared = self.compared(&missing, candidates, &location.background);
+        let compared = compared.map(|it| self.sharpened((&missing, &signals), it, &location.background));
         let compared = compared.map(|it| if self.uses(Component::Ports) { it } else { it.undecided() });
         let compared = compared.map(|it| if self.uses(Component::Features) { it } else { it.of_names() });
         Ok(compared.map(|compared| Looked { missing, signals, location, compared }))

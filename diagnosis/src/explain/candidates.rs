@@ -47,7 +47,6 @@ pub struct Candidate {
 }
 
 /// All candidates.
-#[derive(Default)]
 pub struct Candidates {
     /// What they are.
     pub list: Vec<Candidate>,
@@ -62,7 +61,19 @@ impl Candidates {
         self.columns.iter().map(|all| all[range.clone()].to_vec()).collect()
     }
 
-    fn add(&mut self, kind: Kind, columns: Vec<Vec<Column>>, peaks: Vec<f64>) {
+    /// None yet, in so many windows.
+    pub fn of_windows(count: usize) -> Self {
+        Self { list: Vec::new(), columns: vec![Vec::new(); count] }
+    }
+
+    /// Takes over a candidate of others.
+    pub(super) fn take(&mut self, mut others: Self, candidate: usize) {
+        let columns = others.of(candidate);
+        let Candidate { kind, peaks, .. } = others.list.swap_remove(candidate);
+        self.add(kind, columns, peaks);
+    }
+
+    pub(super) fn add(&mut self, kind: Kind, columns: Vec<Vec<Column>>, peaks: Vec<f64>) {
         let first = self.columns.first().map_or(0, Vec::len);
         let count = columns.first().map_or(0, Vec::len);
         for (all, own) in self.columns.iter_mut().zip(columns) {
@@ -89,8 +100,7 @@ impl Baseline<'_> {
 
     /// All candidates but those that are explained already.
     pub fn candidates(&self, missing: &Missing<'_>, outputs: &[Signals], explained: &[Term]) -> Candidates {
-        let mut all =
-            Candidates { columns: vec![Vec::new(); missing.windows.len()], ..Candidates::default() };
+        let mut all = Candidates::of_windows(missing.windows.len());
         self.laws(missing, explained, &mut all);
         self.features(missing, outputs, &mut all);
         all
@@ -122,7 +132,7 @@ impl Baseline<'_> {
     }
 
     fn features(&self, missing: &Missing<'_>, outputs: &[Signals], all: &mut Candidates) {
-        let (setting, windows) = (&missing.setting, &missing.windows);
+        let setting = &missing.setting;
         let commands: Vec<usize> = setting
             .ports
             .iter()
@@ -136,23 +146,36 @@ impl Baseline<'_> {
             if setting.ties[number] != number {
                 continue;
             }
-            let place = place(setting, number);
             for (further, mover) in Mover::all(self.rig, port, &missing.records[0]).into_iter().enumerate() {
-                let Some(motions) = mover.motions(self.rig, (port, windows), outputs) else { continue };
                 let groups = if further > 0 { Group::CURVES.to_vec() } else { Group::all(&commands, others) };
                 for group in groups {
-                    let signals = features(group, &motions, (missing.records, windows));
-                    let columns = windows.iter().enumerate().map(|(index, window)| {
-                        signals.iter().map(|signal| column(port, place, window, &signal[index])).collect()
-                    });
-                    let size = setting.sizes[number].max(f64::MIN_POSITIVE);
-                    let peak = |signal: &Vec<Vec<f64>>| {
-                        signal.iter().flatten().fold(0.0_f64, |most, it| most.max(it.abs())) / size
-                    };
-                    let peaks = signals.iter().map(peak).collect();
-                    all.add(Kind::Feature { port: number, mover, group }, columns.collect(), peaks);
+                    self.feature(missing, outputs, (number, mover, group), all);
                 }
             }
         }
+    }
+
+    /// Features of a group at a port as a further candidate, if its motion is known.
+    pub(super) fn feature(
+        &self,
+        missing: &Missing<'_>,
+        outputs: &[Signals],
+        (number, mover, group): (usize, Mover, Group),
+        all: &mut Candidates,
+    ) {
+        let (setting, windows) = (&missing.setting, &missing.windows);
+        let port = &setting.ports[number];
+        let Some(motions) = mover.motions(self.rig, (port, windows), outputs) else { return };
+        let signals = features(group, &motions, (missing.records, windows));
+        let place = place(setting, number);
+        let columns = windows.iter().enumerate().map(|(index, window)| {
+            signals.iter().map(|signal| column(port, place, window, &signal[index])).collect()
+        });
+        let size = setting.sizes[number].max(f64::MIN_POSITIVE);
+        let peak = |signal: &Vec<Vec<f64>>| {
+            signal.iter().flatten().fold(0.0_f64, |most, it| most.max(it.abs())) / size
+        };
+        let peaks = signals.iter().map(peak).collect();
+        all.add(Kind::Feature { port: number, mover, group }, columns.collect(), peaks);
     }
 }

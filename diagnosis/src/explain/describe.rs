@@ -12,7 +12,7 @@ use crate::plant::{Plant, Signals};
 use crate::report::words::digits;
 use crate::signal::spectral::{below, line};
 
-use super::features::{AGEING, Group, RESONANCES, features};
+use super::features::{AGEING, Group, features};
 use super::selection::Compared;
 use super::signal::{over_training, signal};
 
@@ -42,7 +42,7 @@ pub struct Unmodelled {
     pub validated: f64,
     /// By how much the fit of a signal would rise with it.
     pub improvement: f64,
-    /// Amount of the only feature, where the group has one.
+    /// Amount of the only feature, where the group has one; the mass of an oscillator.
     pub amount: Option<f64>,
     /// Frequency in Hz where it has one.
     pub frequency: Option<f64>,
@@ -77,9 +77,13 @@ impl Unmodelled {
             share: score.share,
             validated: score.validated,
             improvement,
-            amount: (amounts.len() == 1).then(|| amounts[0]),
+            amount: match group {
+                // Its spring pulls with its mass times what drives it, against the motion.
+                Group::Resonance(_) => Some(-amounts[0]),
+                _ => (amounts.len() == 1).then(|| amounts[0]),
+            },
             frequency: match group {
-                Group::Resonance(number) => Some(RESONANCES[number]),
+                Group::Resonance(oscillator) => Some(oscillator.hertz),
                 _ => None,
             },
             band: None,
@@ -157,8 +161,11 @@ impl Unmodelled {
                 )
             }
             (["memory"], _) if self.frequency.is_some() => {
-                let frequency = self.frequency.unwrap_or_default();
-                format!("a {force} that remembers the motion, with a resonance near {frequency:.0} Hz")
+                let frequency = digits(self.frequency.unwrap_or_default(), 2);
+                let like = self.amount.map_or(String::new(), |it| {
+                    format!(", as of a {mass} of {} {unit} on a spring", digits(it, 2))
+                });
+                format!("a {force} that remembers the motion, with a resonance near {frequency} Hz{like}")
             }
             (["memory"], _) if self.at == MEASURED => {
                 "a signal that depends on its own past, as behind a filter,".to_owned()
@@ -296,6 +303,13 @@ mod tests {
                 .description()
                 .starts_with("a force that follows the acceleration, like an additional mass of")
         );
+    }
+
+    #[test]
+    fn an_oscillator_has_a_mass() {
+        let it = Unmodelled { amount: Some(4.96), frequency: Some(26.3), ..at_the_strut(&["memory"]) };
+        let told = "a force that remembers the motion, with a resonance near 26 Hz, as of a mass of 5.0 kg on a spring at the strut";
+        assert_eq!(it.description(), told);
     }
 
     #[test]

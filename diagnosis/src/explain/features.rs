@@ -7,6 +7,8 @@ use crate::missing::motion::Motion;
 use crate::missing::trajectory::Window;
 use crate::signal::derivative;
 
+use super::resonance::Oscillator;
+
 /// Knots of a curve over a variable …
 const KNOTS: usize = 9;
 /// … and over one of two.
@@ -15,10 +17,6 @@ const FEWER_KNOTS: usize = 7;
 const COOLING: [f64; 3] = [2.0, 8.0, 30.0];
 /// Time constants of memories in seconds.
 const MEMORIES: [f64; 5] = [0.003, 0.01, 0.03, 0.1, 0.3];
-/// Frequencies of oscillators in Hz, half an octave apart.
-pub const RESONANCES: [f64; 8] = [2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0, 22.0];
-/// Damping ratio of these oscillators: as wide as the steps between them.
-const DAMPING: f64 = 0.15;
 /// Lags in seconds with which what another column says may act: a coil's current follows its voltage.
 const LAGS: [f64; 3] = [0.0, 0.01, 0.05];
 /// Shares of a velocity's root mean square within which friction turns over.
@@ -36,7 +34,7 @@ pub const AGEING: [(Option<&str>, Law); 4] = [
 ];
 
 /// What a missing signal may depend on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Group {
     /// Any curve over the deflection.
     Deflection,
@@ -46,8 +44,8 @@ pub enum Group {
     Acceleration,
     /// What remembers the velocity for some time.
     Memory,
-    /// An oscillator that the motion drives, by its frequency's place among [`RESONANCES`].
-    Resonance(usize),
+    /// An oscillator that the motion drives.
+    Resonance(Oscillator),
     /// Damping and friction that are any curve over the deflection.
     DeflectionAndVelocity,
     /// Damping and friction in proportion to the work that was done before and has not cooled off yet.
@@ -63,7 +61,7 @@ pub enum Group {
 impl Group {
     /// All of a port, with so many columns that no signal of the rig is.
     pub fn all(commands: &[usize], others: usize) -> Vec<Self> {
-        let resonances = (0..RESONANCES.len()).map(Self::Resonance);
+        let resonances = Oscillator::first().map(Self::Resonance);
         let commands = commands.iter().map(|it| Self::Command(*it));
         Self::OF_MOTION
             .into_iter()
@@ -117,12 +115,9 @@ pub fn features(
                 v.iter().zip(windows).map(|(v, window)| relaxed(v, 0.0, *time, window.step)).collect()
             })
             .collect(),
-        Group::Resonance(number) => {
-            let both: Vec<[Vec<f64>; 2]> = v
-                .iter()
-                .zip(windows)
-                .map(|(v, window)| resonance(v, RESONANCES[number], window.step))
-                .collect();
+        Group::Resonance(oscillator) => {
+            let both: Vec<[Vec<f64>; 2]> =
+                v.iter().zip(windows).map(|(v, window)| oscillator.forces(v, window.step)).collect();
             (0..2).map(|part| both.iter().map(|it| it[part].clone()).collect()).collect()
         }
         Group::DeflectionAndVelocity => {
@@ -284,29 +279,6 @@ fn heated(power: &[Vec<f64>], time: f64, spans: &[Span]) -> Vec<Vec<f64>> {
     all
 }
 
-/// `y'' + 2 ζ ω y' + ω² y = −v'`: an oscillator's restoring and damping force per mass, `ω² y` and `2 ζ ω y'`.
-fn resonance(velocity: &[f64], frequency: f64, step: f64) -> [Vec<f64>; 2] {
-    let omega = 2.0 * std::f64::consts::PI * frequency;
-    // Exact for a velocity that is straight between samples, however few of them a period has.
-    let (fading, turning) = (DAMPING * omega, omega * (1.0 - DAMPING * DAMPING).sqrt());
-    let (left, sine, cosine) =
-        ((-fading * step).exp(), (turning * step).sin() / turning, (turning * step).cos());
-    let (mut y, mut rate, mut before) = (0.0, 0.0, velocity.first().copied().unwrap_or_default());
-    let (mut restoring, mut damping) = (Vec::new(), Vec::new());
-    for v in velocity {
-        let rest = -(v - before) / (step * omega * omega);
-        let beside = y - rest;
-        (y, rate) = (
-            rest + left * ((cosine + fading * sine) * beside + sine * rate),
-            left * ((cosine - fading * sine) * rate - omega * omega * sine * beside),
-        );
-        before = *v;
-        restoring.push(omega * omega * y);
-        damping.push(2.0 * DAMPING * omega * rate);
-    }
-    [restoring, damping]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -322,24 +294,6 @@ mod tests {
             for (sample, heat) in samples.clone().zip(heat) {
                 let exact = 6.0 * (1.0 - (-((sample + 1) as f64) * STEP / 2.0).exp());
                 assert!((heat - exact).abs() < 1e-9, "{sample}: {heat} {exact}");
-            }
-        }
-    }
-
-    /// The step response `1 − exp(−ζωt) (cos ω_d t + ζω/ω_d sin ω_d t)`, also with fewer than three samples in a period, where the
-    /// steps of a simulation would run away.
-    #[test]
-    fn an_oscillator_is_exact_for_a_velocity_that_is_straight_between_samples() {
-        for step in [0.001, 0.02] {
-            let (hertz, acceleration) = (22.0, 3.0);
-            let velocity: Vec<f64> = (0..300).map(|k| acceleration * step * f64::from(k)).collect();
-            let [restoring, _] = resonance(&velocity, hertz, step);
-            let omega = 2.0 * std::f64::consts::PI * hertz;
-            let (fading, turning) = (DAMPING * omega, omega * (1.0 - DAMPING * DAMPING).sqrt());
-            for (k, force) in (0..).map(f64::from).zip(restoring) {
-                let (at, left) = (turning * step * k, (-fading * step * k).exp());
-                let exact = -acceleration * (1.0 - left * (at.cos() + fading / turning * at.sin()));
-                assert!((force - exact).abs() < 1e-9, "{step}: {k}");
             }
         }
     }

@@ -4,6 +4,7 @@ pub mod candidates;
 pub mod columns;
 pub mod describe;
 pub mod features;
+pub mod resonance;
 pub mod selection;
 pub mod signal;
 mod simulated;

@@ -49,6 +49,8 @@ pub struct Compared {
     pub named: Vec<Score>,
     /// Groups of features.
     pub features: Vec<Score>,
+    /// The missing signal's sum of squares in the estimation and the validation records.
+    whole: [f64; 2],
     /// Amounts of each candidate's columns.
     amounts: Vec<Vec<f64>>,
     points: Vec<Option<Estimate>>,
@@ -115,13 +117,15 @@ impl Baseline<'_> {
         let quiet = missing.setting.floors.iter().zip(&noise.outputs).map(|(floor, error)| floor / error);
         let quiet = quiet.sum::<f64>() / noise.outputs.len().max(1) as f64;
         let held_out = held_out.map_or((0.0, 0), |(_, left, count)| (left, count));
-        in_shares(&mut [&mut named, &mut features], quiet, [(before.left, known.count), held_out]);
+        let data = [(before.left, known.count), held_out];
+        let whole = in_shares(&mut [&mut named, &mut features], quiet, data);
         Some(Compared {
             candidates,
             misses,
             left: before.left,
             named,
             features,
+            whole,
             amounts: all_amounts,
             points,
         })
@@ -129,8 +133,8 @@ impl Baseline<'_> {
 }
 
 /// Turns the reductions of both sums of squares (estimation and validation records) into shares of the missing signal. The
-/// missing signal is the sum of squares beyond measurement noise, and at least what the best candidate explains.
-fn in_shares(scores: &mut [&mut Vec<Score>; 2], quiet: f64, [train, test]: [(f64, usize); 2]) {
+/// missing signal is the sum of squares beyond measurement noise, and at least what the best candidate explains. Gives both.
+fn in_shares(scores: &mut [&mut Vec<Score>; 2], quiet: f64, [train, test]: [(f64, usize); 2]) -> [f64; 2] {
     let largest = |of: &dyn Fn(&Score) -> f64| {
         scores.iter().flat_map(|all| all.iter()).map(of).fold(f64::MIN_POSITIVE, f64::max)
     };
@@ -141,6 +145,7 @@ fn in_shares(scores: &mut [&mut Vec<Score>; 2], quiet: f64, [train, test]: [(f64
         score.share /= train;
         score.validated /= test;
     }
+    [train, test]
 }
 
 /// Whether features may act: no body is lighter for what acts on it, and no force is far beyond what moves the rig. Where a
@@ -160,6 +165,34 @@ impl Compared {
     #[must_use]
     pub fn of_names(self) -> Self {
         Self { features: Vec::new(), ..self }
+    }
+
+    /// A score of this comparison, by what is missing in another one of the same signal.
+    fn seen_by(&self, other: &Self, score: &Score) -> Score {
+        let [train, test] = [0, 1].map(|it| self.whole[it] / other.whole[it]);
+        Score { share: train * score.share, validated: test * score.validated, ..*score }
+    }
+
+    /// The share of what is missing in another comparison that a score of this one explains.
+    pub(super) fn share_in(&self, other: &Self, score: &Score) -> f64 {
+        self.seen_by(other, score).share
+    }
+
+    /// Takes features of another comparison of the same signal as a further candidate. The share that they explain: more than all
+    /// that seemed to be missing is all that is missing.
+    pub(super) fn take(&mut self, other: Self, score: Score) -> f64 {
+        let own = other.seen_by(self, &score);
+        let [train, test] = [own.share, own.validated].map(|it| it.max(1.0));
+        for it in self.named.iter_mut().chain(&mut self.features) {
+            (it.share, it.validated) = (it.share / train, it.validated / test);
+        }
+        self.whole = [self.whole[0] * train, self.whole[1] * test];
+        let own = Score { candidate: self.candidates.list.len(), ..other.seen_by(self, &score) };
+        self.amounts.push(other.amounts[score.candidate].clone());
+        self.points.push(None);
+        self.candidates.take(other.candidates, score.candidate);
+        self.features.push(own);
+        own.share
     }
 
     /// Without the comparison: any effect may be it.
@@ -312,7 +345,8 @@ mod tests {
     fn a_candidate_explains_no_more_than_all_that_is_missing() {
         let (mut named, mut features) = (vec![score(0, 50.0, 20.0), score(1, 10.0, -5.0)], vec![]);
         // Left is what the noise makes, and yet a law explains fifty of it.
-        in_shares(&mut [&mut named, &mut features], 0.25, [(100.0, 400), (300.0, 400)]);
+        let whole = in_shares(&mut [&mut named, &mut features], 0.25, [(100.0, 400), (300.0, 400)]);
+        assert_eq!(whole, [50.0, 200.0]);
         assert_eq!(named, [score(0, 1.0, 0.1), score(1, 0.2, -0.025)]);
     }
 }
