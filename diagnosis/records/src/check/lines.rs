@@ -3,6 +3,7 @@
 //! What moves a rig shows in its inputs, and what resonates in it is wider than a line. Where an input has lines itself (sines,
 //! repeated pseudo-random sequences) every bend in the rig makes more of them, and nothing is reported.
 
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::{Channel, GAP, Problems, Record, number};
@@ -22,6 +23,8 @@ const ABOVE: f64 = 150.0;
 const NOTHING: f64 = 10.0;
 /// Share of a signal's power that is at one frequency if it is a sine, however few of its periods were recorded.
 const MOSTLY: f64 = 0.3;
+/// Factor between the amplitudes of a sine in the halves of a record from which it is no hum, but what rings down or is stirred.
+const STEADY: f64 = 2.0;
 /// Lines of one signal at most: what has more is meant to have them.
 const HUM: usize = 3;
 
@@ -56,7 +59,8 @@ pub fn lines(record: &Record, drives: impl Fn(&str) -> bool) -> Vec<DataProblem>
         let others = spectra.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, it)| it);
         let nowhere = |of: &Spectrum| lines.iter().all(|line| of.above(line.bin) < NOTHING);
         let Some(largest) = lines.iter().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude)) else { continue };
-        if lines.len() > HUM || !others.chain(&driving).all(nowhere) {
+        let steady = is_steady(&channel.values, spectrum.frequency(largest.bin));
+        if lines.len() > HUM || !steady || !others.chain(&driving).all(nowhere) {
             continue;
         }
         let text = format!(
@@ -71,6 +75,24 @@ pub fn lines(record: &Record, drives: impl Fn(&str) -> bool) -> Vec<DataProblem>
         problems.add(&channel.name, false, text);
     }
     problems.found
+}
+
+/// Whether a sine, at a frequency in units of the sampling rate, is as large in the first half of a signal as in the second.
+fn is_steady(values: &[f64], frequency: f64) -> bool {
+    let Some(values) = filled(&values[..values.len().min(MOST)]) else { return false };
+    let (first, second) = values.split_at(values.len() / 2);
+    let amplitude = |half: &[f64]| {
+        let part = |wave: fn(f64) -> f64| -> f64 {
+            let terms = half.iter().enumerate().map(|(k, y)| {
+                let window = 1.0 - (TAU * k as f64 / half.len() as f64).cos();
+                window * y * wave(TAU * frequency * k as f64)
+            });
+            terms.sum()
+        };
+        part(f64::cos).hypot(part(f64::sin)) / half.len().max(1) as f64
+    };
+    let (first, second) = (amplitude(first), amplitude(second));
+    first.max(second) < STEADY * first.min(second)
 }
 
 /// The power of a signal behind Hann's window.
@@ -121,8 +143,6 @@ impl Spectrum {
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::TAU;
-
     use super::*;
     use strut_signal::random::white;
 
@@ -144,6 +164,18 @@ mod tests {
     fn with_sine(signal: &[f64], amplitude: f64, frequency: f64) -> Vec<f64> {
         let sine = |k: usize| amplitude * (TAU * frequency * STEP * k as f64 + 0.4).sin();
         signal.iter().enumerate().map(|(k, y)| y + sine(k)).collect()
+    }
+
+    /// A quarter of a per cent of critical damping: what rings down over a record has a line, too.
+    #[test]
+    fn what_rings_down_is_no_hum() {
+        let ringing: Vec<f64> = (0..COUNT)
+            .map(|k| (-0.0025 * TAU * 16.0 * STEP * k as f64).exp() * (TAU * 16.0 * STEP * k as f64).sin())
+            .collect();
+        let noise = |seed: u64| -> Vec<f64> { white(seed, COUNT).iter().map(|it| 1e-3 * it).collect() };
+        let sum: Vec<f64> = ringing.iter().zip(noise(8)).map(|(y, noise)| y + noise).collect();
+        assert!(told(&[noise(9), sum]).is_empty());
+        assert_eq!(told(&[noise(9), with_sine(&noise(8), 1.0, 16.0)]).len(), 1);
     }
 
     /// A mass on a spring of 40 Hz, with a hundredth of critical damping, shaken at random.
