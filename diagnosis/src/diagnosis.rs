@@ -69,6 +69,10 @@ pub fn diagnose<'a>(
     let (weighed, extended, intervals) = loop {
         // After a retraction, other effects get their turn.
         baseline.identify(&mut found, progress)?;
+        if let Some(closer) = baseline.closer(&found)? {
+            found = Found::nothing(baseline.look_at(closer)?);
+            continue;
+        }
         if judged && let Some(harmful) = baseline.harmful(&found, &records.measured) {
             baseline.retract(&mut found, harmful);
             continue;

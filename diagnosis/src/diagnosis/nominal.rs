@@ -19,7 +19,7 @@ use crate::signal::distortion::Fault;
 
 use super::{Found, phi, root_mean_square};
 
-/// Cost of a fit with an input turned over, in that of the fit without, below which the input had the wrong sign.
+/// Cost of a fit, in that of another one, below which it is clearly the better one.
 const CLEARLY: f64 = 0.8;
 
 /// Share of an estimated noise that is there for sure: estimates are some per cent off.
@@ -65,12 +65,17 @@ pub(super) fn fit(baseline: &mut Baseline<'_>) -> Result<(Estimate, Fitted, Vec<
     {
         base = baseline.fitted(&[], &[again, base.point], Stop::NOISY)?;
     }
+    Ok((before, settled(baseline, base)?, reversed))
+}
+
+/// A nominal fit with its weights, its scale, and what noise of the measured inputs does to it.
+fn settled(baseline: &mut Baseline<'_>, base: Fitted) -> Result<Fitted, String> {
     let mut base = weighted(baseline, base)?;
     if let Some(point) = baseline.hold_scale(&base) {
         base = weighted(baseline, Fitted { point, ..base })?;
     }
     baseline.transmitted = transmitted(baseline, &base)?;
-    Ok((before, base, reversed))
+    Ok(base)
 }
 
 /// Root mean square of what noise of the measured inputs changes each measured output by, on the validation data. The states at
@@ -108,6 +113,25 @@ pub(super) fn weighted(baseline: &mut Baseline<'_>, mut base: Fitted) -> Result<
 }
 
 impl<'a> Baseline<'a> {
+    /// The nominal fit from where the extended one is, where it comes clearly closer than the one before: that had ended in another
+    /// minimum, and the effects made up for it.
+    ///
+    /// # Errors
+    /// If the model refuses its settings or diverges.
+    pub(super) fn closer(&mut self, found: &Found) -> Result<Option<Fitted>, String> {
+        if found.accepted.is_empty() || self.deadline.is_over(Stage::Search) {
+            return Ok(None);
+        }
+        let mut start = found.base.point.clone();
+        for it in &found.base.coordinates {
+            start.set(it.handle, found.extended.point.get(it.handle));
+        }
+        match self.fitted(&[], &[start], Stop::NOISY) {
+            Ok(other) if other.cost < CLEARLY * found.base.cost => settled(self, other).map(Some),
+            _ => Ok(None),
+        }
+    }
+
     /// The extended model that is reported, and what knows the weights and the records that it was fitted with. In a search, all fits have
     /// the weights of the nominal fit, by which the effects, once found, would count for little beside what was known of parameters
     /// before, and motion with as few samples as tell effects from each other. A curve without a name is no law: what it leaves is

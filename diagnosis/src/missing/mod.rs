@@ -191,7 +191,7 @@ impl Baseline<'_> {
     pub fn missing_with<'b>(&self, frame: &'b Frame, errors: Option<&[f64]>) -> Result<Missing<'b>, String> {
         let timing = self.coordinates(&[]).into_iter().map(|it| it.handle);
         let timing: Vec<Unknown> = timing.filter(|it| matches!(it, Unknown::Output(..))).collect();
-        let stretches = stretches(&frame.records);
+        let stretches = stretches(&frame.records, SAMPLES);
         let about = About { frame, errors, stretches: &stretches, timing: &timing };
         let mut precisions = self.precisions(&frame.parameters);
         precisions.extend(timing.iter().map(|_| (DELAY / TIMING).powi(2)));
@@ -325,10 +325,10 @@ fn undistorted(record: &mut Dataset, output: usize, distortion: &Correction) {
     }
 }
 
-/// Stretches of all records: none longer than [`LONGEST`], not more than [`SAMPLES`] together, spread over each record.
-fn stretches(records: &[Dataset]) -> Vec<(usize, Range<usize>)> {
+/// Stretches of all records: none longer than [`LONGEST`], about as many samples together as given, spread over each record.
+fn stretches(records: &[Dataset], samples: usize) -> Vec<(usize, Range<usize>)> {
     let total: usize = records.iter().flat_map(|it| it.sections.iter().map(Range::len)).sum();
-    let share = (SAMPLES as f64 / total.max(1) as f64).min(1.0);
+    let share = (samples as f64 / total.max(1) as f64).min(1.0);
     let mut all = Vec::new();
     for (number, record) in records.iter().enumerate() {
         let longest = ((LONGEST.0 / record.step) as usize).max(LONGEST.1);

@@ -3,12 +3,13 @@
 use std::ops::Range;
 
 use crate::estimation::coordinates::TOLERANCE;
+use crate::estimation::deadline::Stage;
 use crate::estimation::hypothesis::Baseline;
 use crate::estimation::unknowns::{Estimate, Unknown};
 
-use super::Frame;
 use super::innovations::{Columns, Noise, Stretch};
 use super::likelihood::Amounts;
+use super::{Frame, stretches};
 
 /// Least share of a nominal value that a parameter is believed to have, where it cannot be zero.
 const LEAST: f64 = 0.3;
@@ -21,6 +22,11 @@ const ANY: [f64; 4] = [0.03, 0.1, 0.3, 1.0];
 const ROUNDS: [usize; 2] = [2, 10];
 /// Powers of ten by which what has no value and must not be zero may be off.
 const DECADES: Range<i32> = -9..5;
+/// Fall of the log-likelihood a decade to either side by which a parameter's order is clearly the right one (R. E. Kass and
+/// A. E. Raftery, J. Am. Stat. Assoc. 90, 1995, 773–795: very strong evidence).
+const CLEARLY: f64 = 5.0;
+/// Samples that tell the order of a parameter.
+const ENOUGH: usize = 1500;
 /// Largest logarithm of the factor by which a round changes it.
 const FACTOR: f64 = 1.0;
 /// Relative change of a parameter without a value below which the rounds end.
@@ -31,7 +37,7 @@ pub(super) struct About<'a, 'b> {
     pub frame: &'a Frame,
     /// Variances of the measured outputs' errors, where they are known by now.
     pub errors: Option<&'b [f64]>,
-    /// Stretches of the records that are looked at.
+    /// Stretches of the records that are looked at, those of the estimation records first.
     pub stretches: &'b [(usize, Range<usize>)],
     /// What is late of each channel.
     pub timing: &'b [Unknown],
@@ -74,6 +80,9 @@ impl Baseline<'_> {
 
     /// Corrects the nominal parameters as far as the missing signals allow: before the last step, and behind it.
     pub(super) fn nominal_by_balance(&self, about: &About<'_, '_>, precisions: &[f64]) -> [Estimate; 2] {
+        // Nominal parameters answer to the estimation records only.
+        let own = about.stretches.partition_point(|(record, _)| *record < self.train.len());
+        let about = &About { stretches: &about.stretches[..own], ..*about };
         let mut point = about.frame.point.clone();
         for (index, value, _) in &self.known {
             point.parameters[*index] = *value;
@@ -82,11 +91,18 @@ impl Baseline<'_> {
         let unstated: Vec<usize> = parameters.filter(|it| self.is_of_unknown_order(*it)).collect();
         let (shares, rounds) =
             if unstated.is_empty() { (&LOOSE[..], ROUNDS[0]) } else { (&ANY[..], ROUNDS[1]) };
-        for index in unstated.iter().filter(|_| about.frame.far) {
-            point = self.of_the_right_order(about, (precisions, shares), *index, &point);
+        if about.frame.far {
+            let few = stretches(&about.frame.records[..self.train.len()], ENOUGH);
+            let roughly = About { stretches: &few, ..*about };
+            for index in &unstated {
+                point = self.of_the_right_order(&roughly, (precisions, shares), *index, &point);
+            }
         }
         let mut before = point.parameters.clone();
         for _ in 0..rounds {
+            if self.deadline.is_over(Stage::Nominal) {
+                break;
+            }
             // A step too far is taken back.
             let Ok(Some((_, fitted))) = self.corrected(about, (precisions, shares), &point) else {
                 point.parameters.clone_from(&before);
@@ -120,18 +136,24 @@ impl Baseline<'_> {
         point: &Estimate,
     ) -> Estimate {
         let most = self.rig.plant.parameters[index].max.unwrap_or(f64::INFINITY);
-        let scaled = |decade: i32| {
+        let at = |decade: i32| {
             let mut scaled = point.clone();
             scaled.parameters[index] *= 10.0_f64.powi(decade);
-            scaled
-        };
-        let possible =
-            DECADES.map(scaled).filter(|it| (self.least(index)..=most).contains(&it.parameters[index]));
-        let likely = possible.filter_map(|scaled| {
+            let possible = (self.least(index)..=most).contains(&scaled.parameters[index]);
+            if !possible || self.deadline.is_over(Stage::Nominal) {
+                return None;
+            }
             let (likelihood, _) = self.corrected(about, shares, &scaled).ok()??;
             Some((likelihood, scaled))
-        });
-        likely.max_by(|a, b| a.0.total_cmp(&b.0)).map_or_else(|| point.clone(), |(_, best)| best)
+        };
+        let near: Vec<(f64, Estimate)> = [0, -1, 1].into_iter().filter_map(at).collect();
+        if let [(here, _), (less, _), (more, _)] = &near[..]
+            && here - less.max(*more) > CLEARLY
+        {
+            return point.clone();
+        }
+        let all = near.into_iter().chain(DECADES.filter(|it| it.abs() > 1).filter_map(at));
+        all.max_by(|a, b| a.0.total_cmp(&b.0)).map_or_else(|| point.clone(), |(_, best)| best)
     }
 
     /// The likelihood of the estimation records about a point, and the corrections that make them likeliest; none if they
