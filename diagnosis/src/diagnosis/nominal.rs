@@ -284,3 +284,60 @@ fn floors(train: &[Dataset]) -> Vec<f64> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+    use crate::confirm::Accepted;
+    use crate::dataset::recorded::Measured;
+    use crate::decision::evidence::Evidence;
+    use crate::diagnosis::Options;
+    use crate::estimation::hypothesis::Term;
+    use crate::signal::random::Random;
+
+    /// 12 kg with 40 N s/m, moved by 20 mm at 0.9 Hz and 4 mm at 3.1 Hz.
+    fn record(rig: &Rig, seed: u64) -> Dataset {
+        const SINES: [(f64, f64); 2] = [(0.02, 0.9), (4e-3, 3.1)];
+        let mut random = Random::new(seed);
+        let at = |k: i32| f64::from(k) * 2e-3 + seed as f64;
+        let wave = |t: f64, of: fn(f64) -> f64, order: i32| -> f64 {
+            SINES.iter().map(|(size, hertz)| size * (TAU * hertz).powi(order) * of(TAU * hertz * t)).sum()
+        };
+        let force = |t: f64| 40.0 * wave(t, f64::cos, 1) - 12.0 * wave(t, f64::sin, 2);
+        let inputs = rig.plant.inputs.iter().map(|declared| match declared.name.as_str() {
+            "force" => Source::Measured((0..4000).map(|k| force(at(k))).collect()),
+            _ => Source::Constant(0.0),
+        });
+        let values = (0..4000).map(|k| wave(at(k), f64::sin, 0) + 1e-5 * random.normal()).collect();
+        let output = rig.plant.output("position").unwrap();
+        Dataset {
+            step: 2e-3,
+            inputs: inputs.collect(),
+            measured: vec![Measured { output, values, noise_floor: 1e-5 }],
+            sections: std::iter::once(0..4000).collect(),
+            ..Dataset::default()
+        }
+    }
+
+    #[test]
+    fn a_fit_in_another_minimum_is_left_for_where_the_effects_lead() {
+        let mut rig = Rig::published("linear-drive").unwrap();
+        rig.drive_by(&rig.kind.drives[0].clone(), |name| name == "force").unwrap();
+        let records = Split::new(&[record(&rig, 1)], vec![record(&rig, 2)]);
+        let mut baseline = Baseline::new(&rig, &records, Options::default());
+        let (_, base, _) = fit(&mut baseline).unwrap();
+        let mass = Unknown::Parameter(rig.plant.parameter("moving_mass").unwrap());
+        assert!((base.point.get(mass) / 12.0 - 1.0).abs() < 1e-2, "{}", base.point.get(mass));
+        let mut found = Found::nothing(base.clone());
+        assert!(baseline.closer(&found).unwrap().is_none(), "without an effect");
+        let term = Term::Fault(Unknown::Input(0, Fault::Delay));
+        found.accepted.push(Accepted { term, evidence: Evidence::default(), rivals: Vec::new() });
+        assert!(baseline.closer(&found).unwrap().is_none(), "as close as before");
+        found.base.cost *= 30.0;
+        found.base.point.set(mass, 90.0);
+        let closer = baseline.closer(&found).unwrap().unwrap();
+        assert!((closer.point.get(mass) / 12.0 - 1.0).abs() < 1e-2, "{}", closer.point.get(mass));
+    }
+}

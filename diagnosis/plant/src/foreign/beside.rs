@@ -152,9 +152,6 @@ impl Beside {
         session: &mut Session,
         (inputs, mut states, mut rates): (&mut [f64], &[f64], &mut [f64]),
     ) {
-        if self.all.is_empty() {
-            return;
-        }
         for (it, set) in self.all.iter().zip(&set.0) {
             let (own, of_own);
             (own, states) = states.split_at(it.states);
@@ -162,8 +159,10 @@ impl Beside {
             let force = it.force(set, time, session, (own, of_own));
             it.acts_on.iter().for_each(|(input, factor)| inputs[*input] += factor * force);
         }
-        // Once for all: no force changes a motion at once.
-        session.drive(inputs);
+        // After all of them: no force changes a motion at once.
+        for (input, _) in self.all.iter().flat_map(|it| &it.acts_on) {
+            session.push(*input, inputs[*input]);
+        }
     }
 
     /// Of each element: its name, and the inputs that it changes.
@@ -278,10 +277,9 @@ impl Attached {
         session: &mut Session,
         (states, rates): (&[f64], &mut [f64]),
     ) -> f64 {
-        let (deflection, velocity) =
-            (session.output(self.deflection) - self.rest, session.output(self.velocity));
+        let [deflection, velocity] = session.some([self.deflection, self.velocity]);
         // The bench moves the lower end: its deflection is the motion's negative.
-        let moved = [-deflection, -velocity];
+        let moved = [self.rest - deflection, -velocity];
         let input = <ElementDyno as Model>::Input::from_fn(|i| moved.get(i).copied().unwrap_or(0.0));
         let state: State = Bundle::from_fn(|i| states.get(i).copied().unwrap_or(0.0));
         let memory = Bundle::from_fn(|_| 0.0);

@@ -77,7 +77,7 @@ impl Differences {
         session.place(0.0, &start, &rest);
         let mut moved = |values: &[f64]| -> Vec<f64> {
             session.drive(values);
-            motions.iter().map(|output| session.output(*output)).collect()
+            motions.iter().flat_map(|output| session.some([*output])).collect()
         };
         let before = moved(&rest);
         for (name, inputs) in self.beside.acts_on() {

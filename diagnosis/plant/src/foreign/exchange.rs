@@ -285,15 +285,26 @@ impl Session {
         }
     }
 
-    /// One output there, in base units.
-    pub fn output(&mut self, index: usize) -> f64 {
-        let access = &self.fmu.of_outputs;
-        let mut value = [f64::NAN];
-        let reference = &access.references[index..=index];
+    /// Sets one of the inputs, in base units, where the others stay.
+    pub fn push(&mut self, index: usize, input: f64) {
+        let access = &self.fmu.of_inputs;
+        self.is_nowhere |= !input.is_finite();
         if !self.is_silent() {
-            self.failed |= !fine(self.fmu.library.reals(self.instance, reference, &mut value));
+            let (reference, value) = (access.references[index], access.conversions[index].own(input));
+            self.failed |= !fine(self.fmu.library.set_reals(self.instance, &[reference], &[value]));
         }
-        if self.is_silent() { f64::NAN } else { access.conversions[index].si(value[0]) }
+    }
+
+    /// Some of the outputs there, in base units.
+    pub fn some<const N: usize>(&mut self, indices: [usize; N]) -> [f64; N] {
+        let access = &self.fmu.of_outputs;
+        let mut values = [f64::NAN; N];
+        if !self.is_silent() {
+            let references = indices.map(|index| access.references[index]);
+            self.failed |= !fine(self.fmu.library.reals(self.instance, &references, &mut values));
+        }
+        let silent = self.is_silent();
+        std::array::from_fn(|i| if silent { f64::NAN } else { access.conversions[indices[i]].si(values[i]) })
     }
 }
 

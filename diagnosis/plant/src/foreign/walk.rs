@@ -21,6 +21,8 @@ pub struct Walk<'a> {
     own: usize,
     /// Time of the first sample in the record, for the elements.
     start: f64,
+    /// Inputs as they are given, and with the elements' forces.
+    given: Vec<f64>,
     inputs: Vec<f64>,
     /// Slopes of a step's stages, and at its end.
     slopes: [Vec<f64>; 5],
@@ -66,6 +68,7 @@ impl<'a> Walk<'a> {
             beside,
             own,
             start,
+            given: Vec::new(),
             inputs: Vec::new(),
             slopes,
             middle: vec![0.0; states],
@@ -89,7 +92,14 @@ impl<'a> Walk<'a> {
         rates: &mut [f64],
         outputs: Option<&mut [f64]>,
     ) {
-        self.place(time, state, (input, inputs), rates);
+        self.given.clear();
+        self.given.extend((0..inputs).map(input));
+        self.look_given(time, state, rates, outputs);
+    }
+
+    /// The same with the inputs that were given last.
+    fn look_given(&mut self, time: f64, state: &[f64], rates: &mut [f64], outputs: Option<&mut [f64]>) {
+        self.place(time, state, rates);
         let (rates, _) = rates.split_at_mut(self.own);
         // Outputs first: after rates, OpenModelica's FMUs take outputs that follow from states for known, and give old ones.
         if let Some(outputs) = outputs {
@@ -98,16 +108,9 @@ impl<'a> Walk<'a> {
         self.session.rates(rates);
     }
 
-    /// Puts it at a time, and computes the rates of the elements' memory there.
-    fn place(
-        &mut self,
-        time: f64,
-        state: &[f64],
-        (input, inputs): (&dyn Fn(usize) -> f64, usize),
-        rates: &mut [f64],
-    ) {
-        self.inputs.clear();
-        self.inputs.extend((0..inputs).map(input));
+    /// Puts it at a time with the inputs that were given last, and computes the rates of the elements' memory there.
+    fn place(&mut self, time: f64, state: &[f64], rates: &mut [f64]) {
+        self.inputs.clone_from(&self.given);
         let (own, memory) = state.split_at(self.own);
         self.session.place(time, own, &self.inputs);
         let (_, of_memory) = rates.split_at_mut(self.own);
@@ -115,19 +118,31 @@ impl<'a> Walk<'a> {
         beside.act(set, self.start + time, &mut self.session, (&mut self.inputs, memory, of_memory));
     }
 
+    /// Gives the inputs at a position between two samples.
+    fn give(&mut self, way: &Way<'_>, position: f64) {
+        let share = position / way.steps as f64;
+        self.given.clear();
+        self.given.extend((0..way.drive.inputs.len()).map(|i| (way.input)(i, share)));
+    }
+
+    /// The slopes of a stage, at a position between two samples whose inputs are given.
+    fn look_there(&mut self, way: &Way<'_>, position: f64, state: &[f64], stage: usize) {
+        let mut slopes = std::mem::take(&mut self.slopes[stage]);
+        self.look_given(way.time(position), state, &mut slopes, None);
+        self.slopes[stage] = slopes;
+    }
+
     /// The slopes of a stage, at a position between two samples.
     fn look_on(&mut self, way: &Way<'_>, position: f64, state: &[f64], stage: usize) {
-        let mut slopes = std::mem::take(&mut self.slopes[stage]);
-        let input = |i: usize| (way.input)(i, position / way.steps as f64);
-        self.look(way.time(position), state, (&input, way.drive.inputs.len()), &mut slopes, None);
-        self.slopes[stage] = slopes;
+        self.give(way, position);
+        self.look_there(way, position, state, stage);
     }
 
     /// Puts it at a position between two samples.
     fn put(&mut self, way: &Way<'_>, position: f64, state: &[f64]) {
         let mut unused = std::mem::take(&mut self.unused);
-        let input = |i: usize| (way.input)(i, position / way.steps as f64);
-        self.place(way.time(position), state, (&input, way.drive.inputs.len()), &mut unused);
+        self.give(way, position);
+        self.place(way.time(position), state, &mut unused);
         self.unused = unused;
     }
 
@@ -204,10 +219,15 @@ impl<'a> Walk<'a> {
         let h = (to - from) * way.size();
         let mut middle = std::mem::take(&mut self.middle);
         for (stage, offset) in [(1, 0.5), (2, 0.5), (3, 1.0)] {
+            let position = from + offset * (to - from);
             for ((middle, state), slope) in middle.iter_mut().zip(state).zip(&self.slopes[stage - 1]) {
                 *middle = state + offset * h * slope;
             }
-            self.look_on(way, from + offset * (to - from), &middle, stage);
+            // Both stages in the middle have the same inputs.
+            if stage != 2 {
+                self.give(way, position);
+            }
+            self.look_there(way, position, &middle, stage);
         }
         self.middle = middle;
         for (index, (next, state)) in next.iter_mut().zip(state).enumerate() {
