@@ -126,8 +126,9 @@ impl<'a> Baseline<'a> {
         for it in &found.base.coordinates {
             start.set(it.handle, found.extended.point.get(it.handle));
         }
-        match self.fitted(&[], &[start], Stop::NOISY) {
-            Ok(other) if other.cost < CLEARLY * found.base.cost => settled(self, other).map(Some),
+        let below = CLEARLY * found.base.cost;
+        match self.fitted(&[], &[start], Stop { below, ..Stop::NOISY }) {
+            Ok(other) if other.cost < below => settled(self, other).map(Some),
             _ => Ok(None),
         }
     }

@@ -137,15 +137,15 @@ fn elements_beside_the_fmu_do_what_they_do_in_a_model_of_the_library() {
     }
 }
 
-/// The same equations in Rust, with exact derivatives.
+/// The same equations in Rust, with exact derivatives; for so long that the start is forgotten.
 #[test]
 fn an_fmu_predicts_as_the_same_model_of_the_library_does() {
     let Some((folder, _)) = rig(&[], |text| text) else { return };
     let theirs = Ready::of(plant(folder.path(), &[]));
     let (ours, own) = Ready::of_the_library(&theirs.plant);
-    let road = sampled(2000, |t| 0.01 * (9.0 * t).sin() + 2e-3 * (50.0 * t).sin());
-    let rate = sampled(2000, |t| 0.09 * (9.0 * t).cos() + 0.1 * (50.0 * t).cos());
-    let force = sampled(2000, |t| 30.0 * (20.0 * t).sin());
+    let road = sampled(6000, |t| 0.01 * (9.0 * t).sin() + 2e-3 * (50.0 * t).sin());
+    let rate = sampled(6000, |t| 0.09 * (9.0 * t).cos() + 0.1 * (50.0 * t).cos());
+    let force = sampled(6000, |t| 30.0 * (20.0 * t).sin());
     let drive = |ready: &Ready, [road_name, rate_name, force_name]: [&str; 3]| {
         ready.drive(&[(road_name, road.clone()), (rate_name, rate.clone()), (force_name, force.clone())])
     };

@@ -11,7 +11,7 @@ use crate::{Drive, Dynamics, Follower, Linearised, Seed, Seen, Signals};
 use super::beside::Beside;
 use super::exchange::Fmu;
 use super::lanes::Lanes;
-use super::walk::{Walk, Way};
+use super::walk::{Given, Walk, Way};
 
 /// Smallest change of a parameter, relative to its value or its typical magnitude, that a difference is made with.
 const SMALL: f64 = 1e-6;
@@ -19,6 +19,20 @@ const SMALL: f64 = 1e-6;
 const SEEN: f64 = 1e-8;
 /// Share that a change is made anew for if it was not seen, or was too large to be a derivative.
 const WANTED: f64 = 1e-6;
+
+/// Share of a change of the states at the start below which it is forgotten: differences are no better.
+const FORGOTTEN: f64 = 1e-7;
+
+/// A run through a record.
+struct Run {
+    outputs: Signals,
+    /// Steps between the samples.
+    steps: Vec<usize>,
+    /// States at the samples, one sample after another.
+    states: Vec<f64>,
+    /// Inputs between the samples; none if there are events.
+    given: Option<Vec<f64>>,
+}
 
 /// An FMU with the elements beside it.
 #[derive(Clone, Debug)]
@@ -38,12 +52,20 @@ pub(super) struct Changed<'a> {
     pub start: Vec<f64>,
     inputs: &'a [(usize, Vec<f64>)],
     by: f64,
+    /// Whether nothing else differs than the states at the start.
+    is_at_the_start: bool,
 }
 
 impl Changed<'_> {
     /// Nothing yet.
     fn none(parameters: &[f64], start: &[f64]) -> Self {
-        Self { parameters: parameters.to_vec(), start: start.to_vec(), inputs: &[], by: 0.0 }
+        Self {
+            parameters: parameters.to_vec(),
+            start: start.to_vec(),
+            inputs: &[],
+            by: 0.0,
+            is_at_the_start: false,
+        }
     }
 
     pub fn input(&self, drive: &Drive, index: usize, sample: usize, share: f64) -> f64 {
@@ -95,23 +117,43 @@ impl Differences {
     }
 
     /// A model on its way, with these parameters; none if it refuses them.
-    pub(super) fn walk(&self, parameters: &[f64], start: f64) -> Option<Walk<'_>> {
+    pub(super) fn walk<'a>(&'a self, parameters: &[f64], start: f64) -> Option<Walk<'a>> {
         let (own, further) = parameters.split_at(self.fmu.parameters.len());
         let beside = (&self.beside, self.beside.set(further));
         Some(Walk::new(self.fmu.open(own, start)?, beside, self.typical[1].len(), start))
     }
 
-    /// The outputs of a model that is changed; not a number from where it cannot be run.
-    /// `steps` are those between the samples, if they are given; they come back with the outputs.
-    fn run(&self, changed: &Changed<'_>, drive: &Drive, steps: Option<&[usize]>) -> (Signals, Vec<usize>) {
+    /// The run of a model that is changed, its outputs not a number from where it cannot be run; in the steps of the run without the
+    /// change, if there is one. As soon as a change of the start is forgotten, the outputs are those of that run.
+    fn run<'a>(&'a self, changed: &Changed<'_>, drive: &Drive, plain: Option<&'a Run>) -> Run {
         let count = self.fmu.outputs.len();
         let mut signals = vec![Vec::with_capacity(drive.len()); count];
         let mut state = changed.start.clone();
         let mut walk = self.walk(&changed.parameters, drive.start);
-        let mut pace = walk.as_mut().filter(|_| steps.is_none()).map(|walk| walk.pace(&state, drive));
+        let mut pace = walk.as_mut().filter(|_| plain.is_none()).map(|walk| walk.pace(&state, drive));
         let mut made = Vec::with_capacity(drive.len());
+        let mut states = Vec::new();
+        let smooth = plain.filter(|it| it.given.is_some());
+        let fading = smooth.filter(|_| changed.is_at_the_start);
+        let fading = fading.map(|plain| (plain, self.apart(&state, plain, 0)));
+        if let Some(walk) = &mut walk {
+            let again = smooth.filter(|_| changed.inputs.is_empty()).and_then(|it| it.given.as_deref());
+            let kept = if plain.is_none() { Given::Kept(Vec::new()) } else { Given::Anew };
+            walk.give_on_the_way(again.map_or(kept, Given::Again));
+        }
         let (mut rates, mut outputs) = (vec![0.0; state.len()], vec![f64::NAN; count]);
         for sample in 0..drive.len() {
+            match fading {
+                Some((plain, first)) if self.apart(&state, plain, sample) < FORGOTTEN * first => {
+                    let rest = |(signal, own): (&mut Vec<f64>, &Vec<f64>)| signal.extend(&own[sample..]);
+                    signals.iter_mut().zip(&plain.outputs).for_each(rest);
+                    break;
+                }
+                _ => {}
+            }
+            if plain.is_none() {
+                states.extend_from_slice(&state);
+            }
             if let Some(walk) = &mut walk {
                 let input = |i: usize| changed.input(drive, i, sample, 0.0);
                 let (time, inputs) = (sample as f64 * drive.step, drive.inputs.len());
@@ -129,7 +171,7 @@ impl Differences {
                             true,
                         ),
                         None => {
-                            let steps = steps.and_then(|it| it.get(sample)).copied().unwrap_or(1);
+                            let steps = plain.and_then(|it| it.steps.get(sample)).copied().unwrap_or(1);
                             let way = Way { sample, steps, drive, input: &input };
                             walk.advance(&way, &mut state, &rates, true, None);
                             steps
@@ -140,7 +182,18 @@ impl Differences {
             }
             signals.iter_mut().zip(&outputs).for_each(|(signal, value)| signal.push(*value));
         }
-        (signals, made)
+        let given = walk.and_then(|mut it| match it.give_on_the_way(Given::Anew) {
+            Given::Kept(all) => Some(all),
+            Given::Anew | Given::Again(_) => None,
+        });
+        Run { outputs: signals, steps: made, states, given }
+    }
+
+    /// How far states are from those of a run at a sample, in typical magnitudes.
+    fn apart(&self, state: &[f64], run: &Run, sample: usize) -> f64 {
+        let own = run.states.chunks_exact(state.len().max(1)).nth(sample).unwrap_or_default();
+        let each = state.iter().zip(own).zip(&self.typical[1]);
+        each.map(|((a, b), typical)| ((a - b) / typical).powi(2)).sum::<f64>().sqrt()
     }
 
     /// What a seed is kept under, and the change to begin with.
@@ -160,7 +213,10 @@ impl Differences {
         let mut changed = Changed { by, ..Changed::none(parameters, start) };
         match seed {
             Seed::Parameter(index) => changed.parameters[*index] += by,
-            Seed::State(index) => changed.start[*index] += by,
+            Seed::State(index) => {
+                changed.start[*index] += by;
+                changed.is_at_the_start = true;
+            }
             Seed::Inputs(changes) => changed.inputs = changes,
         }
         changed
@@ -172,13 +228,13 @@ impl Differences {
         (parameters, start): (&[f64], &[f64]),
         drive: &Drive,
         seed: &Seed,
-        base: &(Signals, Vec<usize>),
+        plain: &Run,
     ) -> Signals {
         let (key, mut by) = self.change(seed, parameters, start);
         let (mut moved, mut seen) = (Vec::new(), 0.0);
         for attempt in 0..4 {
-            (moved, _) = self.run(&Self::changed(parameters, start, seed, by), drive, Some(&base.1));
-            seen = share(&base.0, &moved);
+            moved = self.run(&Self::changed(parameters, start, seed, by), drive, Some(plain)).outputs;
+            seen = share(&plain.outputs, &moved);
             if attempt == 3 || (SEEN..=1e3 * WANTED).contains(&seen) {
                 break;
             }
@@ -188,7 +244,7 @@ impl Differences {
         if seen > 0.0 {
             self.changes.lock().unwrap_or_else(PoisonError::into_inner).insert(key, by);
         }
-        for (moved, base) in moved.iter_mut().zip(&base.0) {
+        for (moved, base) in moved.iter_mut().zip(&plain.outputs) {
             moved.iter_mut().zip(base).for_each(|(moved, base)| *moved = (*moved - base) / by);
         }
         moved
@@ -207,7 +263,7 @@ fn share(base: &Signals, moved: &Signals) -> f64 {
 
 impl Dynamics for Differences {
     fn outputs(&self, parameters: &[f64], start: &[f64], drive: &Drive) -> Signals {
-        self.run(&Changed::none(parameters, start), drive, None).0
+        self.run(&Changed::none(parameters, start), drive, None).outputs
     }
 
     fn linearised(
@@ -218,11 +274,11 @@ impl Dynamics for Differences {
         seeds: &[Seed],
         wanted: &[usize],
     ) -> Linearised {
-        let base = self.run(&Changed::none(parameters, start), drive, None);
+        let plain = self.run(&Changed::none(parameters, start), drive, None);
         let only = |signals: &Signals| wanted.iter().map(|output| signals[*output].clone()).collect();
-        let of = |seed: &Seed| only(&self.slopes((parameters, start), drive, seed, &base));
+        let of = |seed: &Seed| only(&self.slopes((parameters, start), drive, seed, &plain));
         let slopes = seeds.par_iter().map(of).collect();
-        Linearised { outputs: only(&base.0), slopes }
+        Linearised { outputs: only(&plain.outputs), slopes }
     }
 
     fn followed(

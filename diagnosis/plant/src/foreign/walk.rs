@@ -23,6 +23,7 @@ pub struct Walk<'a> {
     start: f64,
     /// Inputs as they are given, and with the elements' forces.
     given: Vec<f64>,
+    given_on_the_way: Given<'a>,
     inputs: Vec<f64>,
     /// Slopes of a step's stages, and at its end.
     slopes: [Vec<f64>; 5],
@@ -31,6 +32,17 @@ pub struct Walk<'a> {
     next: Vec<f64>,
     unused: Vec<f64>,
     before: Vec<f64>,
+}
+
+/// Inputs between the samples, in the order in which a run without events asks for them: interpolating them takes longer than many a
+/// model's equations.
+pub enum Given<'a> {
+    /// Not kept.
+    Anew,
+    /// Kept for further runs in the same steps.
+    Kept(Vec<f64>),
+    /// Those of an earlier run that are still to come.
+    Again(&'a [f64]),
 }
 
 /// The way between two samples; positions on it are counted in steps.
@@ -69,6 +81,7 @@ impl<'a> Walk<'a> {
             own,
             start,
             given: Vec::new(),
+            given_on_the_way: Given::Anew,
             inputs: Vec::new(),
             slopes,
             middle: vec![0.0; states],
@@ -120,9 +133,23 @@ impl<'a> Walk<'a> {
 
     /// Gives the inputs at a position between two samples.
     fn give(&mut self, way: &Way<'_>, position: f64) {
-        let share = position / way.steps as f64;
+        let (share, inputs) = (position / way.steps as f64, way.drive.inputs.len());
         self.given.clear();
-        self.given.extend((0..way.drive.inputs.len()).map(|i| (way.input)(i, share)));
+        if let Given::Again(rest) = &mut self.given_on_the_way {
+            let (next, further) = rest.split_at(inputs);
+            self.given.extend_from_slice(next);
+            *rest = further;
+            return;
+        }
+        self.given.extend((0..inputs).map(|i| (way.input)(i, share)));
+        if let Given::Kept(all) = &mut self.given_on_the_way {
+            all.extend_from_slice(&self.given);
+        }
+    }
+
+    /// Takes or keeps inputs between the samples; gives what was kept.
+    pub fn give_on_the_way(&mut self, given: Given<'a>) -> Given<'a> {
+        std::mem::replace(&mut self.given_on_the_way, given)
     }
 
     /// The slopes of a stage, at a position between two samples whose inputs are given.
@@ -164,7 +191,11 @@ impl<'a> Walk<'a> {
         state.iter().enumerate().for_each(|(index, value)| pace.reach_value(index, *value));
         let (beside, set) = &self.beside;
         let least = beside.steps(set, drive.step, outputs).min(MOST_STEPS as usize);
+        let kept = if let Given::Kept(all) = &self.given_on_the_way { all.len() } else { 0 };
         let made = loop {
+            if let Given::Kept(all) = &mut self.given_on_the_way {
+                all.truncate(kept);
+            }
             pace.steps = pace.steps.max(least);
             let way = Way { sample, steps: pace.steps, drive, input };
             let need = self.advance(&way, state, first, to_events, Some(pace));
@@ -188,6 +219,9 @@ impl<'a> Walk<'a> {
         pace: Option<&Pace>,
     ) -> f64 {
         let to_events = to_events && self.has_events();
+        if to_events {
+            self.given_on_the_way = Given::Anew;
+        }
         let (mut next, mut need) = (std::mem::take(&mut self.next), 0.0_f64);
         self.slopes[0].copy_from_slice(first);
         for part in 0..way.steps {
