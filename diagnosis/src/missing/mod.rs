@@ -191,7 +191,7 @@ impl Baseline<'_> {
     pub fn missing_with<'b>(&self, frame: &'b Frame, errors: Option<&[f64]>) -> Result<Missing<'b>, String> {
         let timing = self.coordinates(&[]).into_iter().map(|it| it.handle);
         let timing: Vec<Unknown> = timing.filter(|it| matches!(it, Unknown::Output(..))).collect();
-        let stretches = stretches(&frame.records, SAMPLES);
+        let stretches = stretches(&frame.records, SAMPLES, usize::MAX);
         let about = About { frame, errors, stretches: &stretches, timing: &timing };
         let mut precisions = self.precisions(&frame.parameters);
         precisions.extend(timing.iter().map(|_| (DELAY / TIMING).powi(2)));
@@ -325,15 +325,17 @@ fn undistorted(record: &mut Dataset, output: usize, distortion: &Correction) {
     }
 }
 
-/// Stretches of all records: none longer than [`LONGEST`], about as many samples together as given, spread over each record.
-fn stretches(records: &[Dataset], samples: usize) -> Vec<(usize, Range<usize>)> {
+/// Stretches of all records: none longer than [`LONGEST`], about as many samples together as given, and at most so many in one go,
+/// spread over each record.
+fn stretches(records: &[Dataset], samples: usize, most: usize) -> Vec<(usize, Range<usize>)> {
     let total: usize = records.iter().flat_map(|it| it.sections.iter().map(Range::len)).sum();
     let share = (samples as f64 / total.max(1) as f64).min(1.0);
     let mut all = Vec::new();
     for (number, record) in records.iter().enumerate() {
         let longest = ((LONGEST.0 / record.step) as usize).max(LONGEST.1);
         for section in &record.sections {
-            let pieces = section.len().div_ceil(longest).max(1);
+            let few = (section.len() as f64 * share) as usize;
+            let pieces = section.len().div_ceil(longest).max(few.div_ceil(most)).max(1);
             let length = section.len() / pieces;
             for piece in 0..pieces {
                 let start = section.start + piece * length;
@@ -343,4 +345,29 @@ fn stretches(records: &[Dataset], samples: usize) -> Vec<(usize, Range<usize>)> 
         }
     }
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn few_samples_are_from_all_over_a_record(length in 2000..60_000_usize, hertz in 5.0..1000.0_f64) {
+            let record = Dataset { step: 1.0 / hertz, sections: std::iter::once(0..length).collect(), ..Dataset::default() };
+            let few = stretches(std::slice::from_ref(&record), 1500, 300);
+            let samples: usize = few.iter().map(|(_, it)| it.len()).sum();
+            prop_assert!((1400..=1500).contains(&samples), "{samples}");
+            prop_assert!(few.len() >= 5 && few.iter().all(|(_, it)| it.len() <= 300));
+            let gaps = few.windows(2).map(|pair| pair[1].1.start - pair[0].1.start);
+            prop_assert!(gaps.max() <= Some(length / 4) && few.iter().all(|(_, it)| it.end <= length));
+        }
+    }
+
+    #[test]
+    fn a_short_record_is_looked_at_in_one_go() {
+        let record = Dataset { step: 2e-3, sections: vec![0..900, 1000..1200], ..Dataset::default() };
+        assert_eq!(stretches(&[record], SAMPLES, usize::MAX), [(0, 0..900), (0, 1000..1200)]);
+    }
 }

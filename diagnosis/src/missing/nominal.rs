@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use crate::estimation::coordinates::TOLERANCE;
 use crate::estimation::deadline::Stage;
 use crate::estimation::hypothesis::Baseline;
@@ -25,8 +27,8 @@ const DECADES: Range<i32> = -9..5;
 /// Fall of the log-likelihood a decade to either side by which a parameter's order is clearly the right one (R. E. Kass and
 /// A. E. Raftery, J. Am. Stat. Assoc. 90, 1995, 773–795: very strong evidence).
 const CLEARLY: f64 = 5.0;
-/// Samples that tell the order of a parameter.
-const ENOUGH: usize = 1500;
+/// Samples that tell the order of a parameter, and how many of them are in one go.
+const ENOUGH: (usize, usize) = (1500, 300);
 /// Largest logarithm of the factor by which a round changes it.
 const FACTOR: f64 = 1.0;
 /// Relative change of a parameter without a value below which the rounds end.
@@ -92,7 +94,7 @@ impl Baseline<'_> {
         let (shares, rounds) =
             if unstated.is_empty() { (&LOOSE[..], ROUNDS[0]) } else { (&ANY[..], ROUNDS[1]) };
         if about.frame.far {
-            let few = stretches(&about.frame.records[..self.train.len()], ENOUGH);
+            let few = stretches(&about.frame.records[..self.train.len()], ENOUGH.0, ENOUGH.1);
             let roughly = About { stretches: &few, ..*about };
             for index in &unstated {
                 point = self.of_the_right_order(&roughly, (precisions, shares), *index, &point);
@@ -146,14 +148,15 @@ impl Baseline<'_> {
             let (likelihood, _) = self.corrected(about, shares, &scaled).ok()??;
             Some((likelihood, scaled))
         };
-        let near: Vec<(f64, Estimate)> = [0, -1, 1].into_iter().filter_map(at).collect();
+        let near: Vec<(f64, Estimate)> = [0, -1, 1].into_par_iter().filter_map(at).collect();
         if let [(here, _), (less, _), (more, _)] = &near[..]
             && here - less.max(*more) > CLEARLY
         {
             return point.clone();
         }
-        let all = near.into_iter().chain(DECADES.filter(|it| it.abs() > 1).filter_map(at));
-        all.max_by(|a, b| a.0.total_cmp(&b.0)).map_or_else(|| point.clone(), |(_, best)| best)
+        let further = DECADES.into_par_iter().filter(|it| it.abs() > 1).filter_map(at);
+        let all: Vec<(f64, Estimate)> = near.into_par_iter().chain(further).collect();
+        all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)).map_or_else(|| point.clone(), |(_, best)| best)
     }
 
     /// The likelihood of the estimation records about a point, and the corrections that make them likeliest; none if they
