@@ -356,12 +356,12 @@ mod tests {
         #[test]
         fn few_samples_are_from_all_over_a_record(length in 2000..60_000_usize, hertz in 5.0..1000.0_f64) {
             let record = Dataset { step: 1.0 / hertz, sections: std::iter::once(0..length).collect(), ..Dataset::default() };
-            let few = stretches(std::slice::from_ref(&record), 1500, 300);
+            let few = stretches(std::slice::from_ref(&record), 1500, 500);
             let samples: usize = few.iter().map(|(_, it)| it.len()).sum();
             prop_assert!((1400..=1500).contains(&samples), "{samples}");
-            prop_assert!(few.len() >= 5 && few.iter().all(|(_, it)| it.len() <= 300));
+            prop_assert!(few.len() >= 3 && few.iter().all(|(_, it)| it.len() <= 500));
             let gaps = few.windows(2).map(|pair| pair[1].1.start - pair[0].1.start);
-            prop_assert!(gaps.max() <= Some(length / 4) && few.iter().all(|(_, it)| it.end <= length));
+            prop_assert!(gaps.max() <= Some(length / 3) && few.iter().all(|(_, it)| it.end <= length));
         }
     }
 

@@ -27,8 +27,8 @@ const DECADES: Range<i32> = -9..5;
 /// Fall of the log-likelihood a decade to either side by which a parameter's order is clearly the right one (R. E. Kass and
 /// A. E. Raftery, J. Am. Stat. Assoc. 90, 1995, 773–795: very strong evidence).
 const CLEARLY: f64 = 5.0;
-/// Samples that tell the order of a parameter, and how many of them are in one go.
-const ENOUGH: (usize, usize) = (1500, 300);
+/// Samples that tell the order of a parameter, and how many of them are in one go: fewer show too little of what is slow.
+const ENOUGH: (usize, usize) = (1500, 500);
 /// Largest logarithm of the factor by which a round changes it.
 const FACTOR: f64 = 1.0;
 /// Relative change of a parameter without a value below which the rounds end.
