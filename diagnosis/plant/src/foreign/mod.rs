@@ -4,6 +4,7 @@
 //! The FMU is run in this process. Who fears that it crashes has to be another process.
 
 mod beside;
+mod crossing;
 mod differences;
 mod exchange;
 mod face;
