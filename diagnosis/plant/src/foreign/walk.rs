@@ -192,9 +192,6 @@ impl<'a> Walk<'a> {
         let least = beside.steps(set, drive.step, outputs).min(MOST_STEPS as usize);
         let kept = if let Given::Kept(all) = &self.given_on_the_way { all.len() } else { 0 };
         let made = loop {
-            if let Given::Kept(all) = &mut self.given_on_the_way {
-                all.truncate(kept);
-            }
             pace.steps = pace.steps.max(least);
             let way = Way { sample, steps: pace.steps, drive, input };
             let need = self.advance(&way, state, first, to_events, Some(pace));
@@ -202,6 +199,9 @@ impl<'a> Walk<'a> {
                 break way.steps;
             }
             state.copy_from_slice(&before);
+            if let Given::Kept(all) = &mut self.given_on_the_way {
+                all.truncate(kept);
+            }
         };
         self.before = before;
         made
@@ -218,6 +218,7 @@ impl<'a> Walk<'a> {
         pace: Option<&Pace>,
     ) -> f64 {
         let to_events = to_events && self.has_events();
+        // An event moves the positions at which inputs are asked for.
         if to_events {
             self.given_on_the_way = Given::Anew;
         }
