@@ -289,14 +289,22 @@ fn floors(train: &[Dataset]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use std::f64::consts::TAU;
+    use std::time::Duration;
 
     use super::*;
     use crate::confirm::Accepted;
     use crate::dataset::recorded::Measured;
     use crate::decision::evidence::Evidence;
     use crate::diagnosis::Options;
+    use crate::estimation::deadline::Deadline;
     use crate::estimation::hypothesis::Term;
     use crate::signal::random::Random;
+
+    fn driven_by_force() -> Rig {
+        let mut rig = Rig::published("linear-drive").unwrap();
+        rig.drive_by(&rig.kind.drives[0].clone(), |name| name == "force").unwrap();
+        rig
+    }
 
     /// 12 kg with 40 N s/m, moved by 20 mm at 0.9 Hz and 4 mm at 3.1 Hz.
     fn record(rig: &Rig, seed: u64) -> Dataset {
@@ -322,10 +330,25 @@ mod tests {
         }
     }
 
+    /// A mass of 20 kg in the model, of which nobody states the order, and of 12 kg in the record.
+    #[test]
+    fn no_order_is_looked_for_beyond_the_time_limit_and_the_stage_behind_tells_of_it() {
+        let rig = driven_by_force();
+        let mass = rig.plant.parameter("moving_mass").unwrap();
+        let records = Split::new(&[record(&rig, 1)], vec![record(&rig, 2)]);
+        let weighed = |deadline: Deadline| {
+            let baseline = Baseline::new(&rig, &records, Options { deadline, ..Options::default() });
+            baseline.balanced(&baseline.origin()).unwrap()[mass]
+        };
+        assert!((weighed(Deadline::default()) / 12.0 - 1.0).abs() < 0.05);
+        let over = Deadline::after(Duration::ZERO);
+        assert_eq!(weighed(over.clone()), rig.parameters[mass]);
+        assert_eq!(over.stopped(), None);
+    }
+
     #[test]
     fn a_fit_in_another_minimum_is_left_for_where_the_effects_lead() {
-        let mut rig = Rig::published("linear-drive").unwrap();
-        rig.drive_by(&rig.kind.drives[0].clone(), |name| name == "force").unwrap();
+        let rig = driven_by_force();
         let records = Split::new(&[record(&rig, 1)], vec![record(&rig, 2)]);
         let mut baseline = Baseline::new(&rig, &records, Options::default());
         let (_, base, _) = fit(&mut baseline).unwrap();

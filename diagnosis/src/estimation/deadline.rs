@@ -67,9 +67,14 @@ impl Deadline {
         self.at
     }
 
+    /// Whether the time is up, for what several stages have in common.
+    pub fn is_past(&self) -> bool {
+        self.ended.load(Ordering::Relaxed) || self.at.is_some_and(|at| Instant::now() >= at)
+    }
+
     /// Whether the time is up. The first stage that asks too late is remembered as the one that was not finished.
     pub fn is_over(&self, stage: Stage) -> bool {
-        let over = self.ended.load(Ordering::Relaxed) || self.at.is_some_and(|at| Instant::now() >= at);
+        let over = self.is_past();
         if over {
             self.stopped.get_or_init(|| stage);
         }
@@ -109,6 +114,7 @@ mod tests {
     fn the_first_stage_that_comes_too_late_is_told() {
         let none = Deadline::after(Duration::ZERO);
         let same = none.clone();
+        assert!(none.is_past());
         assert_eq!(none.stopped(), None);
         assert!(same.is_over(Stage::Search) && none.is_over(Stage::Segments));
         assert_eq!(none.stopped(), Some((Stage::Search, Duration::ZERO)));

@@ -325,8 +325,7 @@ fn undistorted(record: &mut Dataset, output: usize, distortion: &Correction) {
     }
 }
 
-/// Stretches of all records: none longer than [`LONGEST`], about as many samples together as given, and at most so many in one go,
-/// spread over each record.
+/// Stretches of all records, spread over each record: none longer than [`LONGEST`] or than `most` samples, about `samples` together.
 fn stretches(records: &[Dataset], samples: usize, most: usize) -> Vec<(usize, Range<usize>)> {
     let total: usize = records.iter().flat_map(|it| it.sections.iter().map(Range::len)).sum();
     let share = (samples as f64 / total.max(1) as f64).min(1.0);

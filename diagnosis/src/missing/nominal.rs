@@ -5,7 +5,6 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::estimation::coordinates::TOLERANCE;
-use crate::estimation::deadline::Stage;
 use crate::estimation::hypothesis::Baseline;
 use crate::estimation::unknowns::{Estimate, Unknown};
 
@@ -102,7 +101,7 @@ impl Baseline<'_> {
         }
         let mut before = point.parameters.clone();
         for _ in 0..rounds {
-            if self.deadline.is_over(Stage::Nominal) {
+            if self.deadline.is_past() {
                 break;
             }
             // A step too far is taken back.
@@ -142,7 +141,7 @@ impl Baseline<'_> {
             let mut scaled = point.clone();
             scaled.parameters[index] *= 10.0_f64.powi(decade);
             let possible = (self.least(index)..=most).contains(&scaled.parameters[index]);
-            if !possible || self.deadline.is_over(Stage::Nominal) {
+            if !possible || self.deadline.is_past() {
                 return None;
             }
             let (likelihood, _) = self.corrected(about, shares, &scaled).ok()??;
