@@ -29,7 +29,9 @@ fn a_batch_of_diagnoses_tells_of_every_record() {
     let (out, records) = (folder("diagnoses"), folder("records"));
     let diagnose = strut::program("diagnose");
     let mut simulate = std::process::Command::new(&diagnose);
-    simulate.args(["simulate", "--hide", "strut.coulomb.force=60", "--out"]).arg(records.join("friction"));
+    simulate
+        .args(["simulate", "--duration", "5", "--hide", "strut.coulomb.force=60", "--out"])
+        .arg(records.join("friction"));
     strut::run(&mut simulate);
     // A record that cannot be read is a row, too.
     fs::create_dir(records.join("broken")).expect("the target folder can be written");

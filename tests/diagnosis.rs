@@ -135,6 +135,7 @@ fn a_sensor_s_gain_is_beside_the_extended_model() {
 /// A sensor that shows nothing of what is slow has a response without a name. It lies outside of the model, and is
 /// reported so that the errors come out.
 #[test]
+#[ignore = "a further diagnosis: `scripts/long-tests records`"]
 fn a_sensor_s_response_without_a_name_is_told_by_its_curve() {
     let folder = folder("response");
     let (records, out) = (folder.join("records"), folder.join("report"));

@@ -224,7 +224,8 @@ fn nothing_is_claimed_of_a_sound_sas_rig() {
 
 #[test]
 fn pivot_friction_is_found_in_a_sas_rig() {
-    let said = Case { noise: 0.001, ..Case::of(SAS) }.diagnosed(&[("pivot.coulomb.torque", 0.4)]);
+    let said =
+        Case { noise: 0.001, length: 4.0, ..Case::of(SAS) }.diagnosed(&[("pivot.coulomb.torque", 0.4)]);
     assert_eq!(said.terms, ["01 pivot"]);
     said.meets("pivot.coulomb.torque", 0.4, 0.03);
 }

@@ -48,6 +48,7 @@ fn regression(train: &Path, test: &[PathBuf]) -> f64 {
 
 /// By hand 86 % were reached on another record of the same letter, with a dry yield force and hysteresis.
 #[test]
+#[ignore = "a further diagnosis: `scripts/long-tests records`"]
 fn the_magnetorheological_damper_is_explained() {
     let Some(records) = real("mr-damper") else { return };
     for (name, train, test) in [("mr-a", "A.2.csv", "A.1.csv"), ("mr-b", "B.1.csv", "B.3.csv")] {
@@ -101,6 +102,7 @@ fn notes(report: &Value) -> String {
 
 /// By hand: an offset of 252 N and a friction of 145 N; fit 0.58 of a linear law, 0.72 with presliding friction.
 #[test]
+#[ignore = "a further diagnosis: `scripts/long-tests records`"]
 fn a_load_cell_that_was_not_zeroed_hides_no_friction() {
     let Some(records) = real("real/mr-damper-sweep") else { return };
     let (report, phi) = diagnose_element("sweep", &records, "tr.csv", &["te.csv"]);

@@ -39,19 +39,17 @@ impl Sums {
     /// Takes in innovations, one measurement's of all columns after the other, over their standard deviations.
     pub fn take(&mut self, innovations: &[f64], log_variance: f64) {
         let (known, columns) = self.shared.shape();
-        let count = innovations.len() / columns;
-        let all = DMatrix::from_column_slice(columns, count, innovations);
-        self.shared.gemm(1.0, &all.rows(0, known), &all.transpose(), 1.0);
-        for (range, own) in self.candidates.iter().zip(&mut self.own) {
-            for measurement in innovations.chunks_exact(columns) {
-                let measurement = &measurement[known..][range.clone()];
-                for (mut column, by) in own.column_iter_mut().zip(measurement) {
-                    column.iter_mut().zip(measurement).for_each(|(sum, it)| *sum += it * by);
-                }
+        // A few measurements at a time: adding their products one by one is cheaper than the packing of a general product.
+        for measurement in innovations.chunks_exact(columns) {
+            let (first, others) = measurement.split_at(known);
+            add_products(self.shared.as_mut_slice(), first, measurement);
+            for (range, own) in self.candidates.iter().zip(&mut self.own) {
+                let candidate = &others[range.clone()];
+                add_products(own.as_mut_slice(), candidate, candidate);
             }
         }
         self.log_variance += log_variance;
-        self.count += count;
+        self.count += innovations.len() / columns;
     }
 
     /// Of several stretches.
@@ -86,6 +84,13 @@ impl Sums {
 
     fn normal(&self, products: DMatrix<f64>) -> Normal {
         Normal { products, log_variance: self.log_variance, count: self.count }
+    }
+}
+
+/// Adds the products of two vectors to a matrix, column by column.
+fn add_products(sums: &mut [f64], rows: &[f64], columns: &[f64]) {
+    for (column, by) in sums.chunks_exact_mut(rows.len().max(1)).zip(columns) {
+        column.iter_mut().zip(rows).for_each(|(sum, it)| *sum += it * by);
     }
 }
 

@@ -84,7 +84,7 @@ fn diagnosed(rig: &Path, (train, test): (&Path, &Path), out: &Path) -> Output {
 /// The terminal's text of a case, with the rig file after a change; none where no test can have the FMU.
 fn found(name: &str, change: impl Fn(String) -> String) -> Option<String> {
     let (folder, rig) = rig(&[], change)?;
-    let (train, test) = records(name, folder.path(), 6000);
+    let (train, test) = records(name, folder.path(), 3000);
     let output = diagnosed(&rig, (&train, &test), &folder.path().join("report"));
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(folder.path().join("report/report.html").is_file());
