@@ -15,6 +15,7 @@ use crate::dataset::load::{Loaded, load};
 use crate::dataset::recorded::Dataset;
 use crate::dataset::split::Split;
 use crate::dataset::witness;
+use crate::decision::rules::tells_more;
 use crate::diagnosis::component::Component;
 use crate::diagnosis::{Diagnosis, Options};
 use crate::estimation::deadline::{Deadline, Stage};
@@ -157,7 +158,7 @@ impl Study {
             progress("comparing over shorter segments");
             let options = Options { deadline: options.deadline.again(), ..options.clone() };
             let again = last.diagnosed(&self.rig, options, progress)?;
-            if !again.is_lost() {
+            if !again.is_lost() && tells_more(again.finds_something(), diagnosis.finds_something()) {
                 problems.push(last.note());
                 diagnosis = again;
             }

@@ -4,6 +4,7 @@ use crate::catalogue::naming::{name, prevalence};
 use crate::catalogue::{Element, Prevalence};
 use crate::dataset::recorded::{Dataset, noise_floor};
 use crate::decision::account::{Account, account};
+use crate::decision::criteria::CRITERIA;
 use crate::decision::evidence::{Evidence, Left};
 use crate::diagnosis::component::Component;
 use crate::estimation::comparison::{Errors, Student, student};
@@ -37,13 +38,12 @@ impl Baseline<'_> {
         noise_floor(self.test, row).max(self.floor[row]).hypot(self.transmitted[row])
     }
 
-    /// Student's t of the gain over blocks, in units of what the better fit leaves. Of what acts beyond a threshold only, or where
-    /// a resonance is excited, the gains are as uneven as the events: there, it is enough if each event's own errors shrink steadily.
-    fn steadiness(&self, term: Term, null: &Residuals, other: &Residuals) -> Student {
+    /// Student's t of the gain over blocks, in units of what the better fit leaves. Gains that are as `uneven` as the errors or the events
+    /// behind them tell little: there, it is enough if each block's own errors shrink steadily.
+    fn steadiness(&self, uneven: bool, null: &Residuals, other: &Residuals) -> Student {
         let (null, other) = (self.errors(null), self.errors(other));
         let unit = other.mean_squares();
         let gain = student(&null.gains(&other, self.block(), &unit));
-        let uneven = has_threshold(term) || is_resonance(term);
         let ratio = || student(&null.ratios(&other, self.block(), &unit));
         if uneven {
             [gain, ratio()].into_iter().max_by(|a, b| a.t.total_cmp(&b.t)).unwrap_or(gain)
@@ -64,8 +64,12 @@ impl Baseline<'_> {
         let shares = |unit: &Fitted, fitted: &Fitted| self.shares_of(term, unit, fitted);
         let (before, after) = (shares(base, null), shares(base, fitted));
         let [estimation, validation] = [before[0] - after[0], before[1] - after[1]];
-        let steadiness = self.steadiness(term, &null.train, &fitted.train);
-        let validated = self.steadiness(term, &null.test, &fitted.test);
+        let residual_reduction = everywhere(term, shares(null, fitted).map(|share| 1.0 - share));
+        // It acts beyond a threshold only, or where a resonance is excited; or nearly all of the error goes, wherever it was, as at the begin of
+        // what swings freely.
+        let uneven = has_threshold(term) || is_resonance(term) || residual_reduction > CRITERIA.bulk;
+        let steadiness = self.steadiness(uneven, &null.train, &fitted.train);
+        let validated = self.steadiness(uneven, &null.test, &fitted.test);
         let expected =
             self.uses(Component::Background) && prevalence(term, &self.rig.plant) == Prevalence::Expected;
         let looks = if expected { 1.0 } else { self.looks };
@@ -77,7 +81,7 @@ impl Baseline<'_> {
             validation_p_value: (looks * validated.chance()).min(1.0),
             variance_explained: if is_resonance(term) { estimation.max(validation) } else { validation },
             fit_improvement: everywhere(term, self.phi_gains(null, fitted)),
-            residual_reduction: everywhere(term, shares(null, fitted).map(|share| 1.0 - share)),
+            residual_reduction,
             background: self.is_usual(term, fitted) && !self.is_open(&null.test),
             expected,
         }

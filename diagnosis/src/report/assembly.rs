@@ -44,6 +44,12 @@ impl Diagnosis<'_> {
         self.best() < LOST
     }
 
+    /// Whether it tells of anything that it is missing, with or without a name.
+    pub fn finds_something(&self) -> bool {
+        let findings = self.findings(Vec::new(), 0.0);
+        !findings.effects.is_empty() || !findings.unmodelled.is_empty()
+    }
+
     /// Φ of the signal on validation data that is met best.
     fn best(&self) -> f64 {
         self.left().iter().map(unmodelled::Left::phi).fold(f64::NEG_INFINITY, f64::max)
