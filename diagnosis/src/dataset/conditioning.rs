@@ -36,7 +36,7 @@ const BEYOND_CHANCE: f64 = 2.0;
 impl Dataset {
     /// The record without its inputs' noise, and thinned; where its motion is imposed, driven by all of it that is known.
     pub fn conditioned(&self) -> Self {
-        let thinned = self.without_noise_above(0.0);
+        let thinned = self.without_noise();
         let is_thinner = thinned.step > self.step;
         if self.imposed && is_thinner {
             self.thinned(1, 0.0).behind(thinned, 1).with_rates()
@@ -64,9 +64,16 @@ impl Dataset {
 
     /// The record below a frequency in Hz, driven by its inputs as far as they are known above it, too.
     pub fn compared_below(&self, top: f64) -> Self {
-        let known = self.without_noise_above(top);
-        let banded = known.below(top);
-        if banded.step > known.step { known.behind(banded, FINER) } else { banded }
+        if self.between == Between::Curves {
+            return self.below(top);
+        }
+        let factor = self.decimation(2.0 * top / KEPT);
+        // A whole number of the samples that are known makes one that is compared: in steps of their own, both would end in a wider band.
+        let most = self.decimation(ENOUGH).min(factor);
+        let finer = (1..=most).rev().find(|it| factor.is_multiple_of(*it)).unwrap_or(1);
+        let known = self.thinned(finer, top);
+        let banded = known.thinned(factor / finer, f64::INFINITY);
+        if finer < factor { known.behind(banded, FINER) } else { banded }
     }
 
     /// A thinned copy of this record that is driven by all of this one's inputs, its outputs being behind the filter of the copy. Where
@@ -90,8 +97,8 @@ impl Dataset {
         Self { wide: Some(Arc::new(Wide { finer, needed, inputs, errors })), ..thinned }
     }
 
-    /// The record without its inputs' noise above a frequency in Hz, and thinned.
-    fn without_noise_above(&self, frequency: f64) -> Self {
+    /// The record without its inputs' noise, and thinned.
+    fn without_noise(&self) -> Self {
         // In a record that is thinned to its band already, noise and signal look alike.
         if self.between == Between::Curves {
             return self.clone();
@@ -99,7 +106,7 @@ impl Dataset {
         let factor = self.decimation(ENOUGH);
         // A whole number of the finer samples makes one.
         let factor = if factor < FINER_MOTION { factor } else { factor - factor % FINER_MOTION };
-        self.thinned(factor, frequency)
+        self.thinned(factor, 0.0)
     }
 
     /// Number of samples of which one is enough at `rate` samples a second.
@@ -298,6 +305,23 @@ mod tests {
         // With all bins in which noise happens to be above its mean it is 0.6, and unfiltered 3.
         let found = apart(&filter(0.01, 2).filtered(&noisy));
         assert!(found < 0.25, "{found}");
+    }
+
+    /// What is compared ends where it was judged whether the motion is known.
+    #[test]
+    fn a_record_is_compared_in_the_band_that_was_asked_for() {
+        for step in [1e-3, 2e-3, 5e-4, 2.5e-3] {
+            let values: Vec<f64> = (0..4000).map(signal).collect();
+            let record = Dataset {
+                step,
+                measured: vec![Measured { output: 0, values, noise_floor: 0.0 }],
+                sections: std::iter::once(0..4000).collect(),
+                ..Dataset::default()
+            };
+            for top in [8.0, 20.0, 45.0, 93.0, 116.0, 140.0, 190.0] {
+                assert_eq!(record.compared_below(top).step, record.below(top).step, "{top} Hz of {step} s");
+            }
+        }
     }
 
     #[test]
