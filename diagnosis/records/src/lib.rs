@@ -219,6 +219,8 @@ fn table(name: &str, bytes: &[u8], reading: &Reading) -> Result<table::Table, Da
         mdf4::parse(name, bytes)
     } else if matlab::is_matlab(bytes) {
         matlab::parse(name, bytes)
+    } else if matlab::version4::is_matlab_4(bytes) {
+        matlab::version4::parse(name, bytes)
     } else if hdf5::is_hdf5(bytes) {
         hdf5::parse(name, bytes)
     } else if parquet::is_parquet(bytes) {

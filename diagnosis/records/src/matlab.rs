@@ -1,7 +1,10 @@
-//! Records from MATLAB's MAT-files of version 5 to 7: MathWorks, MAT-File Format, R2023b. Those of version 7.3 are HDF5.
+//! Records from MATLAB's MAT-files of version 5 to 7: MathWorks, MAT-File Format, R2023b. Those of version 4 have a module of their own, and
+//! those of version 7.3 are HDF5.
 //!
 //! Real numeric vectors (n×1 or 1×n) and the columns of matrices, by their names, and those in the fields of structs. What else is
 //! there is listed as not read, but for single values. There are no units: SI is assumed unless the map says otherwise.
+
+pub(crate) mod version4;
 
 use super::DataError;
 use super::bytes::Bytes;

@@ -65,6 +65,7 @@ columns = {"t": TIME, "force": FORCE.reshape(-1, 1), "counts": COUNTS, "single":
            "rig": "number 3", "gain": 2.5}
 savemat(HERE / "vectors.mat", columns, oned_as="column")
 savemat(HERE / "compressed.mat", columns, do_compression=True, oned_as="row")
+savemat(HERE / "version4.mat", columns, format="4", oned_as="row")
 savemat(HERE / "struct.mat", {"run": {"time": TIME, "force": FORCE, "counts": COUNTS}}, do_compression=True)
 # Version 7.3: with MATLAB's own attributes, a struct and a text among the vectors.
 hdf5storage.savemat(str(HERE / "hdf5.mat"), {"run": {"t": TIME, "force": FORCE, "counts": COUNTS}, "rig": "number 3"},

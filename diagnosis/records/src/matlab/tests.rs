@@ -3,6 +3,7 @@ use proptest::prelude::*;
 
 const VECTORS: &[u8] = include_bytes!("../../../tests/data/vectors.mat");
 const COMPRESSED: &[u8] = include_bytes!("../../../tests/data/compressed.mat");
+const VERSION_4: &[u8] = include_bytes!("../../../tests/data/version4.mat");
 const STRUCT: &[u8] = include_bytes!("../../../tests/data/struct.mat");
 
 fn read(bytes: &[u8]) -> Record {
@@ -30,6 +31,32 @@ fn what_scipy_writes() {
     verify(&read(VECTORS), &["force", "counts", "single"]);
     verify(&read(COMPRESSED), &["force", "counts", "single"]);
     verify(&read(STRUCT), &["force", "counts"]);
+    verify(&read(VERSION_4), &["force", "counts", "single"]);
+}
+
+/// A real-time target of another byte order, with a complex matrix and a text between the signals.
+#[test]
+fn version_4_in_the_other_byte_order() {
+    let matrix = |form: i32, name: &str, complex: i32, values: &[u8], columns: i32| {
+        let header = [form, 1, columns, complex, name.len() as i32 + 1].map(i32::to_be_bytes).concat();
+        [header, name.as_bytes().to_vec(), vec![0], values.to_vec()].concat()
+    };
+    let doubles = |values: [f64; 3]| values.map(f64::to_be_bytes).concat();
+    let counts = [-300_i16, 7, 5].map(i16::to_be_bytes).concat();
+    let file = [
+        matrix(1000, "t", 0, &doubles([0.0, 1.0, 2.0]), 3),
+        matrix(1000, "z", 1, &[doubles([1.0; 3]), doubles([2.0; 3])].concat(), 3),
+        matrix(1051, "note", 0, b"rig", 3),
+        matrix(1030, "x", 0, &counts, 3),
+    ]
+    .concat();
+    let record = read(&file);
+    assert_eq!(record.channels.iter().map(|it| it.name.as_str()).collect::<Vec<_>>(), ["x"]);
+    assert_eq!(record.channels[0].values, [-300.0, 7.0, 5.0]);
+    let left_out: Vec<&str> = record.unread.iter().map(|it| it.name.as_str()).collect();
+    assert_eq!(left_out, ["z", "note"]);
+    let error = parse("run.mat", &file[..file.len() - 3], &Reading::default()).unwrap_err().to_string();
+    assert!(error.contains("is cut off or damaged"), "{error}");
 }
 
 #[test]
@@ -129,9 +156,9 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
     #[test]
     fn damage_is_no_panic(
-        which in 0_usize..3, changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8)
+        which in 0_usize..4, changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8)
     ) {
-        let mut bytes = [VECTORS, COMPRESSED, STRUCT][which].to_vec();
+        let mut bytes = [VECTORS, COMPRESSED, STRUCT, VERSION_4][which].to_vec();
         for (at, byte) in changes {
             let at = at.index(bytes.len());
             bytes[at] = byte;
