@@ -114,16 +114,21 @@ impl Baseline<'_> {
         let of = |handle: Unknown| {
             let index = fitted.coordinates.iter().position(|it| it.handle == handle)?;
             let value = self.amount(handle, fitted.point.get(handle), base);
-            let (low, high) = fitted.coordinates[index].bounds;
-            // The end of a parameter's meaning is a possible value: a sharp limit has a ratio of one.
-            let end = match handle {
-                Unknown::Parameter(parameter) => self.rig.plant.parameters[parameter].max,
-                Unknown::Input(..) | Unknown::Output(..) => None,
-            };
-            let high = if end.is_some_and(|end| end <= high) { f64::INFINITY } else { high };
-            Some(Amount { value, bounds: (low, high), half: half(index) })
+            Some(Amount { value, bounds: self.within(handle, fitted), half: half(index) })
         };
         self.sizes(term).into_iter().filter_map(of).collect()
+    }
+
+    /// Bounds at which a fit's coordinate tells nothing. The end of a parameter's meaning is a possible value: a sharp limit has a ratio
+    /// of one.
+    pub(crate) fn within(&self, handle: Unknown, fitted: &Fitted) -> (f64, f64) {
+        let own = fitted.coordinates.iter().find(|it| it.handle == handle);
+        let (low, high) = own.map_or((f64::NEG_INFINITY, f64::INFINITY), |it| it.bounds);
+        let end = match handle {
+            Unknown::Parameter(parameter) => self.rig.plant.parameters[parameter].max,
+            Unknown::Input(..) | Unknown::Output(..) => None,
+        };
+        (low, if end.is_some_and(|end| end <= high) { f64::INFINITY } else { high })
     }
 
     /// How much of an effect a value is: beyond the model without it. Every fit has the usual timing of a channel, which is not the

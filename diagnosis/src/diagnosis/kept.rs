@@ -25,7 +25,7 @@ impl Baseline<'_> {
             let value = self.amount(handle, it.value, &found.base);
             // A common scale that only the parameter set knows makes no amount zero, but a gain is that scale.
             let half = if handle.fault() == Some(Fault::Gain) { it.half } else { it.half_of_data };
-            Some(Amount { value, bounds: (f64::NEG_INFINITY, f64::INFINITY), half })
+            Some(Amount { value, bounds: self.within(handle, &found.extended), half })
         };
         // A curve has no single amount, and every similar law pulls at it. One of its points has to exceed its noise and the records'
         // disagreement.

@@ -363,9 +363,15 @@ impl Baseline<'_> {
         Ok(confirmed)
     }
 
-    /// Puts a rest without an explanation among the descriptions. `described`: their number before the round.
+    /// Puts a rest without an explanation among the descriptions, in place of that of an earlier search. `described`: their number before
+    /// the round.
     fn place_rest(&self, found: &mut Found, described: usize, rest: Option<Unmodelled>) {
         let all = &mut found.unmodelled;
+        let known = all.len();
+        if rest.is_some() {
+            all.retain(|it| it.share > 0.0 || it.curve.is_some());
+        }
+        let described = described - (known - all.len());
         let place = place_of_rest(all.iter().map(|it| it.share)).unwrap_or(all.len());
         // Behind a curve that explains most, there has been no look at the rest.
         let looked_at = all.len() == described || place < all.len();
