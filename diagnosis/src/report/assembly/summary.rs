@@ -72,18 +72,26 @@ fn effects(findings: &Findings) -> Option<String> {
     match findings.verdict {
         Verdict::NoEffect => Some(none_beyond(findings, "the model")),
         Verdict::ParameterMismatch => Some(none_beyond(findings, "these parameters")),
-        Verdict::ModelInadequate => Some(
-            "The model predicts too little of the validation data. No effect of the catalogue explains the rest. \
-             Check the rig, the signal names, the units and the signs. If they are right, an effect outside the \
-             catalogue acts."
-                .to_owned(),
-        ),
+        Verdict::ModelInadequate => {
+            // A sign that was found is told by itself.
+            let turned = findings.nominal_parameters.iter().any(|it| it.name.ends_with(".sign"));
+            let checks = if turned {
+                "the signal names and the units"
+            } else {
+                "the signal names, the units and the signs"
+            };
+            Some(format!(
+                "The model predicts too little of the validation data. No effect of the catalogue explains the rest. \
+                 Check the rig, {checks}. If they are right, an effect outside the catalogue acts."
+            ))
+        }
         Verdict::OutOfTime => None,
         Verdict::BadData => Some("The data cannot be used.".to_owned()),
         Verdict::Identified | Verdict::Ambiguous | Verdict::SensorFault | Verdict::Unmodelled => {
             let sizes: Vec<String> = effects.iter().map(sized).collect();
             let noun = if effects.len() == 1 { "Identified effect" } else { "Identified effects" };
-            let rivals = effects.iter().filter(|it| !it.ambiguous_with.is_empty()).map(|it| rivals(findings, it));
+            let rivals =
+                effects.iter().filter(|it| !it.ambiguous_with.is_empty()).map(|it| rivals(findings, it));
             let sentences = [format!("{noun}: {}.", sizes.join("; "))].into_iter().chain(rivals);
             (!effects.is_empty()).then(|| sentences.collect::<Vec<_>>().join(" "))
         }

@@ -51,6 +51,20 @@ fn an_open_signal_comes_first_whatever_was_identified() {
 }
 
 #[test]
+fn signs_are_to_be_checked_unless_one_was_found() {
+    let mut found = Findings { signals: vec![signal(0.0, 0.1)], ..findings(Verdict::ModelInadequate) };
+    assert!(
+        of(&found).contains("Check the rig, the signal names, the units and the signs."),
+        "{}",
+        of(&found)
+    );
+    found
+        .nominal_parameters
+        .push(NominalParameter { name: "force.sign".into(), ..NominalParameter::default() });
+    assert!(of(&found).contains("Check the rig, the signal names and the units."), "{}", of(&found));
+}
+
+#[test]
 fn what_was_left_undone_comes_first_and_what_is_open_before_what_records_disagree_on() {
     let value = |record: &str, value: f64| RecordValue {
         record: record.into(),
