@@ -30,7 +30,7 @@ fn a_batch_of_diagnoses_tells_of_every_record() {
     let diagnose = strut::program("diagnose");
     let mut simulate = std::process::Command::new(&diagnose);
     simulate
-        .args(["simulate", "--duration", "5", "--hide", "strut.coulomb.force=60", "--out"])
+        .args(["simulate", "--duration", "10", "--hide", "strut.coulomb.force=60", "--out"])
         .arg(records.join("friction"));
     strut::run(&mut simulate);
     // A record that cannot be read is a row, too.
