@@ -195,8 +195,7 @@ fn made((list, text): (&str, &str)) -> PathBuf {
         run(Command::new(base).args(["-m", "venv", "--clear"]).arg(&folder));
         let pip = folder.join(if cfg!(windows) { "Scripts/pip.exe" } else { "bin/pip" });
         run(Command::new(pip)
-            // Of thousands of modules a few are imported, and compiled then.
-            .args(["install", "--quiet", "--no-compile", "--disable-pip-version-check", "--requirement"])
+            .args(["install", "--quiet", "--disable-pip-version-check", "--requirement"])
             .arg(root().join("tests/masters").join(list)));
         fs::write(&complete, text).expect("the environment's folder is writable");
     }
