@@ -371,7 +371,7 @@ impl Baseline<'_> {
         if rest.is_some() {
             all.retain(|it| it.share > 0.0 || it.curve.is_some());
         }
-        let described = described - (known - all.len());
+        let described = described.saturating_sub(known - all.len());
         let place = place_of_rest(all.iter().map(|it| it.share)).unwrap_or(all.len());
         // Behind a curve that explains most, there has been no look at the rest.
         let looked_at = all.len() == described || place < all.len();
